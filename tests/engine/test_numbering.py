@@ -256,3 +256,27 @@ def test_strokes_left_out_of_a_crosshead_engine_are_doubted(stroke, bore, speed,
         }
     )
     assert any("layout.strokes" in doubt for doubt in find_suspicious(model)) == doubted
+
+
+@pytest.mark.parametrize(
+    ("order", "angle", "keys", "right"),
+    [
+        ("1-8-4-3-6-5-7-2", 90, {"numbering": [[1, 2, 3, 4], [5, 6, 7, 8]]}, O8),
+        ("1-8-4-3-6-5-7-2", 90, {"numbering": [[1, 2, 3, 4], [5, 6, 7, 8]], "throws": [0, 90, 270, 180]}, O8),
+        ("1-6-5-4-3-2", 90, {"numbering": [[1, 2, 3], [4, 5, 6]], "splay": -30}, O6),
+        ("1-4-2-5-3-6", 60, {"numbering": [[1, 3, 5], [2, 4, 6]], "splay": -60}, [[1, 2, 3], [4, 5, 6]]),
+    ],
+)  # fmt: skip
+def test_a_numbering_that_does_not_fit_is_named_with_one_that_does(order, angle, keys, right):
+    """Names before physics: no other splay, no other throws."""
+    with pytest.raises(InputError) as caught:
+        load(tables(order, angle, **keys))
+    hint = str(caught.value).partition("It fits with ")[2]
+    assert hint == f"layout.numbering = {right}"
+
+
+def test_intervals_begun_one_later_come_before_another_numbering():
+    given = {"numbering": [[1, 2, 3], [6, 5, 4]], "firing_intervals": [150, 90] * 3}
+    with pytest.raises(InputError) as caught:
+        load(tables("1-6-2-5-3-4", 90, **given))
+    assert "layout.numbering. It fits with layout.firing_intervals = [90, 150, 90" in str(caught.value)

@@ -7,7 +7,7 @@ from support.commands import run_here
 from support.engines import GOOD, changed
 from support.paths import ENGINES
 
-TOLD = "The file gives no speed; results are for 1000 rpm."
+TOLD = "operation.speed = 1000"
 OF_ORDER_2 = ("--minimise", "force.2.major")
 
 
@@ -24,10 +24,9 @@ def test_an_assumed_speed_is_told(command: str, options: list[str], others: list
 
 
 def test_mounts_say_up_to_which_assumed_speed_they_go() -> None:
-    told = "The file gives no speed; 1000 rpm is assumed."
     own = (ENGINES / "i4_mounts.toml").read_text(encoding="utf-8")
     speed = next(line for line in own.splitlines() if line.startswith("speed "))
     without = own.replace(speed, "")
-    assert told in run_here("mounts", "-", stdin=without).out
-    assert told not in run_here("mounts", "-", stdin=own).out
-    assert told not in run_here("mounts", "-", "--speeds", "800:900:50", stdin=without).out
+    assert TOLD in run_here("mounts", "-", stdin=without).out
+    assert TOLD not in run_here("mounts", "-", stdin=own).out
+    assert TOLD not in run_here("mounts", "-", "--speeds", "800:900:50", stdin=without).out

@@ -37,7 +37,7 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
         "note: standard input: not in the file: rod.inertia: two masses at the ends",
         "note: standard input: not in the file: piston.offset = 0 mm",
         "note: standard input: not in the file: layout.strokes = 4",
-        "note: standard input: not in the file: operation.speed = 1000 rpm",
+        "note: standard input: not in the file: operation.speed = 1000",
         "note: standard input: not in the file: frame.reference: on the crank axis, half-way between the first "
         "and the last throw",
         "note: standard input: not in the file: frame.up: results name x and y",

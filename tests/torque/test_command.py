@@ -13,7 +13,7 @@ from support.gas_engines import FOUR, WIEBE
 from support.paths import write
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
-WHOLE = {"format", "version", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
+WHOLE = {"assumed", "format", "version", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
 WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 

@@ -334,6 +334,19 @@ def test_a_node_that_stands_still_is_told():
     assert [(mode["nodes"], mode["node_at"]) for mode in held] == [(0, []), (0, [])]
 
 
+@pytest.mark.parametrize("ratio", [-1.0, 1.0, -0.5])
+def test_a_mesh_that_stands_still_is_one_node(ratio):
+    """Alike on both sides of a mesh, as felt at its first wheel: "nodes 0, node in –" stood there."""
+    discs = zip("abcd", (0.1, 0.001, 0.001, 0.1 / ratio**2), strict=True)
+    text = "".join(node(name, inertia) for name, inertia in discs)
+    for start, end, stiffness in (("a", "b", 1e5), ("c", "d", 1e5 / ratio**2)):
+        text += f'[[shaft]]\nfrom = "{start}"\nto = "{end}"\nstiffness = {stiffness!r}\n'
+    text += f'[[gear]]\nfrom = "b"\nto = "c"\nratio = {ratio!r}\n'
+    first, second = ask_torsion(text)["modes"]
+    assert (first["nodes"], first["node_in"], first["node_at"]) == (1, [], ["b"])
+    assert (second["nodes"], second["node_in"], second["node_at"]) == (2, ["a-b", "c-d"], [])
+
+
 def test_loops_have_no_holzer_table():
     loop = """
         node = [{ name = "a", inertia = 1 }, { name = "b", inertia = 2 }, { name = "c", inertia = 3 }]

@@ -32,7 +32,6 @@ from ..show.figures import (
     EngineState,
     Peaks,
     describe_state,
-    list_assumed,
     list_orders,
     measure_engine,
 )
@@ -218,7 +217,7 @@ def analyze(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
-        assumed=list_assumed(engine.places_known, engine.inferred),
+        assumed=engine.list_assumed("gas"),
         peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])) if peaked else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         **_compute_chapters(engine, asked, wanted, guide_height_m, small),

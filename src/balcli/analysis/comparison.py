@@ -19,6 +19,7 @@ from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import tell_speed
+from ..show.figures import list_assumed
 from ..show.formats import Renderer
 from ..show.result import Result
 from ..show.sheet import (
@@ -28,6 +29,7 @@ from ..show.sheet import (
     Grid,
     Sheet,
     Text,
+    assumed_facts,
     capitalized,
     number,
     order_name,
@@ -97,6 +99,8 @@ class Comparison(Result):
         format: Name and version of the document.
         engines: Names of the engines.
         speeds_rpm: Speed at which each is compared.
+        assumed: What is taken because the files leave it out; after the name of one where it does
+            not hold for all.
         figures: Figures of all engines.
         ladders: What balances each engine, step by step.
         compared: The engines.
@@ -106,6 +110,7 @@ class Comparison(Result):
     format: Literal["balcli.compare/1"] = "balcli.compare/1"
     engines: tuple[str, ...]
     speeds_rpm: tuple[float, ...]
+    assumed: tuple[str, ...] | None = None
     figures: tuple[Line, ...]
     ladders: tuple[Ladder, ...] | None = None
     compared: Annotated[tuple[Engine, ...], HIDDEN]
@@ -152,6 +157,7 @@ def compare_engines(
     return Comparison(
         engines=tuple(names),
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
+        assumed=list_assumed(names, engines, [GAS.name] if GAS.name in wanted else []),
         figures=lines,
         ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
         compared=tuple(engines),
@@ -359,7 +365,8 @@ def sheet(result: Comparison, system: System) -> Sheet:
         grids.append(grid._replace(title=f"{name}: {grid.title}"))
     if nothing:
         grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
-    return Sheet("Engines side by side", (_tell_speeds(result), *grids))
+    head = (_tell_speeds(result), *assumed_facts(result.assumed))
+    return Sheet("Engines side by side", (*head, *grids))
 
 
 def _tell_speeds(result: Comparison) -> Facts:

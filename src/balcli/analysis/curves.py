@@ -37,7 +37,6 @@ from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import take_gas
 from ..shell.arguments import check_count, tell_arguments
 from ..show.csv import Columns, Rows
-from ..show.figures import list_assumed
 from ..show.formats import Columnar
 from ..show.result import Result
 
@@ -55,8 +54,8 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: What is taken because the engine file leaves it out: moments are those of throws in
-            one plane where it does not say where the throws stand.
+        assumed: What is taken because the engine file leaves it out: with `crank.spacing = 0`,
+            moments are those of throws in one plane.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -73,7 +72,7 @@ class Curves(Result):
 
     def known(self) -> dict[str, Array]:
         """The curves without moments that are not known."""
-        unknown = () if self.assumed is None else _MOMENTS
+        unknown = _MOMENTS if "crank.spacing = 0" in (self.assumed or ()) else ()
         return {name: values for name, values in self.curves.items() if name not in unknown}
 
 
@@ -94,7 +93,7 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
             noise = 4 * EPS * np.abs(turned).max(initial=0)
             for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
                 curves[kind.key_along(word)] = np.where(np.abs(part) <= noise, 0.0, part)
-    return replace(found, curves=curves, assumed=list_assumed(engine.places_known))
+    return replace(found, curves=curves, assumed=engine.list_assumed())
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:

@@ -178,6 +178,7 @@ class MarineSheet:
         axes: Axes that are called vertical and horizontal.
         height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
             number.
+        assumed: What is taken because the engine file leaves it out.
         speeds: Amplitudes by speed and order.
         force_of_one: Force of one cylinder at each speed, N, next to which an external force may be
             negligible, shape (speeds,).
@@ -190,6 +191,7 @@ class MarineSheet:
     includes: Includes
     axes: Mapping[str, str] = field(default_factory={"v": "x", "h": "y"}.copy)
     height_m: Array
+    assumed: tuple[str, ...] | None = None
     speeds: tuple[MarineSpeed, ...]
     force_of_one: Annotated[Array, HIDDEN]
     moment_of_one: Annotated[Array, HIDDEN]
@@ -244,6 +246,7 @@ def find_marine_sheet(
         engine=replace(engine, speed_rpm=speeds[0]),
         includes=name_included(engine.gas is not None),
         height_m=np.array([]) if guide is None else guide.height_m,
+        assumed=found[0].assumed,
         speeds=tuple(
             MarineSpeed(speed, _list_amplitudes(one, torque.name))
             for speed, one in zip(speeds, found, strict=True)

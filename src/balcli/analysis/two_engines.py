@@ -44,7 +44,7 @@ from ..show.figures import (
 )
 from ..show.formats import Renderer
 from ..show.result import Result
-from ..show.sheet import Facts, Grid, Sheet, number
+from ..show.sheet import Facts, Grid, Sheet, number, tell_assumed
 from .answer import DEFAULT_ORDERS
 from .order_tables import order_tables, peak_facts
 
@@ -208,7 +208,7 @@ def combine_engines(
         arrangement=arrangement,
         state=describe_state(first),
         spectra=visible.select_orders(shown),
-        assumed=list_assumed(first.places_known and second.places_known),
+        assumed=list_assumed(("first", "second"), (first, second)),
         peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])),
         every_order=asked is not None,
     )
@@ -391,6 +391,8 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     yield "speed", f"both at {tell_speed(first)}{ignored}"
     if any(result.has_gas):
         yield "gas", _GAS[result.has_gas]
+    if result.assumed:
+        yield "assumed", tell_assumed(result.assumed)
     if result.moments_known:
         yield "reference", f"moments about {_tell_place(first.reference_m, system.length)}"
     else:

@@ -26,7 +26,7 @@ from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..show.csv import Columns, Rows
-from ..show.figures import figure_rows, list_assumed
+from ..show.figures import figure_rows
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
@@ -37,13 +37,13 @@ from ..show.sheet import (
     Grid,
     Sheet,
     Text,
+    assumed_facts,
     degrees,
     number,
     order_name,
     sentence,
     size_cell,
     size_text,
-    tell_assumed_speed,
 )
 from ..show.units import SI, ShownUnit, System
 from ..sizing.ladder import Ladder
@@ -63,7 +63,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     remedy, engine = result.remedy, result.before.engine
     known = result.before.moments_known
     order = "" if remedy.order is None else f", order {remedy.order}"
-    parts: list[Grid | Facts | Text] = []
+    parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
         parts.append(ladder_grid(result.ladder, engine, system))
     if change := tell_change(result, system):
@@ -87,7 +87,6 @@ def sheet(result: Balance, system: System) -> Sheet:
         _tell_negligible(result),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
-        tell_assumed_speed(engine.model) if engine.speed_assumed else "",
     )
     if any(notes):
         parts.append(Text("Note", tuple(filter(None, notes))))
@@ -298,7 +297,7 @@ def document(result: Balance) -> Node:
         reasons=remedy.reasons,
         practical=result.practical,
         details=details_document(result),
-        assumed=list_assumed(result.before.moments_known),
+        assumed=result.before.assumed,
         before=_shorten(result.before),
         after=_shorten(result.after),
         permitted=result.permitted,

@@ -7,7 +7,7 @@ from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
@@ -24,7 +24,7 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import list_tables
 from ..names import NOTEBOOK, VARY, import_name
-from .numbering import doubt_firing, find_fitting_splay
+from .numbering import choose_assumed, doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:
@@ -167,6 +167,16 @@ class Engine:
         if self.model is None or "speed" in self.model.operation.model_fields_set:
             return False
         return float(self.speed_rpm) == self.model.operation.speed
+
+    def list_assumed(self, *chapters: str, without: Collection[str] = ()) -> tuple[str, ...] | None:
+        """Return what is taken because the file leaves it out, of `inferred`; None: nothing.
+
+        Args:
+            chapters: Tables that count besides those of every engine: gas, torsion, body, mount.
+            without: Keys that do not count.
+        """
+        given = () if self.speed_assumed else ("operation.speed",)
+        return choose_assumed(self.inferred, chapters, {*given, *without}) or None
 
     # -------------------------------------------------------------- in words
     def __repr__(self) -> str:

@@ -18,7 +18,7 @@ A numbering that the file gives is not doubted; if it does not fit, other keys a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, pairwise
@@ -31,6 +31,7 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
+from ..file.plain_tables import list_chapter_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -38,6 +39,7 @@ from .layout import (
     TOLERANCE_DEG,
     Cell,
     Plan,
+    are_places_known,
     bank_angles,
     check_firing,
     cycle_deg,
@@ -283,7 +285,8 @@ def check_numbering(parts: Parts) -> Iterator[Problem]:
     if is_open(parts):
         parts = Parts(parts.model) if parts.varies and not parts.throws_given else parts
     else:
-        yield from (p._replace(message=p.message + _suggest(parts)) for p in missed)
+        named = ", or correct layout.numbering" * (parts.model.layout.numbering is not None)
+        yield from (p._replace(message=p.message + named + _suggest(parts)) for p in missed)
         return
     if parts.throws_given and not missed:
         return
@@ -393,7 +396,8 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 # ------------------------------------------------------------------ a numbering that does not fit
 def _suggest(parts: Parts) -> str:
     """Return other keys with which every cylinder fires at its dead centre, in words: intervals
-    begun one later, throws counted the other way round, other throws, another splay; else empty.
+    begun one later, a usual numbering in place of the file's, throws counted the other way round,
+    other throws, another splay; else empty.
     """
     if parts.varies:
         return ""
@@ -403,6 +407,10 @@ def _suggest(parts: Parts) -> str:
         later = (*intervals[1:], intervals[0])
         keys = f"layout.firing_intervals = [{_join(later)}]"
         ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
+    usual = find_engines_meant(parts)[0][:1] if model.layout.numbering else []
+    for one in usual:
+        one.change = f"layout.numbering = {write_rows(one.numberings[0])}"
+    ways += usual
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         keys = f"crank.throws = [{_join(throws)}], which count in the sense of rotation"
@@ -413,23 +421,44 @@ def _suggest(parts: Parts) -> str:
             ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
-    fitting = (way.change for way in ways if not find_missed(way.parts))
-    return next((f". It fits with {keys}" for keys in fitting), "")
+    fitting = [way for way in ways if not find_missed(way.parts)]
+    hints = dict.fromkeys(way.change for way in (*fitting[:1], *usual))
+    return f". It fits with {' or with '.join(hints)}" if hints else ""
 
 
 # ------------------------------------------------------------------ what a file leaves out
+_OF_CHAPTERS = {"gas", "torsion", "body", "mount"}  # tables that count in some subjects alone
+STEADY = ("crank.spacing", "layout.stagger", "crank.inertia")  # no part of a torque at steady speed
+
+
 def list_inferred(parts: Parts) -> Iterator[str]:
     """Yield keys with values that are taken because the file leaves them out, where results depend
     on them: `layout.strokes = 4`.
     """
+    if not parts.rank:
+        yield from _list_firing(parts)
+        yield from _list_defaults(parts)
+        yield from list_chapter_defaults(parts.model)
+
+
+def choose_assumed(
+    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
+) -> tuple[str, ...]:
+    """Return the keys of `list_inferred` that count in a subject; arguments as of
+    `Engine.list_assumed`.
+    """
+    idle = _OF_CHAPTERS.difference(chapters).union(without)
+    keys = ((line, line.partition(" =")[0]) for line in inferred)
+    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
+
+
+def _list_firing(parts: Parts) -> Iterator[str]:
+    """Yield numbering, throws, intervals and strokes that the file does not give."""
     model, plan = parts.model, parts.plan
     layout, given = model.layout, model.layout.model_fields_set
-    if parts.rank:
-        return
-    yield from _list_defaults(parts)
+    inferred = not parts.throws_given
     if parts.order is None:
         return
-    inferred = not parts.throws_given
     if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
         cells = groupby(plan.cells, key=lambda cell: cell.bank)
         yield f"layout.numbering = {write_rows([[c.number for c in bank] for _, bank in cells])}"
@@ -442,16 +471,22 @@ def list_inferred(parts: Parts) -> Iterator[str]:
 
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield the defaults of places, inertia and burning that the file does not give."""
+    """Yield the defaults of speed, places, inertia and gas that the file does not give."""
     model, gas = parts.model, parts.model.gas
     together = parts.plan.rods_on_throw > 1 and model.articulation is None
+    if "speed" not in model.operation.model_fields_set:
+        yield f"operation.speed = {model.operation.speed:g}"
+    if not are_places_known(model, parts.plan):
+        yield "crank.spacing = 0"
     if together and "stagger" not in model.layout.model_fields_set:
         yield "layout.stagger = 0"
     if model.operation.speed_ripple and model.crank.inertia is None:
         yield "crank.inertia = 0"
-    if gas is not None and gas.cycle == "wiebe":
-        keys = (key for key in gas.wiebe_keys if key not in gas.model_fields_set)
-        yield from (f"gas.{key} = {getattr(gas, key):g}" for key in keys)
+    if gas is not None:
+        own = sum(one.indicator is not None for one in model.cylinder.values())
+        computed = gas.cycle is not None and own < len(parts.plan.cells)
+        measured = gas.indicator is not None or own > 0
+        yield from gas.list_assumed(model.layout.strokes, measured, computed)
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:

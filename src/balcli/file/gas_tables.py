@@ -119,6 +119,16 @@ class Gas(FileTable):
                 idle.add("crankcase")
         return idle
 
+    def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[str]:
+        """Defaults that count in an engine of so many strokes, as `list_idle_keys` takes it."""
+        idle = self.list_idle_keys(strokes, measured, computed) | {"phase", "zero", "pressure"}
+        at_dead_centre = dict.fromkeys(("exhaust_opens", "intake_closes"), "lower dead centre")
+        for key in type(self).model_fields:
+            value = getattr(self, key)
+            left_out = not self.has(key) and key not in idle
+            if left_out and (value is not None or key in at_dead_centre):
+                yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
+
     def _check_misplaced(self) -> Iterator[str]:
         """Keys of a computed cycle without one."""
         others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]

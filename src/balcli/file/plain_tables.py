@@ -154,6 +154,19 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
     raise InputError([Problem(path, f"there is no {key}; the file has {there}")])
 
 
+def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
+    """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
+    member: `mount.dynamic_factor = 1`.
+    """
+    for end in ("front", "rear") if model.torsion else ():
+        of_steel = (part for part in getattr(model.torsion, end) if part.is_of_unnamed_steel)
+        yield from {f"torsion.{end}.shear_modulus = {part.shear_modulus:g}" for part in of_steel}
+    if model.body is not None and not model.body.has("gravity"):
+        yield "body.gravity = [-1, 0, 0]"
+    if not all(one.has("dynamic_factor") for one in model.mount):
+        yield "mount.dynamic_factor = 1"
+
+
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
 _TOLD = "left out: "  # in the description of a key: what follows is taken
 

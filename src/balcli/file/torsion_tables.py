@@ -87,6 +87,11 @@ class ShaftKeys(FileTable):
     damping: Damping = 0.0
     """Of a dashpot between the ends of the shaft. Example: 20"""
 
+    @property
+    def is_of_unnamed_steel(self) -> bool:
+        """Whether the default shear modulus counts: that of a plain shaft without one."""
+        return self.length is not None and not self.has("shear_modulus")
+
     def _check_length(self) -> Iterator[str]:
         if self.stiffness is not None and self.length is not None:
             yield "has stiffness and length; leave one of them out"

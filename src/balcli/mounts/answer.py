@@ -14,10 +14,11 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import find_first_largest
+from ..engine.numbering import choose_assumed
 from ..errors import BalcliError, check_type
 from ..file.fields import order_number
 from ..file.model import EngineFile
-from ..file.plain_tables import take_tables
+from ..file.plain_tables import list_chapter_defaults, take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
@@ -97,13 +98,16 @@ def report_mounts(
             tell(len(found) / (len(engines) + len(others)))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
-    assumed = engine is not None and engine.speed_assumed and speeds_rpm is None
+    idle = () if speeds_rpm is None else ("operation.speed",)
+    of_engine = (engine and engine.list_assumed("gas", without=idle)) or ()
     response = found.pop(0) if found else None
     settled = settle(mounted, response.loads.mean if response else 0.0)
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
     return MountReport(
         name=title,
+        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), ("body", "mount")))
+        or None,
         modes=tuple(
             BodyMode(
                 float(modes.hertz[k]),
@@ -123,7 +127,6 @@ def report_mounts(
         fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
         others=tuple(map(Other, (label for label, _ in others), found)) or None,
         mounted=mounted,
-        assumed_rpm=float(engine.speed_rpm) if engine and assumed else None,
     )
 
 

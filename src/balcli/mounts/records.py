@@ -279,6 +279,7 @@ class MountReport(Result):
     Attributes:
         format: Name and version of this document.
         name: Name of the engine, or of the body.
+        assumed: What is taken because the file leaves it out.
         modes: The six natural modes, lowest first.
         roll_axis: Torque roll axis: unit vector through the center of gravity about which a torque
             about the crankshaft turns the body where nothing holds it.
@@ -289,11 +290,11 @@ class MountReport(Result):
         fitted: Response with a balance scheme, if one was asked for.
         others: Responses to other engines.
         mounted: The body on its mounts.
-        assumed_rpm: Speed that is assumed, if neither the file nor the caller gives one.
     """
 
     format: Literal["balcli.mounts/1"] = "balcli.mounts/1"
     name: str
+    assumed: tuple[str, ...] | None = None
     modes: tuple[BodyMode, ...]
     roll_axis: Real
     elastic_centre_mm: Real
@@ -303,7 +304,6 @@ class MountReport(Result):
     fitted: Fitted | None = None
     others: tuple[Other, ...] | None = None
     mounted: Annotated[MountedBody, HIDDEN]
-    assumed_rpm: Annotated[float | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:

@@ -15,7 +15,17 @@ from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
 from ..show.figures import clean, silent_entries
 from ..show.formats import Renderer
-from ..show.sheet import NAMELESS, Facts, Grid, Sheet, Text, degrees, number, order_name
+from ..show.sheet import (
+    NAMELESS,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    assumed_facts,
+    degrees,
+    number,
+    order_name,
+)
 from ..show.units import ShownUnit, System
 from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
 
@@ -73,7 +83,7 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 
 def sheet(result: MountReport, system: System) -> Sheet:
     """Return what matters first: what the frame feels, then modes, rest and the range of speeds."""
-    parts: list[Grid | Facts | Text] = []
+    parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:
         told = tuple(_answer(result, response, force, motion))
@@ -116,8 +126,6 @@ def _answer(
         yield f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
     else:
         yield "Inertia only: gas torque, which also rolls an engine, is not included."
-    if result.assumed_rpm is not None:
-        yield f"The file gives no speed; {number(result.assumed_rpm, 4)} rpm is assumed."
     for other in result.beside:
         yield f"With {other.name} {''.join(_compare(response, other.response, force, motion))}."
 

@@ -79,9 +79,12 @@ def read_engine(
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
         require_gas(engine, path)
+    if speed_rpm is not None:
+        turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
+        engine = replace(engine, speed_rpm=speed_rpm, model=turned)
     warn_each(engine.unlikely, name_file(path))
     if speed_rpm is not None:
-        engine = replace(engine, speed_rpm=speed_rpm, model=None)
+        engine = replace(engine, model=None)
     return LoadedEngine(text, model, engine)
 
 
@@ -90,10 +93,8 @@ def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engin
     from ..file.plain_tables import list_assumed  # for them alone
 
     note(f"{name}: read, {len(text)} bytes")
-    inferred = {line.partition(" =")[0]: line for line in engine.inferred}
-    rest = list_assumed(model)
-    others = [line for line in rest if line.partition(" =")[0].partition(":")[0] not in inferred]
-    for each in (*inferred.values(), *others):
+    lines = (*list_assumed(model), *engine.inferred)
+    for each in {line.replace(":", " ").split()[0]: line for line in lines}.values():
         note(f"{name}: not in the file: {each}")
 
 

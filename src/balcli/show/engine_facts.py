@@ -14,7 +14,7 @@ from ..engine.engine import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
-from .sheet import Facts, get_digits, given, number
+from .sheet import Facts, get_digits, given, number, tell_assumed
 from .units import System
 
 AXES_SHOWN = 9  # of banks
@@ -85,19 +85,18 @@ def _tell_inferred(engine: Engine) -> str:
     in lines of their own.
     """
     shown = {"crank.throws", "layout.firing_intervals"}
-    pairs = (line.split(" = ") for line in engine.inferred)
-    return ", ".join(key if key in shown else f"{key} = {value}" for key, value in pairs)
+    pairs = (line.split(" = ") for line in engine.list_assumed("gas") or ())
+    return tell_assumed(key if key in shown else f"{key} = {value}" for key, value in pairs)
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:
-    """Its mean speed, and whether that is assumed or uneven; `steady`: of figures in which an
-    uneven speed does not count.
+    """Its mean speed, and whether that is uneven; `steady`: of figures in which an uneven speed
+    does not count.
     """
     counts = "uneven: figures are those of the uneven speed"
     counts = "the file's uneven one does not count" if steady else counts
     uneven = f", {counts}" if engine.ripple else ""
-    assumed = ", assumed: the file gives none" if engine.speed_assumed else ""
-    return f"{given(float(engine.speed_rpm))} rpm{assumed}{uneven}"
+    return f"{given(float(engine.speed_rpm))} rpm{uneven}"
 
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:

@@ -19,6 +19,7 @@ from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
 from ..forces.spectrum import Spectra
+from .sheet import tell_assumed
 from .units import ShownUnit, System
 
 
@@ -244,14 +245,17 @@ def describe_state(engine: Engine) -> EngineState:
     )
 
 
-def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] | None:
-    """Return what is taken because the engine file leaves it out; None: nothing.
-
-    Args:
-        known: Whether the file says where the throws stand.
-        inferred: What else was taken.
+def list_assumed(
+    names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
+) -> tuple[str, ...] | None:
+    """Return what is taken of several engines because their files leave it out: what holds for all,
+    then that of single ones, after their names; None: nothing.
     """
-    return (*inferred, *([] if known else ["crank.spacing = 0"])) or None
+    each = [engine.list_assumed(*chapters) or () for engine in engines]
+    common = [line for line in each[0] if all(line in lines for lines in each)]
+    own = ([line for line in lines if line not in common] for lines in each)
+    others = zip(names, map(tell_assumed, own), strict=True)
+    return (*common, *(f"{name}: {keys}" for name, keys in others if keys)) or None
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:

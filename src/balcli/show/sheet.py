@@ -5,10 +5,10 @@ analysis it shows.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
-    from ..file.model import EngineFile
     from .units import ShownUnit
 
 
@@ -197,8 +197,13 @@ class NamedResult(NamedTuple, Generic[R]):
     view: View
 
 
-def tell_assumed_speed(model: EngineFile | None) -> str:
-    """A sentence, where there is a file that gives no speed."""
-    if model is None or "speed" in model.operation.model_fields_set:
-        return ""
-    return f"The file gives no speed; results are for {model.operation.speed:g} rpm."
+def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
+    """What is taken because the file leaves it out, for the head of a sheet."""
+    return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
+
+
+def tell_assumed(assumed: Iterable[str]) -> str:
+    """The same in words, the name of [gas] once before all its keys."""
+    lines = list(assumed)
+    later = [line for line in lines if line.startswith("gas.")][1:]
+    return ", ".join(line.removeprefix("gas.") if line in later else line for line in lines)

@@ -6,10 +6,12 @@ moments (`force.2.major`), and of the chapters (`mode.roll.Hz`, `torsion.1.Hz`, 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol, cast
 
+from ..engine.numbering import choose_assumed, list_inferred
+from ..engine.parts import Parts
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
@@ -126,6 +128,30 @@ def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity])
     """
     for chapter, members in group_by_chapter(wanted).items():
         load_chapter(chapter).refuse_unknown(model, members)
+
+
+_MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
+_TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
+_OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
+
+
+def list_assumed(
+    model: EngineFile, names: Collection[str], varied: Iterable[str] = ()
+) -> tuple[str, ...] | None:
+    """Return what is taken because a file leaves it out, as far as quantities depend on it; None:
+    nothing.
+
+    Args:
+        model: Engine file.
+        names: Names of the quantities.
+        varied: Names of the figures that vary.
+    """
+    tables = set[str]()
+    for name in names:
+        chapter = find_chapter(name) or ENGINE
+        of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
+        tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
+    return choose_assumed(list_inferred(Parts(model)), tables, tuple(varied)) or None
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:

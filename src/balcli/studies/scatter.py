@@ -38,7 +38,13 @@ from .deviations import (
     spell_out_throws,
 )
 from .evaluator import Evaluator
-from .quantities import NamedEngine, choose_of_engine, parse_quantities, refuse_unknown_of_chapters
+from .quantities import (
+    NamedEngine,
+    choose_of_engine,
+    list_assumed,
+    parse_quantities,
+    refuse_unknown_of_chapters,
+)
 from .quantity_names import MOUNTS, TORSION, find_chapter
 
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
@@ -82,6 +88,7 @@ class Scatter(Result):
     Attributes:
         format: Name and version of the document.
         engine: The engine.
+        assumed: What is taken because the engine file leaves it out.
         samples: Number of random variants.
         distribution: Of each deviation.
         quantities: Spread of each quantity, by its name.
@@ -93,6 +100,7 @@ class Scatter(Result):
 
     format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
     engine: NamedEngine
+    assumed: tuple[str, ...] | None = None
     samples: int
     distribution: Shape
     quantities: dict[str, Spread]
@@ -185,6 +193,7 @@ class Variants:
         if names is None:
             asked = leave_out_unknown(build(model), choose_of_engine(asked))
         self.asked, of_engine = asked, choose_of_engine(asked)
+        self.assumed = list_assumed(model, [q.name for q in asked])
         kinds = {find_chapter(q.name) for q in asked}
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
@@ -282,6 +291,7 @@ class Variants:
         names = [q.name for q in self.asked]
         return Scatter(
             engine=NamedEngine(self.model.name),
+            assumed=self.assumed,
             samples=len(values),
             distribution=drawing.shape,
             quantities=dict(zip(names, spreads, strict=True)),

@@ -18,7 +18,7 @@ from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
 from ..show.csv import Rows
 from ..show.formats import Renderer
-from ..show.sheet import NAMELESS, Grid, Sheet, count_name, number, tell_assumed_speed
+from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, number
 from ..show.units import name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
@@ -65,7 +65,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
         parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "nothing")]
         causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
     speeds = tell_speeds(result.quantities, result.model.operation.speed)
-    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", speeds, tell_assumed_speed(result.model))
+    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", speeds)
     spread_of_all = Grid(
         f"Spread of {count_name(result.samples)} random {result.varied}",
         tuple(table.header[:-1]),
@@ -78,7 +78,9 @@ def sheet(result: Scatter, system: System) -> Sheet:
         tuple(causes),
         words=(0, 2),
     )
-    return Sheet(result.model.name or NAMELESS, (spread_of_all, changes))
+    return Sheet(
+        result.model.name or NAMELESS, (*assumed_facts(result.assumed), spread_of_all, changes)
+    )
 
 
 def _list_tolerances(result: Scatter) -> str:

@@ -39,7 +39,7 @@ from ..show.result import Result
 from ..show.sheet import count_name
 from .evaluator import Evaluator
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
-from .quantities import AnyQuantity, parse_quantities, refuse_unknown_of_chapters
+from .quantities import AnyQuantity, list_assumed, parse_quantities, refuse_unknown_of_chapters
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -96,6 +96,12 @@ class Sweep:
             all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
         return [d for d in all_of_file if not any(one in d for one in varied)]
+
+    @cached_property
+    def assumed(self) -> tuple[str, ...] | None:
+        """What is taken because the file leaves it out; None: nothing."""
+        names = [q.name for q in self.quantities]
+        return list_assumed(self.file, names, [p.path for p in self.parameters])
 
     @property
     def shape(self) -> tuple[int, ...]:

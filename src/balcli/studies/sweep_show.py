@@ -20,7 +20,7 @@ from ..show import plot_style as style
 from ..show.csv import Columns, json_text
 from ..show.figures import name_engine
 from ..show.formats import Columnar
-from ..show.sheet import NAMELESS, Grid, Sheet, count_name, given, number, tell_assumed_speed
+from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, given, number
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
@@ -41,12 +41,14 @@ class SweepDocument:
 
     Attributes:
         engine: The engine file.
+        assumed: What is taken because the engine file leaves it out.
         columns: Names of the figures that vary, then of the quantities.
         rows: One row a variant.
     """
 
     format: Literal["balcli.sweep/1"] = "balcli.sweep/1"
     engine: Annotated[EngineFile, WrittenAs(name_engine)]
+    assumed: tuple[str, ...] | None = None
     columns: list[str]
     rows: Annotated[Array, Axes(2)]
 
@@ -62,8 +64,11 @@ def columns(result: Swept) -> Columns:
 def document(result: Swept) -> Node:
     """Return `balcli.sweep/1`."""
     cells = np.column_stack([*columns(result).values.values()])
-    sweep = result.sweep
-    return to_document(SweepDocument(engine=sweep.file, columns=sweep.columns, rows=cells))
+    return to_document(_describe(result.sweep, cells))
+
+
+def _describe(sweep: Sweep, rows: Array) -> SweepDocument:
+    return SweepDocument(engine=sweep.file, assumed=sweep.assumed, columns=sweep.columns, rows=rows)
 
 
 def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
@@ -77,8 +82,8 @@ def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
     """Yield `balcli.sweep/1` as text."""
-    head = SweepDocument(engine=sweep.file, columns=sweep.columns, rows=np.empty((0, 0)))
-    yield json_text(to_document(head)).removesuffix("]}")
+    head = to_document(_describe(sweep, np.empty((0, 0))))
+    yield json_text(head).removesuffix("]}")
     before = ""
     for chunk in chunks:
         yield before + ",\n".join(f"[{line}]" for line in _lines(sweep, chunk, "null"))
@@ -125,13 +130,12 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
         rows.insert(FIRST, ("…",) * len(sweep.columns))
         whole, missing = count_name(len(figures) + left_out), count_name(left_out)
         notes += [f"{whole} variants, {missing} of them not shown; -o X.csv writes all."]
-    if "operation.speed" not in sweep.columns and (assumed := tell_assumed_speed(sweep.file)):
-        notes += [assumed]
     rpm = sweep.file.operation.speed
     if speeds := tell_speeds((q.name for q in sweep.quantities), rpm, sweep.columns):
         notes += [speeds]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
-    return Sheet(f"{sweep.file.name or NAMELESS}: variants", (grid,))
+    head = assumed_facts(sweep.assumed)
+    return Sheet(f"{sweep.file.name or NAMELESS}: variants", (*head, grid))
 
 
 RENDERER = Columnar(document=document, columns=columns)

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import Engine, check_engine, find_row
+from ..engine.numbering import STEADY
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
@@ -88,6 +89,7 @@ def analyze_torque_of_engine(
         speed_rpm=float(engine.speed_rpm),
         no_gas_in=silent.without_gas or None,
         no_burning_in=silent.without_burning or None,
+        assumed=engine.list_assumed("gas", without=STEADY[2:] if wanted else STEADY),
         cycle_deg=gas.cycle_deg,
         imep_Pa=imep,
         bmep_Pa=None if efficiency is None else imep * efficiency,

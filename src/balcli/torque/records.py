@@ -91,6 +91,7 @@ class TorqueAnalysis(Result):
         speed_rpm: Mean speed.
         no_gas_in: Cylinders without gas force.
         no_burning_in: Cylinders that compress and burn nothing.
+        assumed: What is taken because the engine file leaves it out.
         cycle_deg: Cycle of the engine, or period of the curve.
         imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
         bmep_Pa: Brake mean effective pressure.
@@ -116,6 +117,7 @@ class TorqueAnalysis(Result):
     speed_rpm: float | None = None
     no_gas_in: tuple[int, ...] | None = None
     no_burning_in: tuple[int, ...] | None = None
+    assumed: tuple[str, ...] | None = None
     cycle_deg: float
     imep_Pa: float | None = None
     bmep_Pa: float | None = None

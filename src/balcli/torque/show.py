@@ -23,6 +23,7 @@ from ..show.sheet import (
     number,
     order_name,
     size_text,
+    tell_assumed,
 )
 from ..show.units import ShownUnit, System
 from .flywheel import Flywheel
@@ -118,6 +119,8 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
     else:
         yield "cycle", f"{tell_strokes(engine)}, {period}"
         yield "speed", tell_speed(engine, steady=True)
+        if result.assumed:
+            yield "assumed", tell_assumed(result.assumed)
         kinds = {" indicated": 1.0}
         if engine.mechanical_efficiency is not None:
             kinds[" brake"] = engine.mechanical_efficiency

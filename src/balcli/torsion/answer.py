@@ -175,6 +175,7 @@ class TorsionAnalysis(Result):
         name: Name of the engine or chain; null if the file gives none.
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
+        assumed: What is taken because the file leaves it out.
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.
@@ -193,6 +194,7 @@ class TorsionAnalysis(Result):
     name: str | None
     no_gas_in: tuple[int, ...] | None = None
     no_burning_in: tuple[int, ...] | None = None
+    assumed: tuple[str, ...] | None = None
     nodes: tuple[ChainNode, ...]
     shafts: tuple[ChainJoint, ...]
     modes: tuple[NaturalMode, ...]
@@ -293,6 +295,7 @@ def _analyze_system(
         name=system.name or None,
         no_gas_in=system.silent.without_gas or None,
         no_burning_in=system.silent.without_burning or None,
+        assumed=system.assumed or None,
         nodes=tuple(map(ChainNode, system.nodes, chain.inertia.tolist(), system.gears.tolist())),
         shafts=tuple(map(ChainJoint, system.shafts, chain.stiffness.tolist())),
         modes=modes,

@@ -16,14 +16,16 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.loads import find_inertia, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
+from ..engine.numbering import STEADY
 from ..errors import InputError, Problem
-from ..file.fields import counted, printable, shorten, suggest_nearest
+from ..file.fields import counted, join_words, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
 from ..file.torsion_tables import (
     STEEL,
@@ -43,6 +45,7 @@ from .chain import (
     Damping,
     find_pieces,
     find_still,
+    grow_branches,
     join_chain,
     rigid_motions,
 )
@@ -239,6 +242,13 @@ def build_chain(
         name=file.name or "",
         ends=(0, len(nodes) - 1),
         excitation=excitation,
+        assumed=tuple(
+            {
+                f"shaft.shear_modulus = {s.shear_modulus:g}"
+                for s in file.shaft
+                if s.is_of_unnamed_steel
+            }
+        ),
         file=name,
     )
 
@@ -279,11 +289,9 @@ def _find_faults(
     for node in apart:
         text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"
         yield Problem(f"node.{node + 1}", f"{text}; join them by a [[shaft]] or a [[gear]]")
-    meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    for shaft in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
-        if meshes.locked[chain.start[shaft]]:
-            yield Problem(paths[shaft], "is in a loop of gears whose ratios lock each other")
-            return
+    if locked := list(_find_contradiction(chain, paths, np.isinf(chain.stiffness))):
+        yield from locked
+        return
     still = find_still(chain)
     if np.all(still):
         yield Problem("fixed", "clamps every node; leave one free")
@@ -314,14 +322,32 @@ def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
             hint = "nothing says how they share the torque; leave it out, or give a stiffness"
             yield Problem(paths[mesh], f"{text}: {hint}")
         group[group == end] = start
-    pieces = find_pieces(chain)
-    if not pieces.locked[0] or np.any(chain.clamped):
-        return
-    ahead, behind = pieces.pace[chain.start] * chain.ratio, pieces.pace[chain.end]
-    shaft = int(np.argmax(np.abs(ahead - behind) > SAME_RATIO * np.abs(behind)))
-    text = f"closes a loop whose ratios contradict each other, {ahead[shaft]:.9g} one way round"
-    hint = "a chain that turns would wind up its shafts without end; give ratios with all digits"
-    yield Problem(paths[shaft], f"{text} and {behind[shaft]:.9g} the other: {hint}")
+    if not np.any(chain.clamped):
+        yield from _find_contradiction(chain, paths, np.ones(len(chain.start), bool))
+
+
+def _find_contradiction(
+    chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
+) -> Iterator[Problem]:
+    """The first shaft that closes a loop, of shafts of these (shafts,), whose ratios contradict
+    each other, with its partners: gears alone would lock, a chain that turns wind up its shafts.
+    """
+    pieces = find_pieces(chain, joining)
+    found = pieces.pace[chain.end] / pieces.pace[chain.start]
+    torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
+    for shaft in np.flatnonzero(torn)[:1].tolist():
+        branches = grow_branches(chain, [int(chain.start[shaft])], joining & ~torn)
+        led = {branch.child: branch for branch in branches}
+        node, partners = int(chain.end[shaft]), list[str]()
+        while node in led:
+            partners.append(paths[led[node].shaft])
+            node = led[node].parent
+        yield Problem(
+            paths[shaft],
+            f"closes a loop with {join_words(partners[::-1])}, and the ratios contradict each "
+            f"other: {chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give "
+            "ratios with all digits, or leave one out",
+        )
 
 
 class _Joint(NamedTuple):
@@ -390,6 +416,7 @@ def build_engine_system(
         reference=front,
         ends=(place[foremost], place[_find_end(joints[front:], gears, throws[-1])]),
         silent=engine.silent,
+        assumed=engine.list_assumed("gas", "torsion", without=(*STEADY, "operation.speed")) or (),
         file=name,
     )
 

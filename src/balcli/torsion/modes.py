@@ -17,7 +17,16 @@ from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_shapes
 from ..file.fields import order_number
-from .chain import Chain, Damping, find_still, follow_gears, grow_branches, incidence, rigid_motions
+from .chain import (
+    Chain,
+    Damping,
+    find_pieces,
+    find_still,
+    follow_gears,
+    grow_branches,
+    incidence,
+    rigid_motions,
+)
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
@@ -91,7 +100,7 @@ def chain_loss(
 
 def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
-    the chain at rest between others that turn against each other.
+    the chain at rest between others that turn against each other; of wheels that mesh the first.
 
     Args:
         chain: Inertias and shafts.
@@ -100,10 +109,11 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     moves = np.abs(shape) > _AT_REST * np.abs(shape).max()
     ahead = np.where(moves, np.sign(shape), 0)
     across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
+    meshes = find_pieces(chain, np.isinf(chain.stiffness))
     pulled = np.zeros((2, len(shape)), bool)  # one way and the other
     for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
-        way = ahead[there] * np.sign(chain.ratio)
-        pulled[0, here[way > 0]] = pulled[1, here[way < 0]] = True
+        way, wheel = ahead[there] * np.sign(chain.ratio * meshes.pace[here]), meshes.first[here]
+        pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
     at_rest = pulled.all(axis=0) & ~moves & ~find_still(chain)
     return np.flatnonzero((across < 0) & np.isfinite(chain.stiffness)), np.flatnonzero(at_rest)
 

@@ -15,7 +15,7 @@ from ..core.vibration import Real
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
 from ..show.formats import Renderer
-from ..show.sheet import Facts, Grid, Sheet, Text, number, order_name, size_text
+from ..show.sheet import Facts, Grid, Sheet, Text, assumed_facts, number, order_name, size_text
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
 from .dampers import DAMPER_KEYS, SizedDamper
@@ -152,6 +152,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     parts: list[Grid | Facts | Text] = []
     if silent := list_silent(result.system.silent):
         parts.append(Facts(tuple(silent)))
+    parts += assumed_facts(result.assumed)
     if result.damper is not None:
         parts.append(_show_damper(result.damper, system))
     parts += [_show_modes(result), _show_shapes(result, system)]

@@ -97,6 +97,7 @@ class TorsionalSystem:
         reference: node whose speed and orders are those of the system.
         rated_rpm: speed of the file's own; None: it gives none.
         silent: cylinders of the engine that do not fire.
+        assumed: what is taken because the file leaves it out.
         file: in which all this stands, for messages; may be empty.
     """
 
@@ -117,6 +118,7 @@ class TorsionalSystem:
     rated_rpm: float | None = None
     reference: int = 0
     silent: SilentCylinders = NONE_SILENT
+    assumed: tuple[str, ...] = ()
     file: str = ""
 
     def refusal(self, message: str) -> BalcliError:

@@ -30,7 +30,7 @@ from ...shell.arguments import Words, check_count, check_mapping, join_names, te
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
-from ..quantities import choose_of_engine, refuse_unknown_of_chapters
+from ..quantities import choose_of_engine, list_assumed, refuse_unknown_of_chapters
 from .designs import (
     PATHS,
     Design,
@@ -50,6 +50,7 @@ from .local import Box, Effort, find_local_optima
 from .throws import give_throws, list_throws, search_throws
 
 ARRANGED = ("throws", "firing_order")
+_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # with throws or the firing order
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
 NEAR_AN_END = 1e-4  # of a range
 _ROUNDING = 1e-13  # relative difference of equal objectives
@@ -80,6 +81,7 @@ class Search(Result):
 
     Attributes:
         model: The engine file.
+        assumed: What is taken because the engine file leaves it out.
         over: What was arranged: `throws`, `firing_order`, or numbers with commas between.
         results: Arrangements, best first.
         objective: The quantities, their weights and limits.
@@ -91,6 +93,7 @@ class Search(Result):
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
     model: Annotated[EngineFile, WrittenAs(name_engine, "engine")]
+    assumed: tuple[str, ...] | None = None
     over: str
     results: tuple[Found, ...]
     objective: Annotated[Objective, HIDDEN]
@@ -171,6 +174,7 @@ def search_arrangements(
     refuse_unknown_of_chapters(model, objective.quantities)
     ranges = read_ranges(model, wanted)
     named = ", ".join(one.key for one in ranges) or wanted[0]
+    asked = [q.name for q in objective.quantities]
     constant, refused = False, ""
     if ranges:
         candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
@@ -186,11 +190,12 @@ def search_arrangements(
         candidates = rank_one_by_one(base, designs, objective, tell)
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
-        asked = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
+        limits = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
         words = named if "." in named else named.replace("_", " ")
-        raise BalcliError(f"no {words} can {' and '.join(asked or ['make an engine'])}")
+        raise BalcliError(f"no {words} can {' and '.join(limits or ['make an engine'])}")
     return Search(
         model=model,
+        assumed=list_assumed(model, asked, {one.number.path for one in ranges} or _ARRANGED),
         over=named,
         results=found,
         objective=objective,

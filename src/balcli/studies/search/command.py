@@ -19,7 +19,7 @@ from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stop
 from ...shell.values import optional
 from ...show.csv import Columns, Rows
 from ...show.formats import Renderer
-from ...show.sheet import NAMELESS, Grid, Sheet, number, tell_assumed_speed
+from ...show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
 from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
 
@@ -73,7 +73,7 @@ def sheet(result: Search, _system: System) -> Sheet:
         note=" ".join(_notes(result)),
         words=tuple(range(len(first.design))),
     )
-    return Sheet(result.model.name or NAMELESS, (grid,))
+    return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
 
 def _title(result: Search) -> str:
@@ -105,9 +105,6 @@ def _notes(result: Search) -> Iterator[str]:
             yield f"Row {row} stands for a straight line of equally good points through ({point})."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
-    assumed = tell_assumed_speed(result.model)
-    if assumed and "operation.speed" not in result.over.split(", "):
-        yield assumed
     names, rpm = (q.name for q in result.objective.quantities), result.model.operation.speed
     if speeds := tell_speeds(names, rpm, result.over.split(", ")):
         yield speeds
