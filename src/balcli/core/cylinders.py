@@ -110,7 +110,7 @@ class Cylinders:
 
 
 class DeviceKind(IntEnum):
-    """What a device is. Devices are summed in this order, as an engine file has them."""
+    """Kind of a device. Devices are summed in this order, which is that of an engine file."""
 
     COUNTERWEIGHT = 0
     SHAFT = 1

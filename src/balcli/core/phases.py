@@ -144,7 +144,9 @@ class Phases:
         return np.concatenate(own)
 
     def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> Complex:
-        """The same for factors of shape (1 or orders, cylinders, *trailing); None: all are 1."""
+        """Return the turned sum of factors of shape (1 or orders, cylinders, *trailing); None: all
+        are 1.
+        """
         of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
         total: Complex = np.add.reduce(turns * of_banks, axis=2)
         for bank, rows in groupby(self._moving, self._bank):
@@ -189,7 +191,12 @@ class SeparatePhases(Phases):
     """
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
-        """The terms of this sum."""
+        """Return the terms of this sum, one for each cylinder.
+
+        Args:
+            values: Figures of the cylinders.
+            sizes: Factors of the figures; None: 1.
+        """
         return values * (self._ones if sizes is None else sizes)
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:

@@ -56,22 +56,35 @@ def unit(degrees: ArrayLike) -> Complex:
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
-    """real + i imaginary: putting arrays side by side is quicker than sums of complex ones."""
+    """Return real + i imaginary; two arrays put into one are quicker than a sum of complex arrays.
+
+    Args:
+        real: Real part, any shape.
+        imaginary: Imaginary part, of a shape that broadcasts with it.
+    """
     result = np.empty(np.broadcast_shapes(real.shape, imaginary.shape), complex)
     result.real, result.imag = real, imaginary
     return result
 
 
 def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex:
-    """Both as one array, shape (2, *that to which they broadcast)."""
+    """Return both vectors as one array, shape (2, *that to which they broadcast).
+
+    Args:
+        forward: Vectors that turn with the crank.
+        backward: Vectors that turn against it.
+    """
     if forward.shape != backward.shape:
         forward, backward = np.broadcast_arrays(forward, backward)
     return np.array((forward, backward))
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
-    """The same direction in (-turn/2, turn/2], any shape, nan of nan; `turn` is 180 for lines, 360
-    for vectors.
+    """Return the same directions in (-turn/2, turn/2], in their shape, nan for nan.
+
+    Args:
+        degrees: Directions, deg, any shape.
+        turn: 180 for lines, 360 for vectors.
     """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
     # The remainder of what is barely negative rounds to a whole turn.
@@ -96,13 +109,25 @@ class Phasors:
 
     @classmethod
     def of(cls, orders: Array, forward: Complex, backward: Complex, noise: Array) -> Phasors:
-        """Those of vectors with the crank and against it, each of shape (orders, *trailing)."""
+        """Return the phasors of two rotating vectors.
+
+        Args:
+            orders: Orders, shape (orders,).
+            forward: Vectors that turn with the crank, shape (orders, *trailing).
+            backward: Vectors that turn against it, shape (orders, *trailing).
+            noise: Bound of the rounding error of each.
+        """
         return cls(orders, put_together(forward, backward), noise)
 
     @classmethod
     def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
-        """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands
-        in `forward` alone.
+        """Return the phasors of the scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own
+        conjugate and stands in `forward` alone.
+
+        Args:
+            orders: Orders, shape (orders,).
+            coefficients: c_n, shape (orders, *trailing).
+            noise: Bound of the rounding error of each vector.
         """
         half = coefficients / 2
         if np.count_nonzero(orders) == len(orders):
@@ -138,8 +163,8 @@ class Phasors:
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
     def drop_noise(self) -> Phasors:
-        """The same with whatever lies within its rounding error set to exactly 0, each of both
-        vectors for itself.
+        """Return these phasors with each vector that lies within its rounding error set to exactly
+        0.
         """
         nothing = self._sizes <= self.noise
         if not np.count_nonzero(nothing):
@@ -149,16 +174,16 @@ class Phasors:
         return Phasors(self.orders, vectors, self.noise)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
-        """Those of these orders, each of which must be there."""
+        """Return the phasors of these orders, each of which must exist."""
         return self.select_rows(np.searchsorted(self.orders, np.asarray(orders, float)))
 
     def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
-        """Those of the orders in these rows."""
+        """Return the phasors of the orders in these rows."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders[rows], self.vectors[:, rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:
-        """Those at one place along the trailing axis."""
+        """Return the phasors at one place along the trailing axis."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
 

@@ -177,7 +177,12 @@ def to_document(record: Any) -> Node:
 
 
 def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
-    """Return a number, word, record, or list or dict of these, as JSON has it."""
+    """Return a number, word, record, or list or dict of these, as JSON has it.
+
+    Args:
+        value: What is written.
+        split: Mark that splits one value into several keys; None: none.
+    """
     if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here
         value = value.tolist()
     if isinstance(value, float):
@@ -226,7 +231,12 @@ def list_figures(
 
 
 def list_series(document: Mapping[str, Any], place: int) -> Iterator[Figure]:
-    """Yield one figure for every list of numbers in a document: the number at `place`, from 0."""
+    """Yield one figure for every list of numbers in a document.
+
+    Args:
+        document: JSON object with lists of numbers.
+        place: Place in each list, from 0.
+    """
     for key, value in document.items():
         if isinstance(value, list) and value and not isinstance(value[0], (Mapping, list)):
             yield Figure(key, value[place], find_unit(key).translate(_IN_CSV))

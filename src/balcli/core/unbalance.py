@@ -30,8 +30,14 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
 
 
 def find_drilled_unbalance(depth: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Unbalance (kg m) that a radial hole of this depth from the rim inwards removes: the inverse
-    of `find_drill_depth`. All lengths in m, the depth at most the rim's radius.
+    """Return the unbalance (kg m) that a radial hole from the rim inwards removes: the inverse of
+    `find_drill_depth`.
+
+    Args:
+        depth: Depth of the hole, m, at most the rim's radius.
+        rim: Radius of the rim, m.
+        drill: Diameter of the hole, m.
+        density: Density of the rotor, kg/m3.
     """
     return density * math.pi / 4 * drill**2 * depth * (rim - depth / 2)
 

@@ -58,7 +58,12 @@ class UndampedResonanceError(ValueError):
 
 
 def frequencies(orders: ArrayLike, speeds: ArrayLike) -> Real:
-    """Angular frequency (orders, *speeds) of each order at each speed (rad/s, any shape)."""
+    """Return the angular frequency of each order at each speed, shape (orders, *speeds).
+
+    Args:
+        orders: Orders, shape (orders,).
+        speeds: Speeds, rad/s, any shape.
+    """
     return np.multiply.outer(np.asarray(orders, float), np.asarray(speeds, float))
 
 

@@ -119,10 +119,15 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
 
 def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
     """Return the number of samples (a power of two) of each mechanism that leaves no alias above
-    rounding in orders up to the highest, nor an order beyond the samples.
+    rounding in orders up to the highest, and no order beyond the samples.
 
-    Coefficients decay like `x^n`, x = tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because
-    cos beta is analytic in a strip of the complex plane; order n of N samples is mixed with N - n.
+    Coefficients decay like `x^n`, x = tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos
+    beta is analytic in a strip of the complex plane; order n of N samples is mixed with N - n.
+
+    Args:
+        lam: Crank radius / rod length, any shape.
+        eps: Offset / rod length, of that shape.
+        highest: Highest order that is wanted.
     """
     steep = np.minimum(np.asarray(lam) / (1 - np.abs(eps)), 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
@@ -132,7 +137,12 @@ def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> ND
 
 
 def find_highest_order(lam: Array, eps: Array) -> int:
-    """Return the order beyond which nothing of these mechanisms exceeds rounding errors."""
+    """Return the order beyond which no coefficient of these mechanisms exceeds rounding.
+
+    Args:
+        lam: Crank radius / rod length, any shape.
+        eps: Offset / rod length, of that shape.
+    """
     return int(count_samples(lam, eps).max()) // 2
 
 

@@ -58,8 +58,12 @@ class Linkage(ABC):
 
     @abstractmethod
     def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
-        """What distinguishes the mechanisms of the cylinders, masses left out, each of shape
-        (cylinders or 1, *trailing); lam and eps as in `Cylinders`.
+        """Return the figures by which the cylinders' mechanisms differ, without masses, each of
+        shape (cylinders or 1, *trailing).
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
 
     @abstractmethod
@@ -98,8 +102,14 @@ class Linkage(ABC):
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
     ) -> Array:
-        """A figure of the motion at crank angles that all cylinders share, by so many at a time
-        that memory stays small.
+        """Return a figure of the motion at crank angles that all cylinders share, shape (cylinders,
+        *trailing, angles); angles are taken in steps that keep memory small.
+
+        Args:
+            figure: Figure of a motion.
+            psi: Crank angles, rad, shape (angles,).
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
         count = max(len(self.mass), lam.size, eps.size)
         step = max(_AT_ONCE // count, 1)
@@ -109,13 +119,24 @@ class Linkage(ABC):
         )
 
     def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
-        """How many mechanisms differ, and about how many samples of a revolution all take."""
+        """Return how many mechanisms differ, and about how many samples of a revolution all of them
+        take.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
+        """
         count = len(find_distinct(*self.figures(lam, eps)).figures[0])
         leans = self.sample(lambda motion: motion.lean, revolution(STEPS), lam, eps)
         return count, count * int(count_samples(float(np.abs(leans).max()), 0.0))
 
     def find_highest_order(self, lam: Array, eps: Array) -> int:
-        """The order beyond which nothing exceeds rounding errors."""
+        """Return the order beyond which no coefficient exceeds rounding.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
+        """
         found = self._sample(find_distinct(*self.figures(lam, eps)), [], _SHARPEST, np.inf)
         return int(found.counts.max()) // 2
 
@@ -155,8 +176,12 @@ class Articulated(Linkage):
         return hang(psi, *figures)
 
     def bound_lean(self, lam: Array, eps: Array) -> Array:
-        """What the sine of each rod's angle to the cylinder's axis does not exceed, shape
-        (cylinders, *trailing): knuckle pins are at most a crank and a knuckle radius away.
+        """Return a bound of the sine of each rod's angle to the cylinder's axis, shape (cylinders,
+        *trailing): knuckle pins are at most a crank and a knuckle radius away.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
         return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
 
@@ -187,8 +212,14 @@ def hang(
 def follow_knuckle(
     crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
 ) -> PointMass:
-    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods;
-    `crank` is e^{i psi}, lam and eps are those of the masters.
+    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods.
+
+    Args:
+        crank: e^{i psi} of the cylinders.
+        knuckle: Knuckle pin from the crank pin, in crank radii, on the master rod.
+        lead_deg: Angle from the master's axis to the cylinder's, deg.
+        lam: Crank radius / rod length of the masters.
+        eps: Offset / rod length of the masters.
     """
     lead = unit(lead_deg)
     master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
