@@ -38,7 +38,13 @@ SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressu
 
 
 def build_diagram(gas: Gas, name: str, columns: NumberColumns, strokes: int) -> PiecewiseCurve:
-    """Return the absolute pressure (Pa) over a cycle by the columns of the file of this name.
+    """Return the absolute pressure (Pa) over a cycle from the columns of a file.
+
+    Args:
+        gas: Table of the engine file that describes the diagram.
+        name: Name of the diagram's file, for messages.
+        columns: Angles and pressures.
+        strokes: 2 or 4.
 
     Raises:
         BalcliError: The first mistake in the file, by its line.
@@ -119,8 +125,13 @@ def draw_diagram(
 def find_diagram_mistakes(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
 ) -> Iterator[tuple[int | None, str]]:
-    """Yield what is wrong with the rows of a diagram: the row (from 0; None: the diagram) and the
-    mistake; arguments as of `draw_diagram`.
+    """Yield the mistakes in the rows of a diagram: the row (from 0; None: the whole diagram) and
+    the mistake.
+
+    Args:
+        angle_deg: Cycle angles, deg, shape (rows,).
+        pressure: Absolute pressures, Pa, shape (rows,).
+        strokes: 2 or 4.
     """
     angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
     period = 180.0 * strokes

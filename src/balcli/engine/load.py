@@ -58,7 +58,11 @@ def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
 
 
 def build_named(model: EngineFile, path: str | Path) -> Engine:
-    """Return the engine of a model from the file at a path ("-": standard input).
+    """Return the engine of a model that was read from a file.
+
+    Args:
+        model: Checked engine file.
+        path: Path of the file, for messages; "-" is standard input.
 
     Raises:
         InputError: The file has contradictions; the error lists them.
@@ -91,8 +95,12 @@ _NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_
 
 
 def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
-    """Return the engine of the same file with other values of some keys, by dotted names; errors as
-    for `Engine.vary`.
+    """Return the engine of the same file with other values of some keys; errors as for
+    `Engine.vary`.
+
+    Args:
+        engine: Engine that comes from a file.
+        changes: Values by dotted names, in the units of the file.
     """
     for path in changes:
         if not isinstance(path, str):
@@ -151,7 +159,12 @@ def choose_speeds(
     engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
 ) -> Real:
     """Return the speeds (rpm) over which a quantity of a variant is the largest: the speed of the
-    variant alone where it is among the values that vary, else those of `usual`.
+    variant alone where it is among the values that vary, else the usual ones.
+
+    Args:
+        engine: Engine of the variant.
+        values: Values that vary, by dotted names.
+        usual: Function that returns the usual speeds, rpm.
     """
     return np.array([float(engine.speed_rpm)]) if SPEED in values else usual(engine)
 
@@ -213,7 +226,13 @@ class FiguresOfVariants(Generic[Asked]):
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
-    """Return the value of a key, made if it is new; the cache is emptied when it is full."""
+    """Return the value of a key, made if it is new; the cache is emptied when it is full.
+
+    Args:
+        known: Cache.
+        key: Key of the value.
+        make: Function that makes the value.
+    """
     found = known.get(key)
     if found is None:
         found = make()

@@ -389,7 +389,7 @@ class Parts:
 
     @property
     def radius(self) -> Figure:
-        """Crank radius, m."""
+        """Crank radius of all throws, m."""
         return self.figures.take("crank.stroke", self.model.crank.stroke) / 2e3
 
     @cached_property
@@ -401,14 +401,24 @@ class Parts:
         )
 
     def override(self, number: int, key: str) -> Figure | None:
-        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none."""
+        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none.
+
+        Args:
+            number: Number N of the cylinder.
+            key: Key of its table.
+        """
         table = self.tables.get(number)
         if table is None:
             return None
         return self.figures.take_optional(f"cylinder.{number}.{key}", getattr(table, key))
 
     def find_rod(self, number: int, articulated: bool = False) -> RodPlace:
-        """Return the figures of a cylinder's rod; number 0 stands for what holds for all."""
+        """Return the figures of a cylinder's rod.
+
+        Args:
+            number: Number of the cylinder; 0 stands for what holds for all.
+            articulated: Whether it is an articulated rod.
+        """
         general, own = self._general_rods[articulated], RodFigures()
         if (table := self.tables.get(number)) is not None:
             own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")

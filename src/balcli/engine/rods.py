@@ -70,7 +70,7 @@ class CylinderMasses(NamedTuple):
 
     @property
     def reciprocating(self) -> Figure:
-        """Reciprocating mass, kg."""
+        """Reciprocating mass of the cylinder, kg."""
         return self.piston + self.small_end
 
     @property
@@ -154,6 +154,10 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     """Check that the moment of inertia of a rod is not negative, by its pendulum test or as two
     masses at its ends, for the worst of all variants.
+
+    Args:
+        place: Rod and its place in the file.
+        gear: Running gear of its cylinder.
     """
     if np.all(gear.spin >= 0):
         return

@@ -253,8 +253,13 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return the internal loads with those of the gas as far as they are known; arguments and other
-    errors as for `compute_loads_with_gas`.
+    """Return the internal loads with those of the gas as far as they are known; other errors as for
+    `compute_loads_with_gas`.
+
+    Args:
+        inner: Internal loads of inertia.
+        engine: Engine with gas, without trailing axes.
+        orders: Orders to show, shape (orders,); None: the usual ones.
     """
     try:
         place_main_bearings(engine)
@@ -296,7 +301,14 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     largest = float(np.abs(samples).max(axis=1).sum())
 
     def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
-        """Return orders and largest values of the sums at some places, 0 below rounding."""
+        """Return orders and largest values of the sums at some places, 0 below rounding.
+
+        Args:
+            z: Axial places, m, shape (places,).
+            weights: Share of each force at each place, shape (places, forces).
+            factor: Factor of all values.
+            size: Size of the values that cancel, against which rounding is measured.
+        """
         values, least = factor * (weights @ samples), ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)
         phasors = Phasors.of(shown, forward, backward, np.full(forward.shape, least))
@@ -355,14 +367,22 @@ def find_breaks(engine: Engine) -> Array:
 def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
     """Return the force of the shaft on each main bearing, x + iy, N, shape (bearings, angles);
     errors as for `place_main_bearings` and `compute_rod_forces`.
+
+    Args:
+        engine: Engine with gas, without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
     return np.asarray(shares @ compute_forces_along(engine, crank_deg).on_shaft)
 
 
 def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
-    """Return forces on shaft and block at crank angles (deg), shape (angles,); articulated rods
-    press on the shaft at the positions of their own cylinders.
+    """Return forces on shaft and block over the crank angle; articulated rods press on the shaft at
+    the positions of their own cylinders.
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     found = compute_rod_forces(engine, crank_deg)
     pressed = found.axis * found.pin
@@ -390,8 +410,14 @@ def _place_forces(engine: Engine) -> tuple[Array, Array]:
 
 
 def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
-    """Raise BalcliError if the forces at so many crank angles of a cycle (0: the fewest that its
-    breaks need) are more than are kept.
+    """Raise an error if the forces over a cycle are more than are kept.
+
+    Args:
+        engine: Engine with gas.
+        angles: Number of crank angles; 0: the fewest that the breaks of the cycle need.
+
+    Raises:
+        BalcliError: They are too many; the error states the numbers.
     """
     angles = angles or quadrature(cut(find_breaks(engine), 0.5))[0].size
     cylinders, count = engine.cylinders.count, 2 * engine.cylinders.count + len(engine.devices)

@@ -128,7 +128,15 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise BalcliError for an X-type quantity of an engine that has no X-type moment."""
+    """Raise an error for an X-type quantity of an engine that has no X-type moment.
+
+    Args:
+        model: Engine file.
+        quantities: Wanted quantities.
+
+    Raises:
+        BalcliError: The first of them that is not known, and why.
+    """
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
@@ -141,7 +149,12 @@ def _find(model: EngineFile) -> GuideMoments:
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
-    """Return the amplitude of each quantity of one engine, N m."""
+    """Return the amplitude of each quantity of one engine, N m.
+
+    Args:
+        engine: Engine without trailing axes.
+        quantities: Wanted quantities; each is known.
+    """
     orders = np.array(sorted({float(q.target) for q in quantities}))
     guide = compute_guide_moments(engine, orders)
     found = {"H": guide.h, "X": guide.x or guide.h}

@@ -58,14 +58,24 @@ class TextbookUnits(NamedTuple):
     equal: bool
 
     def size(self, kind: Kind, order: float) -> float:
-        """Return F_n of one of the orders, N, or F_n a, N m; nan without such a force or arm."""
+        """Return F_n of an order, N, or F_n a, N m; nan without such a force or arm.
+
+        Args:
+            kind: Kind of force or moment.
+            order: One of the orders.
+        """
         ratio = float(self.ratios[np.searchsorted(self.orders, order)])
         if not self.force or ratio < _NO_FORCE:
             return float("nan")
         return self.force * ratio * (1.0 if kind.dimension == "force" else self.arm)
 
     def name(self, kind: Kind, order: object = "n") -> str:
-        """Return the symbol of the unit of an order."""
+        """Return the symbol of the unit of an order.
+
+        Args:
+            kind: Kind of force or moment.
+            order: Order as it is printed.
+        """
         return f"F{order}" if kind.dimension == "force" else f"F{order}·a"
 
 
@@ -86,7 +96,13 @@ class Textbook(NamedTuple):
 
 
 def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
-    """Return the forces of an engine without trailing axes, for orders and names of kinds."""
+    """Return the forces of an engine in the form of textbooks.
+
+    Args:
+        engine: Engine without trailing axes.
+        orders: Orders, shape (orders,).
+        kinds: Names of kinds of forces and moments.
+    """
     built = without_devices(engine)
     return Textbook(
         find_textbook_units(engine, orders),
@@ -108,7 +124,12 @@ def with_reciprocating_only(engine: Engine) -> Engine:
 
 
 def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
-    """Return the units of an engine without trailing axes, for these orders."""
+    """Return the units in which textbooks express the forces of an engine.
+
+    Args:
+        engine: Engine without trailing axes.
+        orders: Orders, shape (orders,).
+    """
     c, row = engine.cylinders, engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
