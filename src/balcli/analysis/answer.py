@@ -90,13 +90,13 @@ class Analysis(Result):
 
     @property
     def summary(self) -> str:
-        """What it is of, and which orders it shows."""
+        """Name of the engine and the orders shown, in words."""
         orders = ", ".join(f"{order:g}" for order in self.orders[:12])
         return f"of {self.engine.summary}; orders {orders}{', ...' * (len(self.orders) > 12)}"
 
     @property
     def orders(self) -> Array:
-        """Those shown, shape (orders,)."""
+        """Orders shown, shape (orders,)."""
         return self.spectra.orders
 
     @property
@@ -232,14 +232,14 @@ def _check_height(guide_height_m: float | None) -> None:
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """What is computed of an engine unless something is named: all but sizing; with gas, all that
-    it does, too.
+    """Return the quantities that are computed unless some are named: all but sizing; those of gas
+    if the engine has gas.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
 
 def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
-    """What is computed; `gas` stands for all that gas does."""
+    """Return the quantities to compute; `gas` stands for all quantities of gas."""
     if only is None:
         return set(list_usual_quantities(engine))
     wanted = {*list_words("only", only)}
@@ -266,8 +266,9 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
 def _compute_visible_and_whole(
     engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
 ) -> tuple[Spectra, Spectra]:
-    """What may be shown, and what has the peaks. Near its lock an engine has tens of thousands of
-    orders, all of which its peaks need: its gas is computed for the few that may be shown.
+    """Return the spectra that may be shown, and those that have the peaks. Near its lock an engine
+    has tens of thousands of orders, all of which its peaks need: its gas is computed for the few
+    that may be shown.
     """
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
@@ -325,7 +326,12 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
+    """Return shear, bending and bearing loads along the crankshaft, with gas as far as it is known.
+
+    Args:
+        engine: Engine without trailing axes.
+        asked: Orders to show, shape (orders,); None: the usual ones.
+    """
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner

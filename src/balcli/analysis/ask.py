@@ -25,12 +25,22 @@ if TYPE_CHECKING:
 
 
 def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
-    """What a person reads of it."""
+    """Return the sheet of one analysis.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
     return chapter.sheet(one.result, system, one.view)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """CSV: the rows of the analysis, each after the engine's name."""
+    """Return CSV: the rows of the analysis, each after the engine's name.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
     devices = "sizing" in one.view.parts
     header, lines = chapter.rows(one.result, system, devices=devices)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
@@ -44,9 +54,16 @@ def answer(
 ) -> None:
     """Analyze files and print the results, by the engines' names; messages name bad files.
 
+    Args:
+        paths: Engine files.
+        asked: What to compute and show.
+        form: Format of the results.
+        output: File to write; None: standard output.
+        units: System of units.
+
     Raises:
-        BalcliError: the output cannot be written.
-        Exit: with status 2, if a file is bad.
+        BalcliError: The output cannot be written.
+        Exit: With status 2, if a file is bad.
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None

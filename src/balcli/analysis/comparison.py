@@ -107,7 +107,7 @@ class Comparison(Result):
 
     @property
     def summary(self) -> str:
-        """The engines."""
+        """Names of the engines, in words."""
         return f"of {', '.join(self.engines)}"
 
 
@@ -153,8 +153,12 @@ def analyze_alike(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> tuple[Analysis, ...]:
-    """Analyses of several engines, or of one at several speeds, all by the same orders: those asked
-    for, or each that one of them shows unasked.
+    """Return analyses of several engines, or of one at several speeds, all by the same orders.
+
+    Args:
+        engines: Engines without trailing axes.
+        orders: Orders to show; None: each that one of the analyses shows by default.
+        analyze_one: Function that analyzes an engine by such orders.
     """
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
     if orders is not None:
@@ -310,7 +314,12 @@ TITLES = {TORQUE: "inertia torque"}
 
 
 def rows(result: Comparison, system: System) -> Rows:
-    """CSV: a figure a line, a column an engine."""
+    """Return CSV: a figure a line, a column an engine.
+
+    Args:
+        result: Comparison of the engines.
+        system: System of units.
+    """
     header = ("quantity", "order", "unit", *map(name_cell, result.engines))
     return Rows(header, [_csv_line(line, system) for line in result.figures])
 
@@ -322,7 +331,12 @@ def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
-    """Amplitudes, with ratios to the first engine's below their size."""
+    """Return tables of amplitudes, with ratios to the first engine's below their size.
+
+    Args:
+        result: Comparison of the engines.
+        system: System of units.
+    """
     heads = (
         "",
         result.engines[0],
@@ -354,7 +368,13 @@ def _tell_speeds(result: Comparison) -> Facts:
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
-    """The unit for the largest of all that is known, if anything is."""
+    """Return the unit that fits the largest of all known values.
+
+    Args:
+        kind: Kind of force or moment.
+        lines: Lines with its values.
+        system: System of units.
+    """
     known = (v for line in lines for v in _list_known(line))
     return system.unit(kind).fit(max(known, default=0.0))
 
@@ -379,14 +399,21 @@ def _matters(line: Line, least: float) -> bool:
 
 
 def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
-    """Amplitudes in their unit, or a word where none counts, unless `every` one is wanted."""
+    """Return amplitudes in their unit, or a word for one that is negligible.
+
+    Args:
+        line: Amplitudes of all engines.
+        unit: Unit of the column.
+        every: Whether negligible amplitudes are shown as numbers.
+    """
     small = [False] * len(line.values) if every else _tell_negligible(line)
     sizes = zip(line.values, small, strict=True)
     return [size_cell(value, unit, negligible=s, digits=None) for value, s in sizes]
 
 
 def _tell_negligible(line: Line) -> list[bool]:
-    """Of each value whether it is 0, or small beside what one cylinder of its engine makes."""
+    """Return for each value whether it is 0, or small against that of one cylinder of its engine.
+    """
     single = line.single or (0.0,) * len(line.values)
     pairs = zip(line.values, single, strict=True)
     return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]

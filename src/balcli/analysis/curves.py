@@ -58,7 +58,7 @@ class Curves(Result):
 
     @property
     def summary(self) -> str:
-        """Of what, and at how many angles."""
+        """Name of the engine and number of angles, in words."""
         return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
     def known(self) -> dict[str, Array]:
@@ -125,7 +125,7 @@ def _sum_parts(
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """What each cylinder and device does, shape (cylinders and devices, angles)."""
+    """Return the curves of each cylinder and device, shape (cylinders and devices, angles)."""
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
     force = np.concatenate([_force_of_cylinders(motion), of_devices])
@@ -310,7 +310,13 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
 
 def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
-    """Return the curves at angles this far apart over a cycle; errors as of `curves`."""
+    """Return the curves at equal steps over a cycle; errors as for `curves`.
+
+    Args:
+        engine: Engine without trailing axes.
+        cylinder: Number of the cylinder whose motion is wanted; None: the whole engine.
+        step_deg: Step of the crank angle, deg.
+    """
     return compute_curves(engine, cylinder, divide_revolution(step_deg, engine.cycle_revolutions))
 
 

@@ -76,8 +76,12 @@ def order_tables(
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield vectors along x and y, as builders list them, if there are any; `every` as of
-    `order_tables`.
+    """Yield tables of vectors along x and y, as builders list them, if the spectra have vectors.
+
+    Args:
+        spectra: Spectra to show.
+        system: System of units.
+        every: As for `order_tables`.
     """
     vectors = [
         (kind, phasors, fit_largest(system.unit(kind), phasors))
@@ -106,8 +110,13 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
 
 
 def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Force and moment as multiples of the units of textbooks, where there are such units; `every`
-    as of `order_tables`.
+    """Yield tables of force and moment as multiples of the units of textbooks, where such units
+    exist.
+
+    Args:
+        book: Forces in the form of textbooks.
+        system: System of units.
+        every: As for `order_tables`.
     """
     units = book.units
     if not units.force:
@@ -127,7 +136,13 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
-    """Return the part of one cylinder, as lecturers have it: vectors as size and angle."""
+    """Return a table of one cylinder's share, as lecturers list it: vectors as size and angle.
+
+    Args:
+        cylinder: Number of the cylinder.
+        share: Its spectra.
+        system: System of units.
+    """
     vectors = [(kind, phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
@@ -215,7 +230,12 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
 
 def show_peak_deg(c: complex, order: float) -> str:
-    """Where an amplitude is reached first, or a dash of a mean."""
+    """Return the crank angle at which an amplitude is first reached, or a dash for a mean.
+
+    Args:
+        c: Coefficient of e^{i n theta}.
+        order: Order n.
+    """
     return degrees(float(peak_deg(c, order)))
 
 
@@ -297,7 +317,13 @@ def gas_grid(
 
 
 def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Which order rocks the engine most about a `pivot`, in a sentence; empty: not known."""
+    """Return a sentence on the order that rocks the engine most; empty if it is not known.
+
+    Args:
+        spectra: Spectra with roll.
+        system: System of units.
+        pivot: Axis of the roll, in words.
+    """
     roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""

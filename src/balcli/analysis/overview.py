@@ -59,7 +59,13 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
 def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
     """Return force and moment side by side, with the parts of each that turn with the crank and
-    against it; the other orders in one line, with a hint how to see them.
+    against it; the other orders are listed in one line, with a hint how to see them.
+
+    Args:
+        spectra: Spectra to show.
+        shown: Orders that have rows.
+        system: System of units.
+        hints: Whether the option that shows more is named.
     """
     chosen = spectra.select_orders(shown)
     heads = ["order"]
@@ -110,10 +116,12 @@ def tell_others(
 
 
 def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
-    """What acts about the crank's axis, and the largest values over a revolution, a line each.
+    """Return moments about the crank's axis and the largest values over a revolution, a line each.
 
     Args:
-        every_order: whether orders were asked for, which need not be those that roll has.
+        result: Analysis to show.
+        system: System of units.
+        every_order: Whether orders were given, which need not be those that roll has.
     """
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll
@@ -126,7 +134,12 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
 
 
 def sizing_in_brief(sizing: Sizing, system: System) -> Text:
-    """Which devices leave nothing of orders 1 and 2, in one sentence."""
+    """Return one sentence on the devices that balance orders 1 and 2.
+
+    Args:
+        sizing: Devices and what they leave.
+        system: System of units.
+    """
     known = sizing.after.moments_known
     if not sizing.remedy.devices:
         what = "Orders 1 and 2 need" if known else "The forces of orders 1 and 2 need"
@@ -150,7 +163,12 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
 
 
 def tell_sizes(unbalances: Iterable[float], unit: ShownUnit) -> str:
-    """Return unbalances as `2 x 35057 g mm`, in the order in which they stand."""
+    """Return unbalances as `2 x 35057 g mm`, in their order.
+
+    Args:
+        unbalances: Unbalances, kg m.
+        unit: Unit in which they are printed.
+    """
     counted = Counter(size_text(unbalance, unit) for unbalance in unbalances)
     return " + ".join(f"{count} × {text}" for text, count in counted.items())
 

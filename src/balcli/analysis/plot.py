@@ -27,7 +27,14 @@ def draw_vector_bars(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw the largest value of each order as a bar: the part that turns with the crank, and on top
-    the part that turns against it; dashed the largest value `before`, of the same orders.
+    the part that turns against it.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        what: Name of the quantity.
+        unit: Its unit.
+        before: Phasors of the same orders whose largest value is drawn dashed; None: none.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -45,7 +52,13 @@ def draw_vector_bars(
 
 
 def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
-    """Draw the amplitudes of several moments about the crank, side by side."""
+    """Draw the amplitudes of several moments about the crank, side by side.
+
+    Args:
+        ax: Axes to draw on.
+        curves: Phasors by label, all of the same orders.
+        unit: Unit of the moments.
+    """
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
     s = fit_largest(unit, *curves.values())
     for (label, curve), look, shift in zip(curves.items(), _LOOKS, (-0.27, 0, 0.27), strict=False):
@@ -56,7 +69,12 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
-    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten."""
+    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten.
+
+    Args:
+        curve: Phasors, shape (orders,).
+        before: Phasors of the same orders that are drawn as well; None: none.
+    """
     major = curve.major if before is None else np.maximum(curve.major, before.major)
     always = (curve.orders == 1) | (curve.orders == 2)
     due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
@@ -101,7 +119,13 @@ def draw_curves(
 
 
 def set_crank_axis(ax: Axes, crank_deg: Array, label: str = "crank angle, deg") -> None:
-    """Make x the crank angle, with ticks every 90 degrees."""
+    """Make x the crank angle, with ticks every 90 degrees.
+
+    Args:
+        ax: Axes to change.
+        crank_deg: Crank angles that are drawn, deg, shape (angles,).
+        label: Label of the axis.
+    """
     first, last = (round(float(angle)) for angle in crank_deg[[0, -1]])
     ax.set(xlim=(first, last), xticks=np.arange(first, last + 1, 90), xlabel=label)
 

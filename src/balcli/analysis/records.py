@@ -259,7 +259,12 @@ class Stroke:
 
 
 def list_strokes(travel: Travel, numbers: Sequence[int]) -> tuple[Stroke, ...]:
-    """Return strokes and dead centers by the numbers of the cylinders, in rising order."""
+    """Return strokes and dead centers by the numbers of the cylinders, in rising order.
+
+    Args:
+        travel: Strokes and dead centers, one for each cylinder.
+        numbers: Numbers of the cylinders.
+    """
     columns = ((values + 0.0).tolist() for values in travel)
     return tuple(sorted(map(Stroke, numbers, *columns)))
 
@@ -382,5 +387,10 @@ def _list_fields(device: DeviceTable) -> dict[str, Any]:
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
-    """Return a figure of a device by its field in the engine file; the unbalance in kg m."""
+    """Return a figure of a device; the unbalance in kg m.
+
+    Args:
+        device: Table of the device.
+        field: Key of the figure in the engine file.
+    """
     return find_unbalance(device) if field == "unbalance" else getattr(device, field)

@@ -44,7 +44,14 @@ TABLES = frozenset({"xy", "textbook", "sizing", "peak", "inner", "guide"})  # wi
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
-    """What the engine is, the verdict, what it does order by order, peaks, sizing."""
+    """Return the sheet of an analysis: the engine, the verdict, forces order by order, peaks,
+    sizing.
+
+    Args:
+        result: Analysis to show.
+        system: System of units.
+        view: Tables and orders to show.
+    """
     return Sheet(result.engine.name or NAMELESS, tuple(_parts(result, system, view)))
 
 
@@ -72,7 +79,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 
 
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
-    """What there is only of some engines, or where it was asked for."""
+    """Yield the parts that only some engines have, or that were asked for."""
     if result.travel is not None and whole:
         yield from sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:

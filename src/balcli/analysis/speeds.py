@@ -74,7 +74,7 @@ class SpeedSeries:
 
     @property
     def speeds_rpm(self) -> list[float]:
-        """Of each analysis."""
+        """Speed of each analysis, rpm."""
         return [float(one.engine.speed_rpm) for one in self.analyses]
 
     @property
@@ -197,7 +197,7 @@ class MarineSheet:
 
     @property
     def speeds_rpm(self) -> Array:
-        """Speeds, shape (speeds,)."""
+        """Speeds of the sheet, rpm, shape (speeds,)."""
         return np.array([speed.speed_rpm for speed in self.speeds])
 
     @property
@@ -270,13 +270,23 @@ def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
 
 
 def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
-    """What the engine is, and what it does at each speed."""
+    """Return the sheet of an engine at several speeds.
+
+    Args:
+        one: Analyses with the engine's name.
+        system: System of units.
+    """
     engine = one.result.analyses[0].engine
     return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
 
 
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
-    """CSV: the rows of each analysis after the engine's name and the speed."""
+    """Return CSV: the rows of each analysis after the engine's name and the speed.
+
+    Args:
+        one: Analyses with the engine's name.
+        system: System of units.
+    """
     devices = "sizing" in one.view.parts
     every = [analysis_show.rows(each, system, devices=devices) for each in one.result.analyses]
     lines = (
@@ -339,8 +349,12 @@ _EXTERNAL, _INNER = FIGURES[:4], FIGURES[4:]
 
 
 def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
-    """Return what the engine is, what acts on its frame and on its crank, and what the names
-    mean.
+    """Return the marine sheet: the engine, forces and moments on its frame and on its crank, and
+    the meaning of the names.
+
+    Args:
+        one: Marine sheet with the engine's name.
+        system: System of units.
     """
     result = one.result
     head = engine_facts(
@@ -367,7 +381,12 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
 
 
 def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
-    """Return CSV: an order of a speed a line, a column a figure."""
+    """Return CSV: a line for each order of a speed, a column for each figure.
+
+    Args:
+        one: Marine sheet with the engine's name.
+        system: System of units.
+    """
     result = one.result
     units = {name: _unit(name, system) for name in FIGURES}
     heads = (f"{remove_unit(name)}_{unit.name.replace('·', '')}" for name, unit in units.items())

@@ -126,22 +126,23 @@ class Arrangement:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Combined(Result):
-    """What two engines do to their common frame, about the first one's point of reference.
+    """Forces and moments of two engines on their common frame, about the first one's point of
+    reference.
 
     Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
-    it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
-    not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
-    C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
-    The gas torques add like these, in orders of both cycles; an engine without gas has none.
+    it, is T1 + T2, each in its own crank's sense, whichever way they turn. The torque that the load
+    takes does not act on the frame: the roll is C - (T1 + T2) with the load on the first crank, C +
+    (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own. The
+    gas torques add like these, in orders of both cycles; an engine without gas has none.
 
     Attributes:
-        engines: as they were given.
-        arrangement: where the second one stands, how it leads, and who drives the load.
+        engines: Both engines, in the given order.
+        arrangement: Where the second one stands, how it leads, and who drives the load.
         state: Speed and point of reference of both.
         spectra: Orders shown, of both together.
-        assumed: What is taken because an engine file leaves it out.
+        assumed: Values that are taken because an engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
-        every_order: whether orders were asked for, so that none of them is left out.
+        every_order: Whether orders were given, so that none of them is left out.
     """
 
     format: Literal["balcli.sum/1"] = "balcli.sum/1"
@@ -155,12 +156,12 @@ class Combined(Result):
 
     @property
     def summary(self) -> str:
-        """Of which engines."""
+        """Names of both engines, in words."""
         return f"of {' and '.join(engine.name or 'an engine' for engine in self.engines)}"
 
     @property
     def has_gas(self) -> tuple[bool, bool]:
-        """Of which engine the file says what the gas does."""
+        """Whether each engine has gas."""
         first, second = self.engines
         return first.gas is not None, second.gas is not None
 
@@ -229,8 +230,12 @@ def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """An engine at another's speed, which it leads by an angle; the unevenness is that of the
-    other's crank angle.
+    """Return an engine at another's speed; the unevenness is that of the other's crank angle.
+
+    Args:
+        engine: Engine whose speed is replaced.
+        leader: Engine that determines the speed.
+        phase_deg: Crank angle by which `engine` leads, deg.
     """
     ripple = tuple(
         RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
@@ -293,7 +298,9 @@ def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spec
 
 
 def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
-    """What the first crank feels of torques about z on both, and what the load takes, about z."""
+    """Return the torque about z that the first crank feels from torques on both, and the torque
+    that the load takes.
+    """
     sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
     felt = one + sense * other
     taken = {"first": felt, "second": sense * felt, "both": one + other}
@@ -360,13 +367,23 @@ _GAS = {  # whose gas counts, by whether the first and the second have some
 
 
 def rows(result: Combined, system: System) -> Rows:
-    """Return CSV: a figure a line, of both engines together."""
+    """Return CSV: a figure a line, of both engines together.
+
+    Args:
+        result: Both engines together.
+        system: System of units.
+    """
     header = ("quantity", "order", "figure", "value", "unit")
     return Rows(header, [row[1:] for row in figure_rows(result, system)])
 
 
 def sheet(result: Combined, system: System) -> Sheet:
-    """Return the engines, how they stand, and what they do together."""
+    """Return the sheet of both engines: how they stand, and their forces and moments together.
+
+    Args:
+        result: Both engines together.
+        system: System of units.
+    """
     spectra = result.spectra.with_moment_if(result.moments_known)
     how, pivot = result.arrangement, tell_pivot(result.engines[0])
     roll = _ROLL[how.load] if how.reverse else ""

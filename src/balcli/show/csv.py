@@ -35,7 +35,7 @@ class Columns(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """What CSV says of a result: names of the columns, and lines of as many cells."""
+    """CSV of a result: names of the columns, and lines of as many cells."""
 
     header: Sequence[str]
     lines: Iterable[Sequence[Any]]

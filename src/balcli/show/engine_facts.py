@@ -204,7 +204,7 @@ def _firing(engine: Engine) -> str:
 
 
 def tell_strokes(engine: Engine) -> str:
-    """`four-stroke` or `two-stroke`."""
+    """Return `four-stroke` or `two-stroke`."""
     return "two-stroke" if engine.strokes == 2 else "four-stroke"
 
 

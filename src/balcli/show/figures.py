@@ -153,7 +153,7 @@ class EngineName:
 
 @dataclass(frozen=True, kw_only=True)
 class EngineState:
-    """What an engine does while it is analyzed.
+    """State of an engine while it is analyzed.
 
     Attributes:
         speed_rpm: Mean speed of the crank.
@@ -265,19 +265,34 @@ def list_harmonics(phasors: Phasors) -> list[Harmonic]:
 
 
 def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return the orders of `Re sum c_n e^{i n theta}`, each argument of shape (orders,)."""
+    """Return the orders of `Re sum c_n e^{i n theta}`, one record each.
+
+    Args:
+        orders: Orders n, shape (orders,).
+        c: Coefficients c_n, shape (orders,).
+        balanced: Whether each order is below rounding, shape (orders,).
+    """
     columns = (c.real, -c.imag, np.abs(c), peak_deg(c, orders), balanced)
     return list(map(Harmonic, *(column.tolist() for column in columns)))
 
 
 def size_or_mean(c: complex, order: float) -> float:
-    """Amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign."""
+    """Return the amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign.
+
+    Args:
+        c: Coefficient.
+        order: Order n.
+    """
     return abs(c) if order else c.real
 
 
 def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
-    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; nan if it
-    vanishes or is a mean; of one shape.
+    """Return the first crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest,
+    deg; nan if it vanishes or is a mean.
+
+    Args:
+        c: Coefficients, any shape.
+        orders: Orders n, of that shape.
     """
     there = np.not_equal(c, 0) & np.greater(orders, 0)
     n = np.where(there, orders, 1.0)
@@ -316,7 +331,13 @@ def figure_rows(
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:
-    """The largest value over a revolution, and its crank angle."""
+    """Yield the largest value over a revolution, and its crank angle.
+
+    Args:
+        quantity: Name of the quantity.
+        peak: Largest value (SI) and its crank angle.
+        unit: Unit of the value.
+    """
     found = Reached("peak", "peak_deg").split(peak)
     yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
     yield FigureRow(0, quantity, None, "peak_deg", found["peak_deg"], "deg")
@@ -325,7 +346,15 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
 def order_rows(
     quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: int = 0
 ) -> Iterator[FigureRow]:
-    """All figures of one order; the entry is SI as in JSON, the rows are in the unit."""
+    """Yield all figures of one order.
+
+    Args:
+        quantity: Name of the quantity.
+        order: Order.
+        entry: Figures in SI, as JSON has them.
+        unit: Unit of the rows.
+        cylinder: Number of the cylinder; 0: the engine.
+    """
     for figure in _flattened(entry, unit):
         yield FigureRow(cylinder, quantity, order_number(order), *figure)
 

@@ -94,7 +94,13 @@ def render(
 
 
 def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
-    """Sheets as tables or Markdown, one after the other; `seen` as of `render`."""
+    """Return sheets as tables or Markdown, one after the other.
+
+    Args:
+        sheets: Sheets to write.
+        form: Table or Markdown.
+        seen: Whether a terminal shows them, as for `render`.
+    """
     if form is Format.MARKDOWN:
         return markdown(sheets)
     if seen:

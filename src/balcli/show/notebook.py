@@ -35,8 +35,11 @@ def outline(columns: Columns) -> Grid:
 
 
 def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
-    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand
-    left.
+    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand left.
+
+    Args:
+        sheet: Sheet to write.
+        doubts: Doubts about the result, in words.
     """
     doubtful = (Text("Doubtful", doubts),) if doubts else ()
     blocks = "".join(map(_block, (*sheet.parts, *doubtful)))

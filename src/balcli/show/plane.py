@@ -72,7 +72,15 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
 def draw_locus(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
-    """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
+    """Draw the path of the tip of a vector over a revolution.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        what: Name of the quantity.
+        unit: Its unit.
+        before: Phasors whose path is drawn dashed; None: none.
+    """
     shown = [curve] if before is None else [curve, before]
     paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
     largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
@@ -110,7 +118,15 @@ def find_period_deg(curve: Phasors) -> int:
 
 
 def draw_order(ax: Axes, curve: Phasors, k: int, what: str, unit: ShownUnit) -> None:
-    """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
+    """Draw one order: its ellipse, and the two rotating vectors whose sum it is.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        k: Row of the order.
+        what: Name of the quantity.
+        unit: Its unit.
+    """
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size

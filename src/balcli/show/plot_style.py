@@ -65,7 +65,12 @@ def _find_figure_class() -> type[Figure]:
 
 @contextmanager
 def open_figure(width: float, height: float) -> Iterator[Figure]:
-    """Open a figure of this size in inches; what is drawn within the context has our style."""
+    """Open a figure; drawings within the context have the style of this program.
+
+    Args:
+        width: Width, inches.
+        height: Height, inches.
+    """
     with in_our_style():
         yield _find_figure_class()(figsize=(width, height), layout="constrained")
 
@@ -95,7 +100,12 @@ def in_our_style() -> Iterator[None]:
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
-    """Return a figure as the content of a file; the same figure gives the same bytes."""
+    """Return a figure as the content of a file; the same figure gives the same bytes.
+
+    Args:
+        figure: Figure to save.
+        form: Format of the file.
+    """
     with in_our_style():
         buffer = BytesIO()
         figure.savefig(buffer, format=form, metadata=_UNDATED[form])
@@ -115,8 +125,12 @@ def save_pages(figures: Iterable[Figure]) -> bytes:
 
 
 def inline_svg(svg: bytes, name: str) -> str:
-    """Return an SVG that stands in an HTML page: its colours are those of the page (`--ink` ...),
-    its ids begin with `name`, and it grows with its column.
+    """Return an SVG for an HTML page: its colours are those of the page (`--ink` ...), and it grows
+    with its column.
+
+    Args:
+        svg: Content of an SVG file.
+        name: Start of its ids.
     """
     text = svg.decode()
     text = text[text.index("<svg") :]
@@ -128,13 +142,23 @@ def inline_svg(svg: bytes, name: str) -> str:
 
 
 def fit_name(name: str, most: int = 90) -> str:
-    """Return a name on one line that any format can hold, with at most this many letters."""
+    """Return a name on one line that any format can hold.
+
+    Args:
+        name: Any text.
+        most: Largest number of letters.
+    """
     text = " ".join("".join(c if c.isprintable() else " " for c in name).split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
 
 
 def put_title(fig: Figure, text: str) -> None:
-    """Put a title over a figure, on as many lines as it needs."""
+    """Put a title over a figure, on as many lines as it needs.
+
+    Args:
+        fig: Figure to change.
+        text: Title.
+    """
     wide = any(east_asian_width(letter) in "WF" for letter in text)
     letters = int(fig.get_figwidth() / (_WIDE_LETTER if wide else _LETTER))
     lines = [part for line in text.splitlines() for part in wrap(line, letters)]
@@ -142,6 +166,11 @@ def put_title(fig: Figure, text: str) -> None:
 
 
 def put_legend_above(ax: Axes, columns: int = 4) -> None:
-    """Put the legend between the axes and their title."""
+    """Put the legend between the axes and their title.
+
+    Args:
+        ax: Axes to change.
+        columns: Largest number of columns.
+    """
     legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes

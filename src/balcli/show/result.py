@@ -32,13 +32,13 @@ class Result:
 
     @property
     def summary(self) -> str:
-        """What it is, in a few words."""
+        """Summary of the result, in a few words."""
         return ""
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What it has that can be and yet is unlikely, in words, as the commands say it on standard
-        error; of what a file says, its engine tells.
+        """Figures of the result that are possible and yet unlikely, in the words that commands
+        print on standard error; an engine has those of its file.
         """
         return ()
 
@@ -46,7 +46,7 @@ class Result:
         return f"<{' '.join(filter(None, (type(self).__name__, self.summary)))}>"
 
     def _repr_html_(self) -> str:
-        """What the command prints, for a notebook."""
+        """Return the sheet of the result as HTML, for a notebook."""
         renderer = find_renderer(self)
         if isinstance(renderer, Renderer):
             return html_text(renderer.sheet(self, SI), self.doubts)
@@ -169,7 +169,12 @@ def make_frame(result: Result) -> Any:
 
 
 def write_parquet(result: Result, path: str | Path) -> None:
-    """A Parquet file, which takes its place when it is whole; errors as of `replacing`."""
+    """Write a Parquet file, which takes its place when it is whole; errors as for `replacing`.
+
+    Args:
+        result: Result to write.
+        path: File to write.
+    """
     try:
         import pyarrow
         from pyarrow import parquet

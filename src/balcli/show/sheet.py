@@ -93,15 +93,22 @@ def order_name(order: float) -> str:
 
 
 def number(value: float, digits: int | None = None) -> str:
-    """A figure for people, with as many significant digits as were asked for; `digits` are usual
-    there. No exponent between 0.0001 and a million, a plain 0.
+    """Return a figure for people: no exponent between 0.0001 and a million, a plain 0.
+
+    Args:
+        value: Figure.
+        digits: Usual significant digits, in place of which those of `--digits` count; None: 6.
     """
     return _write(value, get_digits(digits or USUAL_DIGITS))
 
 
 def given(value: float, digits: int = 6) -> str:
-    """A number that somebody gave, such as a speed: like a figure (`number`), but with its own
-    digits, however few were asked for.
+    """Return a number that somebody gave, such as a speed: like a figure (`number`), but with its
+    own digits, however few were asked for.
+
+    Args:
+        value: Number.
+        digits: Largest number of significant digits.
     """
     return _write(value, digits)
 
@@ -123,21 +130,37 @@ def _write(value: float, digits: int) -> str:
 
 
 def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
-    """A value (SI) in the unit that fits it, with its name; digits as of `number`."""
+    """Return a value in the unit that fits it, with the unit's name.
+
+    Args:
+        value: Value, SI.
+        unit: Unit, of which a multiple may fit better.
+        digits: As for `number`.
+    """
     unit = unit.fit(value)
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
 def small_text(value: float, unit: ShownUnit) -> str:
-    """What is too small to count (SI), in words, and how small it is if it is anything."""
+    """Return the word for a negligible value, with its size if it is not 0.
+
+    Args:
+        value: Value, SI.
+        unit: Its unit.
+    """
     return f"negligible ({size_text(value, unit, 2)})" if value else NOTHING
 
 
 def size_cell(
     value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
 ) -> str:
-    """A force or moment (SI) in a column with this unit, or a word where there is none that counts;
-    digits as of `number`.
+    """Return a force or moment in a column, or a word where it is 0 or negligible.
+
+    Args:
+        value: Value, SI.
+        unit: Unit of the column.
+        negligible: Whether the value is too small to count.
+        digits: As for `number`.
     """
     if not value:
         return NOTHING
@@ -145,10 +168,14 @@ def size_cell(
 
 
 def degrees(value: float, turn: float = 360) -> str:
-    """An angle to a tenth of a degree, or a dash where there is none; of lines `turn` is 180.
+    """Return an angle to a tenth of a degree, or a dash for nan.
 
-    Half a turn backwards is half a turn, and a whole turn none: which of both an angle is, and to
-    which side a half is rounded, would else be for its last digits to say.
+    Half a turn backwards is half a turn, and a whole turn none: otherwise its last digits would
+    decide which of both an angle is, and to which side a half is rounded.
+
+    Args:
+        value: Angle, deg.
+        turn: 360, or 180 for lines.
     """
     if math.isnan(value):
         return UNKNOWN
@@ -165,13 +192,13 @@ R = TypeVar("R")
 
 
 class View(NamedTuple):
-    """What of an analysis a sheet shows.
+    """Parts of an analysis that a sheet shows.
 
     Attributes:
-        whole: every table and every order; else what most people want, orders that matter.
-        parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
-        every_order: whether orders that are negligible are shown, too.
-        hints: whether commands and options that show more are named.
+        whole: Every table and every order; else what most people want, orders that matter.
+        parts: Words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
+        every_order: Whether negligible orders are shown as well.
+        hints: Whether commands and options that show more are named.
     """
 
     whole: bool = False
@@ -185,11 +212,12 @@ ON_A_PAGE = View(hints=False)
 
 
 class NamedResult(NamedTuple, Generic[R]):
-    """What was found of one of several engines.
+    """Result for one of several engines.
 
     Attributes:
-        name: of the engine, by which its rows are told from those of the others.
-        view: what of it a sheet shows.
+        result: Result.
+        name: Name of the engine, which distinguishes its rows from those of the others.
+        view: Parts that a sheet shows.
     """
 
     name: str

@@ -59,7 +59,12 @@ def _measure(grid: Grid, k: int) -> int:
 
 
 def column_texts(grid: Grid, k: int) -> list[str]:
-    """Everything that stands in a column."""
+    """Return all texts in a column, its head first.
+
+    Args:
+        grid: Table.
+        k: Number of the column, from 0.
+    """
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
@@ -77,7 +82,12 @@ def _justify(text: str, width: int, *, to_the_left: bool) -> str:
 
 
 def fold(text: str, width: int) -> list[str]:
-    """The text in lines of this width, broken between words, and in a word where it is longer."""
+    """Return a text in lines, broken between words, and within a word that is longer than a line.
+
+    Args:
+        text: Text on one line.
+        width: Largest width of a line.
+    """
     if count_places(text) <= width:
         return [text]
     lines = [""]

@@ -40,7 +40,7 @@ def terminal(sheets: list[Sheet]) -> str:
 
 
 def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
-    """What is printed of a part under its title."""
+    """Yield the content of a part, which stands under its title."""
     match part:
         case Grid():
             yield from _fitting(part, width)

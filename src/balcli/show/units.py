@@ -113,5 +113,10 @@ def unit_of_name(name: str) -> ShownUnit:
 
 
 def name_with_unit(name: str, unit: str) -> str:
-    """`operation.speed, rpm`: a column or an axis with its unit, if it has one."""
+    """Return the name of a column or axis with its unit, such as `operation.speed, rpm`.
+
+    Args:
+        name: Name.
+        unit: Unit; empty: none.
+    """
     return f"{name}, {unit}" if unit else name
