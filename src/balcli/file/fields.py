@@ -61,19 +61,33 @@ class WrittenFigure(float):
 
 
 def as_written(value: float, unit: str) -> str:
-    """Return a figure as its file has it; `unit` is that of a bare number."""
+    """Return a figure as its file has it.
+
+    Args:
+        value: Figure.
+        unit: Unit of a bare number.
+    """
     text = value.text if isinstance(value, WrittenFigure) else f"{value:g} {unit}"
     return printable(text.strip())
 
 
 def counted(count: int, what: str) -> str:
-    """Return a number with its noun: "1 place", "2 places"."""
+    """Return a number with its noun: "1 place", "2 places".
+
+    Args:
+        count: Number.
+        what: Noun in the singular.
+    """
     return f"{count} {what}{'s' * (count != 1)}"
 
 
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     """Return how many digits of crank radius / rod length are shown: more next to 1, where the
     crank locks.
+
+    Args:
+        ratio: Crank radius / rod length.
+        usual: Digits of a ratio that is not next to 1.
     """
     return usual if ratio < 0.999 else max(usual, 7)
 
@@ -100,7 +114,13 @@ def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 
 def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
-    """Return "did you mean ...?" for the known word that was probably meant, else `otherwise`."""
+    """Return "did you mean ...?" for the known word that was probably meant, else another text.
+
+    Args:
+        word: Unknown word.
+        known: Known words.
+        otherwise: Text if none of them is near.
+    """
     near = nearest(word, known)
     return f"did you mean {near}?" if near else otherwise
 

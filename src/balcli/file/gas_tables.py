@@ -103,8 +103,12 @@ class Gas(FileTable):
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
 
     def list_idle_keys(self, strokes: int, measured: bool, computed: bool) -> set[str]:
-        """Those of figures that change nothing of the gas in an engine of so many strokes;
-        `measured`, `computed`: whether a cylinder has a diagram, or a cycle.
+        """Return the keys of figures that change nothing of the gas in this engine.
+
+        Args:
+            strokes: 2 or 4.
+            measured: Whether a cylinder has a diagram.
+            computed: Whether a cylinder has a computed cycle.
         """
         idle: set[str] = set()
         if not computed:

@@ -365,6 +365,10 @@ class Slider(Device):
 def label_table(table: FileTable, number: int) -> str:
     """Return the word for a table of several in dotted names: its name, with `_` for spaces, if
     that is a word; else its number.
+
+    Args:
+        table: Table, which may have a name.
+        number: Number of the table, from 1.
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)

@@ -117,7 +117,13 @@ class TableReader:
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """Return the table with this path (empty: the file itself); None if it has mistakes."""
+        """Return a table; None if it has mistakes.
+
+        Args:
+            path: Path of the table; empty: the file itself.
+            value: Content of the table as TOML has it.
+            table: Keys that it may have.
+        """
         if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
             self.add(path, f"stands once, in single brackets: [{path}]")
             return None
@@ -173,7 +179,12 @@ class TableReader:
         return refuse(self.problems, name or self._file_kind.removeprefix("a "))
 
     def add(self, path: str, message: str) -> None:
-        """Collect a mistake."""
+        """Add a mistake.
+
+        Args:
+            path: Path of the key or table.
+            message: What is wrong, and what would be right.
+        """
         self.problems.append(Problem(path, message))
 
     def _translate(
@@ -207,7 +218,9 @@ def _is_miscounted(finding: ErrorDetails) -> bool:
 def _read_without(
     table: type[FileTable], value: Mapping[str, Any], broken: set[str]
 ) -> FileTable | None:
-    """Return `RefusedTable.draft`."""
+    """Return the table without its broken keys (`RefusedTable.draft`); None if others are broken
+    too.
+    """
     known = {key: part for key, part in value.items() if key not in broken}
     needed = [key for key, field in table.keys().items() if field.is_required()]
     examples = {key: document_keys(table)[key].example for key in needed}

@@ -181,8 +181,12 @@ def find_stiffness(shaft: ShaftKeys) -> float:
 
 
 def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
-    """Moment of inertia of a plain shaft of this density (g/cm3), kg m2; 0 without one, and of a
-    shaft given by its stiffness.
+    """Return the moment of inertia of a plain shaft, kg m2; 0 without a density, and for a shaft
+    given by its stiffness.
+
+    Args:
+        shaft: Table of the shaft.
+        density: Density of its steel, g/cm3.
     """
     length = (shaft.length or 0.0) / 1e3
     return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0

@@ -259,8 +259,11 @@ def convert(text: str, dimension: Dimension) -> float:
 
 
 def convert_exactly(text: str, dimension: Dimension) -> Fraction:
-    """Return the exact figure in the bare unit of a dimension; arguments and errors as of
-    `convert`.
+    """Return the exact figure in the bare unit of a dimension; errors as for `convert`.
+
+    Args:
+        text: Number, with or without a unit.
+        dimension: Dimension of the figure.
     """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")

@@ -187,13 +187,13 @@ def parse_only(text: str | None) -> list[str] | None:
 
 
 def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
-    """What `--only` of `analyze` asks to compute, and all words of it.
+    """Return the quantities that `--only` of `analyze` names, and all words of it.
 
     A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
-    are named beside it.
+    are named with it.
 
     Raises:
-        BalcliError: words that are none of these.
+        BalcliError: Words that are none of these.
     """
     words = parse_only(text)
     if words is None:
@@ -226,10 +226,14 @@ def parse_speed(text: str | None) -> float | None:
 
 
 def parse_guide_height(text: str | None, units: Units) -> float | None:
-    """The height of `--guide-height`, m.
+    """Return the height of `--guide-height`, m; None without it.
+
+    Args:
+        text: Value of the option.
+        units: System of units of a bare number.
 
     Raises:
-        BalcliError: unless it is positive and finite.
+        BalcliError: It is not positive and finite.
     """
     if text is None:
         return None

@@ -65,10 +65,20 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """Return what of a scheme is asked for, in SI.
+    """Return the options of a balancing scheme, in SI.
+
+    Args:
+        order: Order to balance; None: as the scheme has it.
+        at: Places of shafts, each as `x,y`.
+        position: Axial place of a device.
+        planes: Axial places of counterweights.
+        factor: Balance factors.
+        measured: Weight on the balancing machine.
+        roll: Roll that shafts balance.
+        units: System of units of bare numbers.
 
     Raises:
-        BalcliError: a text that cannot be read.
+        BalcliError: A text that cannot be read.
     """
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
@@ -85,8 +95,12 @@ def parse_scheme_options(
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
-    """Return the scheme asked for; without one `factor` where there is a factor, else the usual
-    one.
+    """Return the given scheme; without one, `factor` where a factor is given, else the usual one.
+
+    Args:
+        asked: Value of `--scheme`; None: not given.
+        options: Options of the scheme.
+        usual: Scheme without any of these.
     """
     if asked is not None:
         return asked
@@ -95,7 +109,12 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
 
 
 def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
-    """Return the scheme to show next to the engine as it is; None if none was asked for."""
+    """Return the scheme to show next to the engine as it is; None if none was given.
+
+    Args:
+        asked: Value of `--scheme`; None: not given.
+        options: Options of the scheme.
+    """
     if asked is None and options == SchemeOptions():
         return None
     return choose_scheme(asked, options)

@@ -37,7 +37,16 @@ _IMPERIAL_AND_SI = {
 
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
-    """A length in m; BalcliError with the option and its text."""
+    """Return a length, m; an error names the option and its text.
+
+    Args:
+        option: Name of the option, for messages.
+        text: Number, with or without a unit.
+        units: System of units of a bare number.
+
+    Raises:
+        BalcliError: It is no length.
+    """
     found = _read(option, text, LENGTH, units) / 1e3
     _doubt_metres(option, text, [_as_bare(text)])
     return found

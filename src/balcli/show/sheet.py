@@ -97,7 +97,7 @@ def number(value: float, digits: int | None = None) -> str:
 
     Args:
         value: Figure.
-        digits: Usual significant digits, in place of which those of `--digits` count; None: 6.
+        digits: Significant digits unless `--digits` asks for others; None: 5.
     """
     return _write(value, get_digits(digits or USUAL_DIGITS))
 
