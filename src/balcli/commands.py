@@ -120,7 +120,7 @@ def engines(
 
 
 def _list(found: list[examples.Example]) -> str:
-    """Each class under its name: an engine a line, with what it teaches."""
+    """List each class under its name: an engine a line, with its lesson."""
     width = max(map(len, examples.names()))
     parts = []
     for group, members in groupby(found, key=lambda example: example.group):

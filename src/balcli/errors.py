@@ -33,7 +33,7 @@ def say(text: str) -> None:
 
 
 class Loudness(IntEnum):
-    """How much balcli prints besides results and errors."""
+    """How much balcli prints in addition to results and errors."""
 
     QUIET = 0  # nothing
     USUAL = 1  # warnings; on a terminal, how far a long computation is
@@ -86,7 +86,7 @@ class Problem(NamedTuple):
 
     Attributes:
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
-        message: what is wrong there, and what would be right.
+        message: the mistake, and then the remedy.
         missing: paths of keys that are not there, without which it is a mistake; empty: of none.
         meant: path of the key that was probably meant by an unknown one, "" if none comes to mind;
             None: the key is known.
@@ -221,7 +221,7 @@ def wrong_type(function: str, value: object, wanted: str) -> TypeError:
 
     Args:
         function: Name of the function or argument.
-        value: Value that was given.
+        value: Rejected value.
         wanted: What would be right, in words.
     """
     try:

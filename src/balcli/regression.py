@@ -373,7 +373,7 @@ def _find_sizes(leaf: _Leaf) -> tuple[float, ...]:
 def _are_same_angles(
     key: str, old: _Leaf | None, new: _Leaf | None, order: str, allowed: float
 ) -> bool:
-    """Return whether two angles agree as far as the sizes of what they belong to decide it."""
+    """Return whether two angles agree as far as the sizes of their phasors decide it."""
     if old is None or new is None:
         return _differ_by_rounding(old, new, allowed)
     weights = [

@@ -57,13 +57,13 @@ DEFAULT_ORDERS = (1.0, 2.0)
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Whatever was not asked for is None.
+    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
 
     Attributes:
         engine: Engine as analyzed.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
         sizing: Devices of the scheme `auto`, and what is left with them.
         cylinders: Each cylinder alone, without devices.
@@ -124,9 +124,9 @@ class Analysis(Result):
     @property
     def of_one_cylinder(self) -> dict[str, float]:
         """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
-        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
-        them is small. The length is that between the outermost throws; of throws in one plane,
-        between the outermost cylinders (stagger), or else the stroke.
+        of the crank and its torque at the radius of the crank (N m), by kind, against which a value
+        is judged to be small. The length is that between the outermost throws; of throws in one
+        plane, between the outermost cylinders (stagger), or else the stroke.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
@@ -150,7 +150,7 @@ def shorten(analysis: Analysis) -> PeaksAndOrders:
 
 @dataclass(frozen=True)
 class Sizing:
-    """Devices of the scheme `auto`, and what is left with them.
+    """Devices of the scheme `auto`, and the forces left with them.
 
     Attributes:
         remedy: The devices.
@@ -188,7 +188,7 @@ def analyze(
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
             of too many cylinders; a height that is not above 0.
-        TypeError: what is no engine, no number, no words.
+        TypeError: an argument of another type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
@@ -285,7 +285,7 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
             f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
-            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
+            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are listed; give fewer orders"
         )
     own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))

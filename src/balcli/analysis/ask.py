@@ -85,7 +85,7 @@ def answer(
 def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
-    """Return what is found of an engine, and how it is shown."""
+    """Return the result for an engine, and how it is shown."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds  # for those who ask for several

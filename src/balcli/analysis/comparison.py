@@ -118,7 +118,7 @@ def compare_engines(
     only: Collection[str] | None = None,
     whole: bool = False,
 ) -> Comparison:
-    """The free forces and moments of several engines: the largest of each order, and peaks.
+    """Return the free forces and moments of several engines: the largest of each order, and peaks.
 
     Args:
         engines: without trailing axes, at least two.
@@ -126,7 +126,7 @@ def compare_engines(
         orders: default: all that `analyze` shows for one of them.
         only: as in `analyze`; of sizing, the peaks that are left with the devices; default: all
             but sizing, inner and guide, and gas where all engines have some.
-        whole: whether people are shown orders that are negligible, too; they are if orders are
+        whole: whether sheets show negligible orders; they do if orders are
             given.
 
     Raises:
@@ -380,8 +380,8 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Orders that are not small beside the largest or beside one cylinder's, and the peak; none if
-    all are 0. What is not known of one engine is told of low orders.
+    """Return the orders that are not small against the largest or against one cylinder's, and the
+    peak; none if all are 0. Low orders are kept where one engine's are not known.
     """
     largest = max((v for line in lines for v in _list_known(line)), default=0.0)
     return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
@@ -412,8 +412,7 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
 
 
 def _tell_negligible(line: Line) -> list[bool]:
-    """Return for each value whether it is 0, or small against that of one cylinder of its engine.
-    """
+    """Return whether each value is 0, or small against that of one cylinder of its engine."""
     single = line.single or (0.0,) * len(line.values)
     pairs = zip(line.values, single, strict=True)
     return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]

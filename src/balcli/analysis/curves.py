@@ -45,8 +45,8 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: What is taken because the engine file leaves it out: moments are those of throws in
-            one plane where it does not say where the throws stand.
+        assumed: Values taken because the engine file leaves them out: moments are those of throws
+            in one plane where it does not say where the throws stand.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -286,7 +286,7 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
 
     Args:
-        engine: as `load` makes it.
+        engine: Engine from `load`.
         step_deg: of the crank angle, which begins at 0; with gas it runs over the whole cycle.
         cylinder: number of the one whose piston's travel, speed, acceleration and rod angle are
             wanted, with its pressure if there is gas; default: the whole engine.

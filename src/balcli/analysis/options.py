@@ -1,4 +1,4 @@
-"""The options of `balcli analyze`, and what they ask for."""
+"""Options of `balcli analyze`, and the request that they make."""
 
 from __future__ import annotations
 

@@ -59,12 +59,12 @@ def order_tables(
     with_gas: bool = False,
     every: bool = False,
 ) -> Iterator[Grid]:
-    """A table of each vector, and one of what acts about z.
+    """Yield a table of each vector, and one of the torques about z.
 
     Args:
-        pivot: about what couple and roll are.
+        pivot: axis of couple and roll, in words.
         roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
-        with_gas: whether the engine has gas, beside which that of inertia alone is told as such.
+        with_gas: whether the engine has gas; the part of inertia is then labelled.
         every: also orders above 2 in which all is balanced.
     """
     for kind, phasors in spectra.vectors():
@@ -163,10 +163,13 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
 def peak_facts(
     result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
 ) -> Facts:
-    """The largest values over a revolution that were asked for.
+    """Return the largest values over a revolution that were computed.
 
     Args:
-        single: what one cylinder makes of each kind, beside which a peak may be negligible.
+        result: Result with peaks.
+        system: System of units.
+        title: Title of the block.
+        single: Size of each kind for one cylinder, against which a peak may be negligible.
     """
     pairs = []
     for kind, peak in result.peaks:

@@ -44,10 +44,12 @@ if TYPE_CHECKING:
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
-    """Orders to 2, and those of which one force or moment is not small beside one cylinder's.
+    """Return orders to 2, and those with a force or moment that is not small against one
+    cylinder's.
 
     Args:
-        single: what one cylinder makes of each kind; of a kind that is not in it, none is small.
+        spectra: Spectra to show.
+        single: Size of each kind for one cylinder; of a kind that is not in it, none is small.
     """
     return [
         float(order)
@@ -137,7 +139,7 @@ def sizing_in_brief(sizing: Sizing, system: System) -> Text:
     """Return one sentence on the devices that balance orders 1 and 2.
 
     Args:
-        sizing: Devices and what they leave.
+        sizing: Devices and the forces left with them.
         system: System of units.
     """
     known = sizing.after.moments_known
@@ -251,13 +253,13 @@ def verdict(
     steady: bool = True,
     devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
-    """A sentence for every order that matters; empty if neither forces nor moments were asked for.
+    """Return a sentence for every order that matters; none without forces and moments.
 
     Args:
-        single: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an
+        single: force (N) and moment (N m) of one cylinder's reciprocating mass, against which an
             order may be negligible.
-        steady: whether the speed is. If not, orders are told without what cancels them: most of an
-            order may be what the unevenness makes of another, and goes with that one.
+        steady: whether the speed is. If not, no cure is named: most of an order may come
+            from another one through the unevenness, and vanishes with that one.
         devices: Devices of the file, which are not named as what would cancel an order.
     """
     vectors = [
@@ -299,8 +301,8 @@ def _tell_low_order(
     steady: bool,
     devices: Sequence[Device],
 ) -> str:
-    """Return for order 1 or 2 what is there, which way it turns, and at steady speed what cancels
-    it; the roll couple where the moment is balanced.
+    """Return for order 1 or 2 its forces, the way they turn, and at steady speed the cure; the
+    roll couple where the moment is balanced.
     """
     there, balanced = [], []
     for vector in vectors:
@@ -321,7 +323,7 @@ def _tell_low_order(
 
 
 def _tell_balanced(names: list[str], couple: float, vectors: list[_Vector]) -> str:
-    """Return what is balanced, and the roll couple (N m) which remains about the crank axis."""
+    """Return the balanced quantities, and the roll couple (N m) that remains."""
     remains = f"; roll couple of {size_text(couple, vectors[-1].unit)}" if couple else ""
     return f"{' and '.join(names)} balanced{remains if 'moment' in names else ''}."
 

@@ -3,7 +3,7 @@
 For people a table a kind, a speed a row; for programs the analyses themselves. The sheet has
 external forces and moments by order, vertical and horizontal, guide-force moments and torque.
 Vertical is along x, horizontal along y. A vertical force makes the moment about the y axis that is
-called vertical, too: M1V is My of order 1, M1H its Mx.
+also called vertical: M1V is My of order 1, M1H its Mx.
 """
 
 from __future__ import annotations
@@ -227,8 +227,8 @@ def find_marine_sheet(
         orders: Orders; default: all that `analyze` shows of one of them at one of the speeds.
         guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
             rod's length.
-        every_order: Whether people are shown orders that are negligible, too; they are if orders
-            are given.
+        every_order: Whether sheets show negligible orders; they do if orders are
+            given.
 
     Raises:
         BalcliError: orders that are none or too high.

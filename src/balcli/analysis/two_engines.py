@@ -82,7 +82,7 @@ def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
 
 @dataclass(frozen=True)
 class Arrangement:
-    """How the second engine stands to the first, and what they drive.
+    """Arrangement of the second engine to the first, and the load of both.
 
     Attributes:
         phase_deg: crank angle by which it leads, in its own sense of rotation.
@@ -230,7 +230,7 @@ def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """Return an engine at another's speed; the unevenness is that of the other's crank angle.
+    """Return an engine at another's speed; its unevenness follows the other's crank angle.
 
     Args:
         engine: Engine whose speed is replaced.
@@ -251,7 +251,7 @@ def place_spectra(
 
     Args:
         own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
-            own crank angle; torques come out about z, too.
+            own crank angle; torques come out about z as well.
         reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
@@ -273,8 +273,8 @@ def place_spectra(
 
 
 def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
-    """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
-    changes its sign besides.
+    """In the mirror that changes the sign of y a vector becomes its conjugate, and a rotation
+    also changes its sign.
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
@@ -322,8 +322,8 @@ def combine(
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
 
     Args:
-        first: as `load` makes it; both run at its speed.
-        second: likewise.
+        first: Engine from `load`; both run at its speed.
+        second: Engine from `load`.
         phase_deg: crank angle by which the second engine leads, in its own sense of rotation; with
             gas in four strokes over two revolutions.
         at_m: x, y, z of its origin in the first one's axes, m.
@@ -339,7 +339,7 @@ def combine(
     Raises:
         BalcliError: something infinite or too far, an unknown load, or one that makes no
             difference.
-        TypeError: what is no engine, no number, no place.
+        TypeError: an argument of another type.
 
     Example:
         >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force

@@ -110,7 +110,7 @@ class Cylinders:
 
 
 class DeviceKind(IntEnum):
-    """Kind of a device. Devices are summed in this order, which is that of an engine file."""
+    """Kind of a device. Devices are summed in this order, as in an engine file."""
 
     COUNTERWEIGHT = 0
     SHAFT = 1
@@ -181,7 +181,7 @@ def _find_on_curve(c: Cylinders, linkage: Linkage) -> tuple[Array, Array, Array]
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Newton's method for the zeros of the pistons' velocity beside these angles (rad)."""
+    """Newton's method for the zeros of the pistons' velocity near these angles (rad)."""
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)
         psi = psi - (motion.velocity / motion.acceleration)[..., 0]

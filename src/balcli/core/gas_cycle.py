@@ -295,7 +295,7 @@ class _Cycle:
         return max(self.pressure, resolved(burning, breaks).extremes()[1].value)
 
     def find_heat(self, goal: Goal) -> float:
-        """Return the heat (J) with which the cycle has what is asked for."""
+        """Return the heat (J) with which the cycle reaches the goal."""
         name, value = goal
         lowest, highest = self.find_goal(name, self.least), math.inf
         if self.most < math.inf:

@@ -88,7 +88,7 @@ def solve(
 def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     """The unknowns that the readings cannot tell apart: columns that are combinations of others.
 
-    Columns count by their direction, whatever their size. A column of zeros is found, too. Empty
+    Columns count by their direction, whatever their size. A column of zeros is found as well. Empty
     where every unknown is determined.
 
     Args:

@@ -180,7 +180,7 @@ def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
     """Return a number, word, record, or list or dict of these, as JSON has it.
 
     Args:
-        value: What is written.
+        value: Value to write.
         split: Mark that splits one value into several keys; None: none.
     """
     if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here

@@ -15,7 +15,7 @@ SLUGS = {"tungsten": 17000.0, "mallory": 17000.0, "lead": 11340.0}
 
 
 def find_drill_depth(unbalance: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
+    """Return the depth of a radial hole from the rim (radius, m) inwards that removes this
     unbalance; nan if none is deep enough.
 
     `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.

@@ -160,7 +160,7 @@ def find_diagram_mistakes(
 def list_doubts(
     gas: Gas, path: str, name: str, columns: NumberColumns, found: PiecewiseCurve, imep: float
 ) -> Iterator[str]:
-    """Yield what is suspicious of a diagram, each with its path in the engine file.
+    """Yield suspicious figures of a diagram, each with its path in the engine file.
 
     Args:
         gas: The table of the file.

@@ -1,4 +1,4 @@
-"""Tables of numbers beside an engine file: columns with a heading, such as a measured diagram."""
+"""Tables of numbers next to an engine file: columns with a heading, such as a measured diagram."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
 
 
 class Head(NamedTuple):
-    """A wanted column: `usual` is its head as documents write it, `name` what others begin with.
+    """A wanted column.
 
     Attributes:
-        usual: such as torque_Nm.
-        dimension: of what stands below it; PLAIN: the head is `usual` alone.
-        others: heads that are named to a reader, too.
+        usual: its head as documents write it, such as torque_Nm; other heads begin with its name.
+        dimension: dimension of its numbers; PLAIN: the head is `usual` alone.
+        others: further heads that messages name.
     """
 
     usual: str
@@ -74,14 +74,14 @@ class NumberColumns(NamedTuple):
 
 
 def locate_beside(folder: Path, name: str) -> Path:
-    """Return the path of a file beside an engine file.
+    """Return the path of a file that an engine file names.
 
     Args:
-        folder: of the engine file, which the path may not leave.
+        folder: folder of the engine file, which the path may not leave.
         name: as the engine file has it.
 
     Raises:
-        BalcliError: it would, or no file can have that name.
+        BalcliError: the path leaves the folder, or no file can have that name.
     """
     try:
         home, place = folder.resolve(), (folder / name).resolve()

@@ -31,7 +31,7 @@ class Example(NamedTuple):
     Attributes:
         name: the short one, of its file.
         group: its class, which is its folder.
-        lesson: what it teaches, in a sentence.
+        lesson: its lesson, in a sentence.
         text: the whole file.
     """
 
@@ -88,7 +88,7 @@ def text(name: str) -> str:
     """Return the engine file of an example.
 
     Raises:
-        BalcliError: there is none of this name; with the nearest ones.
+        BalcliError: no example has this name; the error lists the nearest ones.
     """
     known = {path.stem: path for path in _paths()}
     if name not in known:
@@ -143,7 +143,7 @@ def template(kind: str) -> str:
     """Return the starting file of a kind as TOML text.
 
     Raises:
-        BalcliError: there is no such kind; with the nearest one and all of them.
+        BalcliError: no such kind; the error lists the nearest one and all of them.
     """
     if kind not in KINDS:
         near = nearest(kind, KINDS)

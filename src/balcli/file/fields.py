@@ -305,7 +305,7 @@ class Choice(NamedTuple):
     complete: bool | tuple[str, ...] = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        """Yield what is wrong with the given keys, in words that follow the name of the table."""
+        """Yield the mistakes in the given keys, in words that follow the name of the table."""
         begun = [[key for key in group if key in given] for group in self.groups]
         keys, missing = [key for some in begun for key in some], self.find_missing(given)
         if sum(map(bool, begun)) > 1:

@@ -1,5 +1,5 @@
 """Mistakes of an engine file in plain words: pydantic's findings translated, keys that no engine
-file has, and the kinds of files, told apart by the keys at their head.
+file has, and the kinds of files, which differ by the keys at their head.
 """
 
 from __future__ import annotations

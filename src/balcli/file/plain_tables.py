@@ -20,7 +20,7 @@ from .toml import name_file, parse_toml, read_bytes
 
 def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
     """Return tables of a user of Python as TOML has them: keys are text, arrays and tuples are
-    lists, numpy's numbers are Python's; what is None is left out.
+    lists, numpy's numbers are Python's; None is left out.
 
     Raises:
         InputError: a key that is no text or number; tables that hold themselves.
@@ -36,7 +36,7 @@ def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
 
 def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, Any], str]:
     """Return the tables of what a user of Python gives: a path ("-": standard input), the text of a
-    file, of several lines, or a dict; and the file's name, empty where there is none.
+    file, of several lines, or a dict; and the file's name, empty without a file.
 
     Args:
         function: that was given it, for messages.

@@ -183,7 +183,7 @@ class TableReader:
 
         Args:
             path: Path of the key or table.
-            message: What is wrong, and what would be right.
+            message: The mistake, and then the remedy.
         """
         self.problems.append(Problem(path, message))
 

@@ -44,7 +44,7 @@ def describe_file(
     an example.
 
     Args:
-        file: what they hold.
+        file: table that they hold.
         tables: those within it.
         name: that the schema's identifier ends in.
     """

@@ -83,7 +83,7 @@ class KeyDocument(NamedTuple):
 
     Attributes:
         description: what the key means.
-        example: a value that it may have; None: there is none.
+        example: a value that it may have; None: no example.
     """
 
     description: str = ""

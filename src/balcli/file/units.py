@@ -309,7 +309,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
 
 
 def _explain(figure: str) -> str:
-    """Return why a figure cannot be read, up to the words that say what is wanted."""
+    """Return why a figure cannot be read, up to the words that name the wanted unit."""
     if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
         return f'has "{strange[0]}" in Cyrillic letters, which is no unit; write it in Latin ones;'
     hint = ""

@@ -163,7 +163,7 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
-            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
+            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are listed; give fewer orders"
         )
 
 

@@ -311,7 +311,7 @@ def _is_balanced(spectra: Spectra, parts: Collection[str], row: int) -> bool:
 def _compare_with_textbook(
     book: Textbook, group: str, order: float, row: int
 ) -> tuple[float | None, float | None, str]:
-    """Return what is left of the reciprocating masses' force or moment, and of all, in the
+    """Return the remaining force or moment of the reciprocating masses, and of all masses, in the
     textbook's unit, and this unit.
     """
     force = book.units.size(KINDS[group], order) if group in ("force", "moment") else np.nan

@@ -1,4 +1,4 @@
-"""What a user of Python gives, as the rooms take it; what is wrong is told in words."""
+"""Arguments of public functions, checked and converted; errors describe the mistake in words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Engine files as commands read them: what is good is computed, what is bad is named."""
+"""Engine files as commands read them: good ones are computed, and bad ones are named."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ T = TypeVar("T")
 
 
 class LoadedEngine(NamedTuple):
-    """An engine file that has been read: its text, what it says, and the engine."""
+    """An engine file that has been read: its text, its model, and the engine."""
 
     text: bytes
     model: EngineFile

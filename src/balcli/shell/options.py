@@ -136,8 +136,8 @@ def parse_orders(text: str | None) -> list[float] | None:
 
 
 def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
-    """Orders and ranges of them with commas between: of a range that begins or ends with a half
-    halves, too.
+    """Orders and ranges of them with commas between; a range that begins or ends with a half has
+    halves.
 
     Args:
         right: what to give, for messages.

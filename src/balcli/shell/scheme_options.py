@@ -1,5 +1,5 @@
-"""What a balance scheme is asked for, wherever devices are fitted: `balance`, and all that shows an
-engine with them beside the engine as it is.
+"""Options of a balance scheme: for `balance`, and for commands that show an engine with and without
+devices.
 """
 
 from __future__ import annotations

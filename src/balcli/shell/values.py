@@ -58,7 +58,7 @@ def read_lengths(
     """Lengths with commas between them, in m.
 
     Args:
-        needed: what is wanted, for the message: `one place along z in mm, such as 40`.
+        needed: the wanted value, for the message: `one place along z in mm, such as 40`.
         count: how many there have to be; None: any number from one.
 
     Raises:
@@ -118,8 +118,7 @@ def as_bare_angles(option: str, text: str) -> str:
     """A range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no unit
     stays as it is.
 
-    Raises:
-        BalcliError: with the option and what is no angle.
+    Raises: BalcliError: It names the option and the text that is no angle.
     """
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
@@ -149,7 +148,7 @@ def doubt_thousands(option: str, text: str) -> None:
 
 
 def read_number(option: str, text: str, needed: str) -> float:
-    """A plain number; BalcliError with the option, its text and what is needed."""
+    """Return a plain number; BalcliError with the option, its text and the wanted value."""
     value = _as_bare(text)
     if value is None or not math.isfinite(value):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
@@ -163,7 +162,7 @@ def convert_speed(text: str) -> float:
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """A share, as a number or in per cent; BalcliError with option, text and what is needed."""
+    """Return a share, given as a number or in per cent; errors as of `read_number`."""
     number, percent, rest = text.strip().partition("%")
     value = _as_bare(number)
     if value is None or rest or not math.isfinite(value):

@@ -28,7 +28,7 @@ def speed_facts(engine: Engine) -> Facts:
 
 
 def tell_pivot(engine: Engine) -> str:
-    """About what couple and roll are told."""
+    """Axis of couple and roll, in words."""
     return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
 
 
@@ -73,7 +73,7 @@ def engine_facts(
 
 
 def _has_arm(device: Device) -> bool:
-    """Return whether a slider moves on a line beside the crank axis."""
+    """Return whether a slider moves on a line that misses the crank axis."""
     if device.kind != DeviceKind.SLIDER:
         return False
     along = device.place**2 * np.conj(device.forward * device.backward)  # positive: through it

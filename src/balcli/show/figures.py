@@ -214,7 +214,7 @@ def describe_state(engine: Engine) -> EngineState:
 
 
 def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] | None:
-    """Return what is taken because the engine file leaves it out; None: nothing.
+    """Return the values that are taken because the engine file leaves them out; None: no value.
 
     Args:
         known: Whether the file says where the throws stand.

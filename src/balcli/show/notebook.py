@@ -15,7 +15,7 @@ ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
 def show_engine(engine: Engine) -> str:
-    """Return an engine as a person reads it, in SI units, and what is doubtful of it."""
+    """Return an engine as a person reads it, in SI units, and its doubtful figures."""
     facts = engine_facts(engine, SI, higher=False, whole=False)
     return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
 

@@ -48,7 +48,7 @@ def _find_figure_class() -> type[Figure]:
     from matplotlib.figure import Figure
 
     class Picture(Figure):
-        """A figure without a window; files and notebooks show what is changed in it."""
+        """A figure without a window; files and notebooks show its changes."""
 
         def savefig(self, fname: Any, **kwargs: Any) -> None:
             """Write the figure, as `matplotlib.figure.Figure.savefig` does."""

@@ -51,7 +51,7 @@ class Grid(NamedTuple):
 
 
 class Facts(NamedTuple):
-    """Names and what they are."""
+    """Names and their values."""
 
     pairs: tuple[tuple[str, str], ...]
     title: str = ""

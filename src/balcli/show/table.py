@@ -105,7 +105,7 @@ def fold(text: str, width: int) -> list[str]:
 
 
 def _fact_lines(facts: Facts) -> Iterator[str]:
-    """Names to the left, what they are beside them."""
+    """Names to the left, their values to the right."""
     width = max((count_places(name) for name, _ in facts.pairs), default=0)
     for name, value in facts.pairs:
         yield _justify(name, width, to_the_left=True) + " " * FACTS_GAP + value

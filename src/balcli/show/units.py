@@ -108,7 +108,7 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """The unit of this name, which gives way to a larger one if it is that of force or moment."""
+    """Return the unit of this name; one of force or moment gives way to a larger one."""
     return next((unit for unit in (SI.force, SI.moment) if unit.name == name), ShownUnit(name, 1))
 
 
