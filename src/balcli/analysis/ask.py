@@ -70,7 +70,7 @@ def answer(
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
-    def find_one(path: str) -> tuple[str, str, Any]:
+    def find_one(path: str) -> tuple[str, str, object]:
         engine = read_engine(path, rpm, asked.words).engine
         return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
@@ -84,7 +84,7 @@ def answer(
 
 def _choose_result(
     asked: Request, for_people: bool
-) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
+) -> tuple[Callable[[Engine], object], Renderer[NamedResult[Any]]]:
     """Return the result for an engine, and how it is shown."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
@@ -100,7 +100,7 @@ def _choose_result(
         )
         return sheets, speeds.MARINE
 
-    def find_series(engine: Engine) -> Any:
+    def find_series(engine: Engine) -> object:
         ask = _ask(asked, engine, for_people)
         return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
 

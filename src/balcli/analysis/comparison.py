@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN
@@ -324,7 +324,7 @@ def rows(result: Comparison, system: System) -> Rows:
     return Rows(header, [_csv_line(line, system) for line in result.figures])
 
 
-def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
+def _csv_line(line: Line, system: System) -> tuple[object, ...]:
     unit = system.unit(line.kind)
     name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
     return name, line.order, unit.name, *map(unit.of, line.values)

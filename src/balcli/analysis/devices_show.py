@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..file.model import Counterweight, Shaft, Slider
 from ..show.sheet import UNKNOWN, Grid, degrees, given, number
@@ -187,7 +187,7 @@ def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, Device
         yield f"{kind} {numbers[kind]}", device
 
 
-def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
+def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, float | str, str]]:
     """Yield name, value and unit of every figure of a device, as an engine file has it.
 
     Args:

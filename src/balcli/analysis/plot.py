@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
-from ..show.plot_style import BLUE, GREEN, RED, SOFT, put_legend_above
+from ..show.plot_style import BLUE, GREEN, RED, SOFT, Look, put_legend_above
 from ..show.sheet import VISIBLE, number, order_name, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import FactorPeaks
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 _LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
-_DASHED: Any = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
+_DASHED: Look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
 
 
 def draw_vector_bars(
@@ -42,7 +42,7 @@ def draw_vector_bars(
     against = np.abs(curve.backward[shown]) / s.size
     places = np.arange(len(shown))
     if before is not None:
-        look: Any = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
+        look: Look = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
         ax.bar(places, before.major[shown] / s.size, 0.72, label="before", **look)
     ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
     upper = ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
@@ -179,7 +179,7 @@ def draw_along(
     unit = system.force if what == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
     s = unit.fit(float(max(map(np.max, values))))
-    now: Any = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
+    now: Look = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
     labels = ("after", "before") if len(curves) > 1 else (f"largest over {over}",)
     for curve, sizes, look, label in zip(curves, values, (now, _DASHED), labels, strict=False):
         z = curve.z_m / system.length.size

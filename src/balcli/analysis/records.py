@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 from ..core.cylinders import Travel
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Reached, WrittenAs
+from ..core.records import INLINE, Node, Reached, WrittenAs
 from ..file import model
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
 from ..forces.guide import GuideMoments
@@ -382,7 +382,7 @@ def describe_devices(remedy: Remedy) -> Devices:
     )
 
 
-def _list_fields(device: DeviceTable) -> dict[str, Any]:
+def _list_fields(device: DeviceTable) -> Node:
     return {KEYS[field]: find_value(device, field) for field in FIELDS[type(device)]}
 
 

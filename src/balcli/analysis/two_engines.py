@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 import numpy as np
 
@@ -417,7 +417,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
         yield "reference", "moments are not known: crank.spacing is missing"
 
 
-def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
+def _tell_place(point: Iterable[Figure], unit: ShownUnit) -> str:
     return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
+Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 Side: TypeAlias = tuple[Array | Complex, Complex]  # a factor and a vector
 

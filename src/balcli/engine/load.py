@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
+from ..core.records import Node
 from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
 from ..file.examples import text
@@ -22,7 +23,7 @@ from .parse import parse, parse_dict, parse_tables
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
 
-def load(source: str | Path | Mapping[str, Any]) -> Engine:
+def load(source: str | Path | Mapping[str, object]) -> Engine:
     """Return the engine that a file, a text or a dict describes.
 
     Args:
@@ -42,7 +43,7 @@ def load(source: str | Path | Mapping[str, Any]) -> Engine:
     return build_tables(*take_tables("load", source, _WANTED))
 
 
-def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
+def build_tables(tables: Mapping[str, object], name: str) -> Engine:
     """Return the engine that the tables of a file describe.
 
     Args:
@@ -91,10 +92,10 @@ def load_example(name: str) -> Engine:
 
 
 # ------------------------------------------------------------------ variants of an engine
-_NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+_NO_FIRING_ORDER: Node = {"layout.firing_order": None, "layout.firing_intervals": None}
 
 
-def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
+def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
     """Return the engine of the same file with other values of some keys; errors as for
     `Engine.vary`.
 
@@ -108,7 +109,7 @@ def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     model = take_model(engine)
     name = f"{engine.name or 'engine'} with {', '.join(changes)}"
 
-    def build_with(changes: Mapping[str, Any]) -> Engine:
+    def build_with(changes: Mapping[str, object]) -> Engine:
         with naming_file(name):
             return build(parse_dict(change_tables(model, changes), model.folder))
 

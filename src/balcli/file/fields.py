@@ -9,12 +9,14 @@ import math
 import re
 import sys
 from collections.abc import Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from ..core.records import Node
 from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
     from pydantic_core import CoreSchema
 
 
@@ -131,15 +133,19 @@ class _Field:
     def read(self, value: object) -> object:
         raise NotImplementedError
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         raise NotImplementedError
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
         from pydantic_core import core_schema
 
         return core_schema.no_info_plain_validator_function(self.read)
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Any) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
         return self.json()
 
 
@@ -193,7 +199,7 @@ class Number(_Field):
             return f"more than {self.most:g}", f"up to {self.most:g}"
         return None
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         bounds = {
             "exclusiveMinimum": self.above,
             "minimum": self.least,
@@ -230,7 +236,7 @@ class Whole(_Field):
             raise ValueError(f"{shorten(value)} is out of range; {wanted}")
         return int(number) if number % 1 == 0 else number
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         kind = {"type": "number", "multipleOf": 0.5} if self.halves else {"type": "integer"}
         limits = {"minimum": self.least, "maximum": self.most}
         return kind | limits | ({} if self.zero else {"not": {"const": 0}})
@@ -246,7 +252,7 @@ class Flag(_Field):
             )
         return value
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"type": "boolean"}
 
 
@@ -264,7 +270,7 @@ class OneOf(_Field):
         hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
         raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"enum": list(self.options)}
 
 
@@ -280,7 +286,7 @@ class Label(_Field):
             raise ValueError(f"{shorten(value)} is no {self.kind}; {self.wanted}")
         return str(value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"type": "string", "minLength": 1, "maxLength": self.most}
 
 

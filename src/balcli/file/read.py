@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from ..core.records import Node
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
 from ..names import CHAPTER_LISTS
@@ -188,7 +189,7 @@ class TableReader:
         self.problems.append(Problem(path, message))
 
     def _translate(
-        self, path: str, table: type[FileTable], value: Mapping[str, Any], error: ValidationError
+        self, path: str, table: type[FileTable], value: Mapping[str, object], error: ValidationError
     ) -> None:
         """Collect what the keys say against each other, as far as they can be read, and pydantic's
         findings in them.
@@ -216,7 +217,7 @@ def _is_miscounted(finding: ErrorDetails) -> bool:
 
 
 def _read_without(
-    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+    table: type[FileTable], value: Mapping[str, object], broken: set[str]
 ) -> FileTable | None:
     """Return the table without its broken keys (`RefusedTable.draft`); None if others are broken
     too.
@@ -235,7 +236,7 @@ def _read_without(
 def _find_conflicts(
     path: str,
     table: type[FileTable],
-    value: Mapping[str, Any],
+    value: Mapping[str, object],
     broken: set[str],
     draft: FileTable | None,
 ) -> Iterator[Problem]:
@@ -291,7 +292,7 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
 
 
 def check_tables(
-    data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
+    data: Mapping[str, object], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
     """Return the readable part of the tables of a file; pydantic compiles only tables that are
     there.
@@ -320,7 +321,7 @@ def check_tables(
     return _draft(reader, parts, folder)
 
 
-def _read_part(reader: TableReader, key: str, value: object) -> Any:
+def _read_part(reader: TableReader, key: str, value: object) -> object:
     """Return what stands under a key at the head of the file; None: it has mistakes."""
     if key in TEXTS:
         return _read_text(reader, key, value)
@@ -354,7 +355,7 @@ def change_figures(
     return model.model_copy(update=changed)
 
 
-def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:
+def _refuse_strangers(reader: TableReader, data: Mapping[str, object]) -> None:
     """Refuse keys of the file itself that no engine file has. Of a table such as `[engine]`, which
     is like none that there is, each of its keys: they have their places elsewhere.
     """
@@ -369,7 +370,7 @@ def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:
                 reader.refuse_key(printable(key), inner, None, value)
 
 
-def _draft(reader: TableReader, parts: dict[str, Any], folder: Path) -> Draft:
+def _draft(reader: TableReader, parts: Node, folder: Path) -> Draft:
     """Return what was read, from the parts of the file by their keys."""
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {key for key, part in parts.items() if part is None}

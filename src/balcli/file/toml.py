@@ -8,8 +8,8 @@ import re
 import sys
 import tomllib
 from pathlib import Path
-from typing import Any
 
+from ..core.records import Node
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 from .examples import is_example
@@ -80,7 +80,7 @@ def name_file(source: str | Path) -> str:
     return "standard input" if str(source) == "-" else str(source)
 
 
-def parse_toml(text: str | bytes, file: str) -> dict[str, Any]:
+def parse_toml(text: str | bytes, file: str) -> Node:
     """Return TOML as nested dicts.
 
     Args:
@@ -128,7 +128,7 @@ def _find_format(text: str) -> str:
     return "a table of columns (CSV)" if parted else "a file of another program"
 
 
-def _load_toml(text: str | bytes) -> dict[str, Any]:
+def _load_toml(text: str | bytes) -> Node:
     """Return the text as nested dicts, unless tomllib would take too much memory for it.
 
     Raises:

@@ -4,10 +4,11 @@ between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
+from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
 from .fields import RIGID, Number, OneOf, as_written, counted, shorten
 from .table import FileTable, GivenInertia, Name, Size
@@ -34,7 +35,7 @@ class _Stiffness(Number):
     def read(self, value: object) -> float:
         return math.inf if value == RIGID else super().read(value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"anyOf": [super().json(), {"const": RIGID}], "unit": TORSIONAL_STIFFNESS.unit}
 
 
@@ -227,7 +228,7 @@ class _EachOrAll(Number):
             )
         return tuple(super(_EachOrAll, self).read(each) for each in value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         items = {"type": "array", "items": super().json(), "minItems": 1}
         return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
 

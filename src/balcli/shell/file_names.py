@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import typer
 
@@ -105,7 +105,7 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
     return target
 
 
-def format_option(formats: type[StrEnum], text: str) -> Any:
+def format_option(formats: type[StrEnum], text: str) -> object:
     """Declare an option `--format`, `-f` for these formats, by name or by ending, in any case.
 
     Args:

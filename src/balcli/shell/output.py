@@ -8,8 +8,9 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO, TypeVar
+from typing import TYPE_CHECKING, TextIO, TypeVar
 
+from ..core.records import Node
 from ..errors import BalcliError, tell_unwritable
 from ..file.toml import parse_toml, read_bytes
 from ..files import replacing
@@ -231,7 +232,7 @@ def _list_named_files(source: Path) -> list[Path]:
         return []
 
 
-def _list_names(data: dict[str, Any]) -> Iterator[str]:
+def _list_names(data: Node) -> Iterator[str]:
     """Yield the file names in an engine file's tables."""
     for table in (data.get("gas", {}), *data.get("cylinder", {}).values()):
         yield from (table[key] for key in ("indicator", "harmonics") if key in table)

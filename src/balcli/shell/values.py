@@ -202,7 +202,7 @@ def _shown(option: str, text: str) -> str:
     return f'{option} "{text[:LONGEST_SHOWN]}"'
 
 
-def optional(metavar: str, text: str, *names: str, **more: Any) -> Any:
+def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
     """An option that says nothing of a default, as it is left out unless it is asked for.
 
     Args:

@@ -54,7 +54,7 @@ def name_cell(name: str) -> str:
     return f"'{name}" if name.startswith(FORMULA) else name
 
 
-def _cell(value: Any) -> str:
+def _cell(value: object) -> str:
     """A cell, between quotes where any program might part it."""
     if value is None:
         return ""
@@ -64,7 +64,7 @@ def _cell(value: Any) -> str:
     return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
 
 
-def json_text(document: Any) -> str:
+def json_text(document: object) -> str:
     """One document on one line; ValueError for a nan or infinity in it, a fault of ours."""
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 

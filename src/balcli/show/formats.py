@@ -50,7 +50,7 @@ class Columnar(Generic[Shown]):
         columns: Makes the columns of DataFrames; None: those of the rows of CSV.
     """
 
-    document: Callable[[Shown], Any] = to_document
+    document: Callable[[Shown], object] = to_document
     columns: Callable[[Shown], Columns] | None = None
 
 

@@ -15,7 +15,7 @@ from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from unicodedata import east_asian_width
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 Form = Literal["svg", "png", "pdf"]
+Look: TypeAlias = dict[str, Any]  # arguments of matplotlib
 
 # Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
 # hatches distinguish the curves in black and white.
@@ -38,7 +39,7 @@ _LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
 _EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
-_UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
+_UNDATED: dict[Form, Look] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 _one_at_a_time = RLock()
 
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.records import Node
 from ..errors import BalcliError
 from ..files import replacing
 from ..names import RENDERERS, import_name
@@ -52,11 +53,11 @@ class Result:
             return html_text(renderer.sheet(self, SI), self.doubts)
         return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> Node:
         """The document that the command writes as JSON (docs/json.md): its keys name SI units."""
         return describe(self)
 
-    def rows(self) -> list[dict[str, Any]]:
+    def rows(self) -> list[Node]:
         """One dict a row, all with the same keys: a DataFrame of any library takes them as they
         are. What has no value is None.
         """
@@ -82,17 +83,15 @@ class Result:
 
 def find_renderer(result: Result) -> Columnar[Any]:
     """Return what shows an answer."""
-    renderer: Columnar[Any] = import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
-    return renderer
+    return import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
 
 
-def describe(result: Result) -> dict[str, Any]:
+def describe(result: Result) -> Node:
     """The JSON document of an answer."""
-    found: dict[str, Any] = stamp(find_renderer(result).document(result))
-    return found
+    return stamp(find_renderer(result).document(result))
 
 
-def list_rows(result: Result) -> list[dict[str, Any]]:
+def list_rows(result: Result) -> list[Node]:
     """One dict a row."""
     found = list_columns(result).values
     lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
@@ -100,7 +99,7 @@ def list_rows(result: Result) -> list[dict[str, Any]]:
     return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
 
 
-def _none_for_nan(value: Any) -> Any:
+def _none_for_nan(value: object) -> object:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
@@ -143,12 +142,12 @@ def _read_columns(rows: Rows) -> Columns:
     return Columns(values)
 
 
-def _number(cell: Any) -> float | None:
+def _number(cell: object) -> float | None:
     """A cell as a number; None if it is none."""
     return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
 
 
-def _word(cell: Any) -> str | None:
+def _word(cell: object) -> str | None:
     """A cell as text; None for a number, and where nothing is said."""
     if isinstance(cell, bool):
         return str(cell).lower()
@@ -156,7 +155,7 @@ def _word(cell: Any) -> str | None:
 
 
 # ------------------------------------------------------------------ other libraries
-def make_frame(result: Result) -> Any:
+def make_frame(result: Result) -> pandas.DataFrame:
     """A DataFrame of pandas."""
     try:
         import pandas

@@ -28,12 +28,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import EPS, Array, Complex, Figure, compose, unit
+from ..phasors import EPS, Array, Complex, Figure, Numbers, compose, unit
 from .closed_form import Harmonics, Rows
 from .harmonics import Distinct, Sampled, count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
@@ -67,7 +67,7 @@ class Linkage(ABC):
         """
 
     @abstractmethod
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         """Mechanisms in motion.
 
         Args:
@@ -172,7 +172,7 @@ class Articulated(Linkage):
         each = [np.broadcast_to(a, (len(self.master), *a.shape[1:])) for a in (lam, eps)]
         return *each, self.knuckle, self.lead_deg, *(a[self.master] for a in each)
 
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         return hang(psi, *figures)
 
     def bound_lean(self, lam: Array, eps: Array) -> Array:
@@ -248,7 +248,7 @@ class Rotary(Linkage):
             return lam, eps
         return *self.hung.figures(lam, eps), self.on_knuckle
 
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         lam, eps, *hung = figures
         if not hung:
             return TurningMotion(psi, SliderCrank(psi, lam, eps), eps / lam)
