@@ -17,7 +17,6 @@ from ..show.csv import Rows, name_cell
 from ..show.formats import Format, Renderer, Units, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
-from . import show as chapter
 from .answer import Analysis, analyze, list_usual_quantities
 
 if TYPE_CHECKING:
@@ -31,6 +30,8 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
         one: Analysis with the engine's name.
         system: System of units.
     """
+    from . import show as chapter  # JSON has no sheets
+
     return chapter.sheet(one.result, system, one.view)
 
 
@@ -41,6 +42,8 @@ def rows(one: NamedResult[Analysis], system: System) -> Rows:
         one: Analysis with the engine's name.
         system: System of units.
     """
+    from . import show as chapter
+
     devices = "sizing" in one.view.parts
     header, lines = chapter.rows(one.result, system, devices=devices)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))

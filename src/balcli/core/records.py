@@ -1,9 +1,10 @@
-"""Records: a figure of a result is declared once, as an attribute of a frozen dataclass.
+"""Records: a figure of a result is declared once, as an attribute of a record.
 
-A result is a tree of dataclasses, and all that programs read derives from their attributes. The
-name of an attribute is its key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the
-name is its unit, the annotation is its type, the line in `Attributes:` of the docstring is its
-description in the JSON Schema.
+A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
+records, and all that programs read derives from their attributes. The name of an attribute is its
+key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the name is its unit, the
+annotation is its type, the line in `Attributes:` of the docstring is its description in the JSON
+Schema.
 
     to_document(record)       the JSON object
     list_figures(document)    one figure a number, for the lines of CSV
@@ -137,15 +138,23 @@ class _Attribute(NamedTuple):
 def _list_attributes(record: type) -> tuple[_Attribute, ...]:
     """Return the attributes that documents show, in their order."""
     hints = get_type_hints(record, include_extras=True)
-    found = ((each, hints[each.name], _find_marks(hints[each.name])) for each in fields(record))
-    return tuple(
-        _read_marks(each.name, kind, each.default is None, marks)
-        for each, kind, marks in found
-        if HIDDEN not in marks
-    )
+    found = ((*each, hints[each[0]], _find_marks(hints[each[0]])) for each in _list_names(record))
+    return tuple(_read_marks(*each) for each in found if HIDDEN not in each[3])
 
 
-def _read_marks(name: str, kind: Any, optional: bool, marks: tuple[Any, ...]) -> _Attribute:
+def _is_record(value: object) -> bool:
+    return is_dataclass(value) or hasattr(value, "_fields")
+
+
+def _list_names(record: type) -> list[tuple[str, bool]]:
+    """Return the names of all attributes, and whether each is optional."""
+    if is_dataclass(record):
+        return [(each.name, each.default is None) for each in fields(record)]
+    defaults = record._field_defaults  # type: ignore[attr-defined]
+    return [(name, defaults.get(name, "") is None) for name in record._fields]  # type: ignore[attr-defined]
+
+
+def _read_marks(name: str, optional: bool, kind: Any, marks: tuple[Any, ...]) -> _Attribute:
     split = next((mark for mark in marks if isinstance(mark, (Polar, Reached))), None)
     axes = next((mark.number for mark in marks if isinstance(mark, Axes)), 1)
     make, key = next((mark for mark in marks if isinstance(mark, WrittenAs)), (None, ""))
@@ -163,7 +172,7 @@ def to_document(record: Any) -> Node:
     """Return the JSON object of a record.
 
     Args:
-        record: Instance of a dataclass whose attributes are numbers, words, arrays, records, or
+        record: Record whose attributes are numbers, words, arrays, records, or
             lists and dicts of these.
     """
     document: Node = {}
@@ -193,7 +202,7 @@ def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
         return {key: write_each(item, split) for key, item in value.items()}
     if split is not None and value is not None:
         return split.split(value)
-    if is_dataclass(value):
+    if _is_record(value):
         return to_document(value)
     return [value.real + 0.0, value.imag + 0.0] if isinstance(value, complex) else value
 
@@ -311,11 +320,11 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     if each.split is not None and kind is not NoneType:
         properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
-    if is_dataclass(kind):
-        name = kind.__name__  # type: ignore[union-attr]
+    if _is_record(kind):
+        name = kind.__name__
         if name not in definitions:
             definitions[name] = {}  # stands there while its attributes are described
-            definitions[name] = _describe_class(kind, definitions)  # type: ignore[arg-type]
+            definitions[name] = _describe_class(kind, definitions)
         return {"$ref": f"#/$defs/{name}"}
     if kind is Any:
         return {}

@@ -15,7 +15,6 @@ shaft and block is that of inertia alone, with the block's own devices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -44,8 +43,7 @@ from .spectrum import (
 )
 
 
-@dataclass(frozen=True)
-class AlongCrank:
+class AlongCrank(NamedTuple):
     """A force or moment at several places along the crank.
 
     Attributes:
@@ -64,7 +62,7 @@ class AlongCrank:
 
     def select_orders(self, orders: Array) -> AlongCrank:
         """Return the force or moment with these orders; peaks remain those of all orders."""
-        return replace(self, phasors=self.phasors.select_orders(orders))
+        return self._replace(phasors=self.phasors.select_orders(orders))
 
     @property
     def largest(self) -> int:
@@ -72,8 +70,7 @@ class AlongCrank:
         return int(find_first_largest([peak.value for peak in self.peaks]))
 
 
-@dataclass(frozen=True)
-class InnerLoads:
+class InnerLoads(NamedTuple):
     """Shear force (N) and bending moment (N m) just behind each load, and inertia loads of the main
     bearings (N).
 
@@ -94,8 +91,7 @@ class InnerLoads:
     obstacle: str = ""
 
 
-@dataclass(frozen=True)
-class CrankLoads:
+class CrankLoads(NamedTuple):
     """Largest inertia loads within a crankshaft with throws in several planes.
 
     Attributes:
@@ -265,10 +261,10 @@ def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None
         place_main_bearings(engine)
         compute_rod_forces(engine, np.zeros(1))
     except BearingsUnknownError as error:
-        return replace(inner, obstacle=error.reason)
+        return inner._replace(obstacle=error.reason)
     except BalcliError as error:
-        return replace(inner, obstacle=str(error))
-    return replace(inner, with_gas=compute_loads_with_gas(engine, orders))
+        return inner._replace(obstacle=str(error))
+    return inner._replace(with_gas=compute_loads_with_gas(engine, orders))
 
 
 def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> LoadsWithGas:

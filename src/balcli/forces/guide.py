@@ -5,8 +5,9 @@ quantities of variants: `guide.6.H`, `guide.4.5.X`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +29,7 @@ from .spectrum import (
 )
 
 
-@dataclass(frozen=True)
-class GuideMoments:
+class GuideMoments(NamedTuple):
     """Sums of the cylinders' roll moments, N m, by order.
 
     Attributes:

@@ -17,7 +17,7 @@ layout balances it. The speed is a common factor of all forces and needs no test
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, cast
@@ -167,8 +167,7 @@ _SEED = 1
 _EVEN = 1e-11  # of a cycle, by which intervals that are equal may differ
 
 
-@dataclass(frozen=True)
-class Reason:
+class Reason(NamedTuple):
     """Whether one order of a group of kinds is balanced, and how.
 
     Attributes:
@@ -218,8 +217,7 @@ class Reason:
         return f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
 
 
-@dataclass(frozen=True)
-class Symmetry:
+class Symmetry(NamedTuple):
     """Whether each order of each group of kinds is balanced, and how.
 
     Attributes:

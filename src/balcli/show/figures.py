@@ -22,8 +22,7 @@ from .sheet import order_number
 from .units import ShownUnit, System
 
 
-@dataclass(frozen=True)
-class Component:
+class Component(NamedTuple):
     """One order along an axis: amplitude * cos(order * angle - phase).
 
     Attributes:
@@ -35,8 +34,7 @@ class Component:
     phase_deg: float
 
 
-@dataclass(frozen=True)
-class Vector:
+class Vector(NamedTuple):
     """One order of a force or moment: F = forward e^(i order angle) + backward e^(-i order angle),
     whose tip runs round an ellipse.
 
@@ -61,8 +59,7 @@ class Vector:
     balanced: bool
 
 
-@dataclass(frozen=True)
-class Harmonic:
+class Harmonic(NamedTuple):
     """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
 
     Attributes:
@@ -107,8 +104,7 @@ class OrderFigures:
     roll_total_Nm: Harmonic | None = None
 
 
-@dataclass(frozen=True)
-class Peaks:
+class Peaks(NamedTuple):
     """Largest values over a revolution, all orders together, and the first crank angles at which
     they are reached.
 
@@ -125,8 +121,7 @@ class Peaks:
         return [(FORCE, self.force), (MOMENT, self.moment)]
 
 
-@dataclass(frozen=True)
-class EngineSize:
+class EngineSize(NamedTuple):
     """An engine.
 
     Attributes:
@@ -140,8 +135,7 @@ class EngineSize:
     displacement_m3: float
 
 
-@dataclass(frozen=True)
-class EngineName:
+class EngineName(NamedTuple):
     """An engine by its name.
 
     Attributes:
