@@ -147,8 +147,8 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
     ends = [end for end in ENDS if end in place.rod.given]
     if len(ends) == 1:
         path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
-        beside = f"rod_{missing}" if path.startswith("cylinder") else missing
-        yield Problem(path, f"needs {beside} beside it: weigh the rod at both ends")
+        other = f"rod_{missing}" if path.startswith("cylinder") else missing
+        yield Problem(path, f"needs {other} as well: weigh the rod at both ends")
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:

@@ -89,8 +89,8 @@ def locate_beside(folder: Path, name: str) -> Path:
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(
-            f"{shorten(name)} lies outside the folder of the engine file; put it beside that file, "
-            "or into a folder below it"
+            f"{shorten(name)} lies outside the folder of the engine file; put it next to that "
+            "file, or in a folder below it"
         )
     return folder / name
 

@@ -158,7 +158,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
-        yield "[flywheel] counts for `torque`, not for `torsion`; write it as [[torsion.rear]], too"
+        yield "[flywheel] counts for `torque`, not for `torsion`; also write it as [[torsion.rear]]"
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:

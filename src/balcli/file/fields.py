@@ -167,23 +167,27 @@ class Number(_Field):
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
-        shown = shorten(value)
         if self.word and value == self.word:
             return WrittenFigure(math.nan, self.word)
+        try:
+            number = self._measure(value)
+        except ValueError as error:
+            raise ValueError(f"{shorten(value)} {error}") from None
+        return WrittenFigure(number, value) if isinstance(value, str) else number
+
+    def _measure(self, value: object) -> float:
+        """Return a figure in the unit of the file; ValueError says why it is none."""
         if isinstance(value, str):
-            try:
-                number = convert(value, self.dimension)
-            except ValueError as error:
-                raise ValueError(f"{shown} {error}") from None
+            number = convert(value, self.dimension)
         elif isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{shown} is not a number; {wanted(self.dimension)}")
+            raise ValueError(f"is not a number; {wanted(self.dimension)}")
         else:
             number = math.inf if abs(value) > sys.float_info.max else float(value)
         if not math.isfinite(number):
-            raise ValueError(f"{shown} is no finite number; {wanted(self.dimension)}")
+            raise ValueError(f"is no finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
-            raise ValueError(f"{shown} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
-        return WrittenFigure(number, value) if isinstance(value, str) else number
+            raise ValueError(f"is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
+        return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
         """Return how a number is out of bounds, and its bounds; None if it is within."""
@@ -243,7 +247,7 @@ class Whole(_Field):
 
 
 class Flag(_Field):
-    """true or false."""
+    """A switch: true or false."""
 
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
@@ -275,7 +279,7 @@ class OneOf(_Field):
 
 
 class Label(_Field):
-    """A short name."""
+    """A name, of limited length."""
 
     most, kind = LONGEST_NAME, "name"
     wanted = f"use up to {LONGEST_NAME} letters, digits and signs, in quotes"

@@ -55,7 +55,7 @@ _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
 
 class Body(FileTable):
-    """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
+    """The body on the mounts: the engine with its gearbox, as one rigid body."""
 
     mass: Annotated[float, Number(MASS, above=0, most=1e12)]
     """Of the whole. Example: 163.9"""
@@ -68,8 +68,8 @@ class Body(FileTable):
     gravity: Direction = (-1.0, 0.0, 0.0)
     """Direction of the weight, of any length. Example: [-1, 0, 0]"""
     carries_load: Switch = False
-    """What takes the engine's torque stands on the body, too, such as the generator of a genset:
-    at rest no mount feels its mean. Example: true"""
+    """The load that takes the engine's torque also stands on the body, such as the generator of a
+    genset: at rest no mount feels its mean. Example: true"""
 
     def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):

@@ -68,7 +68,7 @@ STEEL = 7.85  # g/cm3
 
 
 class ShaftKeys(FileTable):
-    """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
+    """Keys of a shaft: its stiffness, or the steel that makes it; its section gives stress."""
 
     stiffness: Stiffness | None = None
     """Torsional stiffness in the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
@@ -152,7 +152,7 @@ class Damper(FileTable):
 
 
 class NodeKeys(FileTable):
-    """What a node is like: its name, its inertia, and its damper."""
+    """Keys of a node: its name, its inertia, and its damper."""
 
     name: Name
     """What to call it; each its own. Example: 'flywheel'"""
@@ -163,7 +163,7 @@ class NodeKeys(FileTable):
 
 
 class ChainKeys(FileTable):
-    """What holds for a whole chain: the loss of its shafts, and limits."""
+    """Keys of a whole chain: the loss of its shafts, and limits."""
 
     loss: Loss = 0.0
     """Loss factor of every shaft that names none. Example: 0.035"""
@@ -234,15 +234,15 @@ class _EachOrAll(Number):
 
 
 class Part(ShaftKeys, NodeKeys):
-    """What turns with the crankshaft before or behind its throws, and the shaft that leads to
-    it from the throws.
+    """A part that turns with the crankshaft before or behind its throws, and the shaft that leads
+    to it from the throws.
     """
 
     gear: Annotated[float, SpeedRatio()] | None = None
-    """Speed over that of the crank; left out: as fast as what it hangs on. The mesh sits there,
-    and the shaft turns with this part. Example: 0.5"""
+    """Speed over that of the crank; left out: the speed of the part it hangs on. The mesh sits
+    there, and the shaft turns with this part. Example: 0.5"""
     of: Name | None = None
-    """What it hangs on, a part or throw 1, throw 2, ...; left out: the part before it in the
+    """The part it hangs on, or throw 1, throw 2, ...; left out: the part before it in the
     list, the first on the nearest throw. Example: 'throw 1'"""
     node_damping: Damping = 0.0
     """Of the part against ground, as water damps a propeller. Example: 5"""

@@ -183,7 +183,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
             )
         if any(_is_same_file(target, other) for other in done):
             raise BalcliError(
-                f"{option} {target}: another result goes there, too; choose another name"
+                f"{option} {target}: another result goes there as well; choose another name"
             )
         done.append(target)
         try:
