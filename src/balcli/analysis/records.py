@@ -2,8 +2,6 @@
 moments, strokes, and the devices of the scheme `auto`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple

@@ -37,8 +37,6 @@ Example::
     to_document(Weight(force=3j))      # {"force_N": 3.0, "angle_deg": 90.0}
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
@@ -142,10 +140,6 @@ def _list_attributes(record: type) -> tuple[_Attribute, ...]:
     return tuple(_read_marks(*each) for each in found if HIDDEN not in each[3])
 
 
-def _is_record(value: object) -> bool:
-    return is_dataclass(value) or hasattr(value, "_fields")
-
-
 def _list_names(record: type) -> list[tuple[str, bool]]:
     """Return the names of all attributes, and whether each is optional."""
     if is_dataclass(record):
@@ -196,15 +190,17 @@ def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
         value = value.tolist()
     if isinstance(value, float):
         return value + 0.0 if math.isfinite(value) else None
+    if value is None or (split is None and isinstance(value, (int, str))):
+        return value
     if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
         return [write_each(item, split) for item in value]
     if isinstance(value, Mapping):
         return {key: write_each(item, split) for key, item in value.items()}
-    if split is not None and value is not None:
+    if split is not None:
         return split.split(value)
-    if _is_record(value):
-        return to_document(value)
-    return [value.real + 0.0, value.imag + 0.0] if isinstance(value, complex) else value
+    if isinstance(value, complex):
+        return [value.real + 0.0, value.imag + 0.0]
+    return to_document(value)
 
 
 # ------------------------------------------------------------------ CSV
@@ -320,7 +316,7 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     if each.split is not None and kind is not NoneType:
         properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
-    if _is_record(kind):
+    if is_dataclass(kind) or hasattr(kind, "_fields"):
         name = kind.__name__
         if name not in definitions:
             definitions[name] = {}  # stands there while its attributes are described

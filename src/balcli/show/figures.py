@@ -1,7 +1,5 @@
 """The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
