@@ -2,6 +2,8 @@
 them (docs/theory.md).
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 from typing import NamedTuple

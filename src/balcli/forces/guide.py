@@ -2,6 +2,8 @@
 quantities of variants: `guide.6.H`, `guide.4.5.X`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
