@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
-from .core.records import Node
+from .core.records import Node, describe_record
 from .errors import BalcliError, Exit, legible
 from .file import examples
 from .file.examples import template
@@ -205,7 +205,6 @@ def describe_document(name: str) -> Node:
     """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new
     ones may be added under the same version.
     """
-    from .core.records import describe_record  # numpy
     from .file.schema import DIALECT  # pydantic
 
     found = describe_record(import_name(DOCUMENTS[name]))

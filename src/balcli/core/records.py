@@ -140,12 +140,11 @@ def _list_attributes(record: type) -> tuple[_Attribute, ...]:
     return tuple(_read_marks(*each) for each in found if HIDDEN not in each[3])
 
 
-def _list_names(record: type) -> list[tuple[str, bool]]:
+def _list_names(record: Any) -> list[tuple[str, bool]]:
     """Return the names of all attributes, and whether each is optional."""
     if is_dataclass(record):
         return [(each.name, each.default is None) for each in fields(record)]
-    defaults = record._field_defaults  # type: ignore[attr-defined]
-    return [(name, defaults.get(name, "") is None) for name in record._fields]  # type: ignore[attr-defined]
+    return [(name, record._field_defaults.get(name, "") is None) for name in record._fields]
 
 
 def _read_marks(name: str, optional: bool, kind: Any, marks: tuple[Any, ...]) -> _Attribute:

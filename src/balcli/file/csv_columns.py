@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -48,14 +48,14 @@ class Head(NamedTuple):
 
 
 class NumberColumns(NamedTuple):
-    """Numbers of a file.
+    """Columns of numbers in a file.
 
     Attributes:
-        heads: as the file has them, in the order in which they were asked for.
-        rows: a number for each head.
-        lines: of the file, from 1, one for each row.
-        units: of each head, as the file has it; empty where the head has none.
-        scales: size of that unit in the unit of the column's quantity.
+        heads: Heads as the file has them, in the wanted order.
+        rows: A number for each head.
+        lines: Line of each row in the file, from 1.
+        units: Unit of each head, as the file has it; empty where the head has none.
+        scales: Size of that unit in the unit of the column's dimension.
     """
 
     heads: tuple[str, ...]
@@ -77,11 +77,11 @@ def locate_beside(folder: Path, name: str) -> Path:
     """Return the path of a file that an engine file names.
 
     Args:
-        folder: folder of the engine file, which the path may not leave.
-        name: as the engine file has it.
+        folder: Folder of the engine file, which the path may not leave.
+        name: Name in the engine file.
 
     Raises:
-        BalcliError: the path leaves the folder, or no file can have that name.
+        BalcliError: The path leaves the folder, or no file can have that name.
     """
     try:
         home, place = folder.resolve(), (folder / name).resolve()
@@ -98,16 +98,16 @@ def locate_beside(folder: Path, name: str) -> Path:
 def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     """Return some columns of a CSV file.
 
-    Other columns, empty lines and lines that begin with # count for nothing. Where semicolons,
+    Other columns, empty lines and lines that begin with # are ignored. Where semicolons,
     tabs or blanks part the heading, they part the lines, and decimals may have commas; elsewhere a
     number to the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
-        path: of the file.
-        wanted: the columns.
+        path: Path of the file.
+        wanted: Heads of the columns.
 
     Raises:
-        BalcliError: it cannot be read, a column is missing, or a line has no such numbers.
+        BalcliError: The file cannot be read, a column is missing, or a line has no such numbers.
     """
     content = read_bytes(path)
     if len(content) > LARGEST_FILE_BYTES:
@@ -125,26 +125,30 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     lines = {n: line for n, line in numbered if line.strip() and not line.lstrip().startswith("#")}
     if len(lines) > MOST_ROWS:
         raise ValueError(f"has {len(lines)} lines; at most {MOST_ROWS} are read")
-    first = next(iter(lines.values()), "")
+    mark, cells = _split(list(lines.values()))
+    heading, numbers = [cell.strip() for cell in next(cells, [])], list(lines)[1:]
+    found = [_find_head(head, heading, wanted, mark) for head in wanted]
+    places, units, scales = zip(*found, strict=True)
+    width = len(heading) if mark == "," else None
+    rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
+    heads = tuple(heading[place] for place in places)
+    return NumberColumns(heads, rows, tuple(numbers), units, scales)
+
+
+def _split(lines: list[str]) -> tuple[str, Iterator[list[str]]]:
+    """Return the mark between the columns of the heading, and the cells of every line."""
+    first = lines[0] if lines else ""
     # The comma, where none of them is there; tabs after a comma are room.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
         mark = " "
         # A unit in brackets may have blanks: "torque [kN m]"
         first = re.sub(r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), first)
-        lines |= {next(iter(lines)): re.sub(r"\s+(?=[\[(])", "_", first.strip())}
-        lines = {n: " ".join(line.split()) for n, line in lines.items()}
+        first = re.sub(r"\s+(?=[\[(])", "_", first.strip())
+        lines = [" ".join(line.split()) for line in (first, *lines[1:])]
     if mark != ",":
-        lines = {n: line.replace(",", ".").replace(mark, ",") for n, line in lines.items()}
-    numbers, cells = list(lines)[1:], csv.reader(lines.values())
-    heading = [cell.strip() for cell in next(cells, [])]
-    found = [_find_head(head, heading, wanted, mark) for head in wanted]
-    places = [place for place, _, _ in found]
-    width = len(heading) if mark == "," else None
-    rows = tuple(_read_row(row, places, width, n) for row, n in zip(cells, numbers, strict=False))
-    heads = tuple(heading[place] for place in places)
-    _, units, scales = zip(*found, strict=True)
-    return NumberColumns(heads, rows, tuple(numbers), units, scales)
+        lines = [line.replace(",", ".").replace(mark, ",") for line in lines]
+    return mark, csv.reader(lines)
 
 
 def _find_head(
@@ -161,8 +165,12 @@ def _find_head(
     raise ValueError(f"the heading {found} has no {wanted.usual}; head the file {usual}{also}")
 
 
-def _read_row(row: list[str], places: list[int], width: int | None, line: int) -> tuple[float, ...]:
-    """`width`: of the heading, beyond which no number may stand; None: one may."""
+def _read_row(
+    row: list[str], places: Sequence[int], width: int | None, line: int
+) -> tuple[float, ...]:
+    """Return the numbers at these places of a line. No number may stand beyond `width`, the number
+    of columns in the heading; None: it may.
+    """
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
     if width is not None and any(re.match(r"\s*[+-]?\.?\d", cell) for cell in row[width:]):
