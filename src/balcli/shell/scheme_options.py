@@ -65,16 +65,17 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """Return the options of a balancing scheme, in SI.
+    """Return the options of a balancing scheme, in SI; each argument is an option as typed, or
+    None.
 
     Args:
-        order: Order to balance; None: as the scheme has it.
+        order: Order to balance.
         at: Places of shafts, each as `x,y`.
-        position: Axial place of a device.
-        planes: Axial places of counterweights.
-        factor: Balance factors.
-        measured: Weight on the balancing machine.
-        roll: Roll that shafts balance.
+        position: Axial place of new devices.
+        planes: "ends", "throws", or axial places of new devices.
+        factor: Share of the reciprocating mass, or a range of shares.
+        measured: Mass that balances a bare pin.
+        roll: "zero", if the roll of inertia is to vanish.
         units: System of units of bare numbers.
 
     Raises:
