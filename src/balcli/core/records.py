@@ -124,7 +124,7 @@ def angle_deg(value: complex) -> float:
 class _Attribute(NamedTuple):
     name: str
     key: str  # in JSON
-    kind: Any  # annotation without marks
+    kind: object  # annotation without marks
     optional: bool
     inline: bool
     axes: int
@@ -147,14 +147,14 @@ def _list_names(record: Any) -> list[tuple[str, bool]]:
     return [(name, record._field_defaults.get(name, "") is None) for name in record._fields]
 
 
-def _read_marks(name: str, optional: bool, kind: Any, marks: tuple[Any, ...]) -> _Attribute:
+def _read_marks(name: str, optional: bool, kind: object, marks: tuple[object, ...]) -> _Attribute:
     split = next((mark for mark in marks if isinstance(mark, (Polar, Reached))), None)
     axes = next((mark.number for mark in marks if isinstance(mark, Axes)), 1)
     make, key = next((mark for mark in marks if isinstance(mark, WrittenAs)), (None, ""))
     return _Attribute(name, key or name, kind, optional, INLINE in marks, axes, split, make)
 
 
-def _find_marks(annotation: Any) -> tuple[Any, ...]:
+def _find_marks(annotation: object) -> tuple[object, ...]:
     """Return what `Annotated` adds to a type and to the types within it."""
     inner = (mark for part in get_args(annotation) for mark in _find_marks(part))
     return (*getattr(annotation, "__metadata__", ()), *inner)
@@ -328,7 +328,7 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER
 
 
-def _describe_many(origin: Any, arguments: Any, each: _Attribute, definitions: Node) -> Node:
+def _describe_many(origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node) -> Node:
     """Return the schema of an array, dict, tuple or list."""
     import numpy as np  # schemas are seldom asked for
 

@@ -217,7 +217,7 @@ def follow_knuckle(
     Args:
         crank: e^{i psi} of the cylinders.
         knuckle: Knuckle pin from the crank pin, in crank radii, on the master rod.
-        lead_deg: Angle from the master's axis to the cylinder's, deg.
+        lead_deg: Crank angle of the master less the cylinder's own, deg.
         lam: Crank radius / rod length of the masters.
         eps: Offset / rod length of the masters.
     """
