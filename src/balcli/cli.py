@@ -154,8 +154,8 @@ class _OnDemand(TyperGroup):
 
 
 def _unwrapped(text: str) -> str:
-    """Paragraphs as one line each: the terminal wraps them to its own width. One that begins with a
-    backspace keeps its lines (examples).
+    """Return paragraphs as one line each: the terminal wraps them to its own width. One that begins
+    with a backspace keeps its lines (examples).
     """
     return re.sub(r"(?<=[^\s\b])\n(?=\S)", " ", text)
 
@@ -285,7 +285,7 @@ def main() -> NoReturn:
 
 
 def _run() -> Any:
-    """The exit status of the command of `sys.argv`."""
+    """Return the exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
     status = app(prog_name="balcli", standalone_mode=False)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")

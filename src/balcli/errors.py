@@ -20,14 +20,14 @@ CONTROL_CHARACTERS = (
 
 
 def legible(text: str) -> str:
-    """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's
-    file name can command it.
+    """Return a text for a terminal: of all control characters only line ends and tabs stay, so that
+    nobody's file name can command it.
     """
     return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:
-    """A message on standard error, whether somebody reads it or not."""
+    """Print a message on standard error, whether somebody reads it or not."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 

@@ -58,5 +58,5 @@ Tell = Callable[[float], bool]
 
 
 def tell_nobody(done: float) -> bool:
-    """For those who do not want to know."""
+    """Ignore progress."""
     return False

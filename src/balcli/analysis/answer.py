@@ -170,7 +170,7 @@ def analyze(
     guide_height_m: float | None = None,
     beside: Collection[Engine] = (),
 ) -> Analysis:
-    """Free forces and moments of an engine, order by order.
+    """Return the free forces and moments of an engine, order by order.
 
     Args:
         engine: without trailing axes.
@@ -253,8 +253,8 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Orders to compute: those asked for; all there are where the whole curve is needed, or none
-    was asked for.
+    """Return orders to compute: those asked for; all there are where the whole curve is needed, or
+    none was asked for.
     """
     if asked is not None and not whole:
         return asked

@@ -168,7 +168,7 @@ def analyze_alike(
 
 
 def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tuple[Line, ...]:
-    """Every figure of analyses by the same orders side by side.
+    """Return every figure of analyses by the same orders side by side.
 
     Args:
         every_order: also orders above 2 of which all of them are free.
@@ -270,8 +270,8 @@ def compare(
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
 ) -> Comparison:
-    """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
-    engine's.
+    """Compare engines side by side: free forces and moments by order, peaks, and their ratios to
+    the first engine's.
 
     Args:
         engines: two or more, as `load` makes them.
@@ -361,7 +361,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
 
 
 def _tell_speeds(result: Comparison) -> Facts:
-    """One for all, or each in the order of the engines."""
+    """Return one speed for all engines, or each in their order."""
     told = [tell_speed(engine) for engine in result.compared]
     one_for_all = len(set(told)) == 1
     return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
@@ -419,7 +419,7 @@ def _tell_negligible(line: Line) -> list[bool]:
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
-    """Sizes, and ratios to the first engine's unless that is negligible."""
+    """Return sizes, and ratios to the first engine's unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
     to_nothing = _tell_negligible(line)[0]
     ratios = [UNKNOWN if to_nothing else number(ratio, 4) for ratio in line.ratios[1:]]

@@ -243,7 +243,7 @@ def show_peak_deg(c: complex, order: float) -> str:
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
-    """The unit for the largest of all that is known."""
+    """Return the unit for the largest of all that is known."""
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
@@ -284,8 +284,8 @@ _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
 def gas_grid(
     spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
 ) -> Iterator[Grid]:
-    """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
-    are known; negligible orders are left out unless every one was asked for.
+    """Yield inertia torque, gas torque, both together and the roll of the frame, by order, if all
+    of them are known; negligible orders are left out unless every one was asked for.
 
     Args:
         pivot: about what the roll is.

@@ -85,14 +85,14 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
 
 
 def name_column(kind: Kind) -> str:
-    """A kind at the head of a column, or in a sentence."""
+    """Return a kind at the head of a column, or in a sentence."""
     return "roll with gas" if kind is ROLL_TOTAL else kind.name
 
 
 def tell_others(
     states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
 ) -> str:
-    """One line on the orders that are not shown, or nothing.
+    """Return one line on the orders that are not shown, or nothing.
 
     Args:
         states: of one engine, as of now or before and after, with the same orders.
@@ -186,7 +186,9 @@ def _tell_place(device: DeviceTable) -> str:
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of `roll_and_peaks`."""
+    """Return every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of
+    `roll_and_peaks`.
+    """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     rows = [k for k, size in enumerate(roll.major) if size > least]
     largest = float(roll.major.max(initial=0))
@@ -353,7 +355,7 @@ def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) 
 
 
 def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
-    """The largest force and moment of some orders; empty if all are balanced."""
+    """Return the largest force and moment of some orders; empty if all are balanced."""
     told = []
     for vector in vectors if rows else ():
         k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])
@@ -398,7 +400,7 @@ def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device])
 
 
 def _tell_direction(what: str, axis_deg: float) -> str:
-    """A force acts along an axis, a moment about it."""
+    """Return the direction in words: a force acts along an axis, a moment about it."""
     angle = degrees(axis_deg, 180)
     axis = _AXES.get(angle) or f"an axis at {angle} deg"
     if what != "moment":

@@ -259,7 +259,7 @@ UNITS = (
 
 
 def lay_out_symmetry(why: Symmetry) -> Iterator[Text]:
-    """One paragraph a reason and the orders that have it; then what its units mean."""
+    """Yield one paragraph a reason and the orders that have it; then what its units mean."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
     yield Text("Why", (*why.sentences, *units))
 

@@ -119,7 +119,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """One table of force and moment, roll and peaks in a line each."""
+    """Yield one table of force and moment, roll and peaks in a line each."""
     spectra = result.spectra.with_moment_if(result.moments_known)
     vectors = spectra.only([kind.name for kind in VECTORS])
     shown = list(map(float, vectors.orders))
@@ -171,8 +171,8 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
 
 
 def columns(result: Analysis) -> Columns:
-    """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
-    their order.
+    """Return an order a row: sizes and directions of each kind, named as the quantities of sweeps
+    without their order.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
     values: dict[str, Array] = {"order": result.orders}
@@ -194,7 +194,7 @@ def columns(result: Analysis) -> Columns:
 
 
 def rows(result: Analysis, system: System, *, devices: bool = True) -> Rows:
-    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
+    """Return CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
 
     Args:
         devices: whether those of the sizing are wanted.

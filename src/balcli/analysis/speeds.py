@@ -89,7 +89,7 @@ def analyze_speeds(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> SpeedSeries:
-    """An engine at each of these speeds.
+    """Return an engine at each of these speeds.
 
     Args:
         engine: without trailing axes.
@@ -317,7 +317,9 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
 def _kind_part(
     kind: Kind, lines: list[Line], speeds_rpm: list[float], system: System, *, whole: bool
 ) -> Grid | Text:
-    """One kind by speed, a column an order, and the peak; one sentence where nothing matters."""
+    """Return one kind by speed, a column an order, and the peak; one sentence where nothing
+    matters.
+    """
     title = TITLES.get(kind, kind.label)
     shown = lines if whole else find_lines_that_matter(lines)
     if not shown:
@@ -480,7 +482,7 @@ def _cell(name: str, i: int, k: int, unit: ShownUnit, result: MarineSheet) -> st
 
 
 def _tell_axes(result: MarineSheet) -> str:
-    """Where vertical is, by the banks of the file."""
+    """Return where vertical is, by the banks of the file."""
     axes = [round(float(axis), 6) + 0.0 for axis in np.ravel(result.engine.cylinders.axis_deg)]
     if axes == [0.0]:
         return "V is along the cylinders (x), H across them (y)."

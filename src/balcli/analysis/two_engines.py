@@ -179,8 +179,8 @@ class Combined(Result):
 def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Both engines together, at the first one's speed and unevenness of speed; with gas where one
-    of them has some, or both.
+    """Return both engines together, at the first one's speed and unevenness of speed; with gas
+    where one of them has some, or both.
 
     Args:
         first, second: without trailing axes.
@@ -247,7 +247,8 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
 def place_spectra(
     own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
 ) -> Spectra:
-    """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
+    """Return phasors of an engine where it stands, by the crank angle of the engine that it is
+    geared to.
 
     Args:
         own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
@@ -285,7 +286,7 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
-    """Both engines geared together; torque and roll as in `Combined`."""
+    """Return both engines geared together; torque and roll as in `Combined`."""
     parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
     parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
     parts["roll"] = parts["couple"] - taken
@@ -319,7 +320,7 @@ def combine(
     load: Load = "first",
     orders: Iterable[float] | None = None,
 ) -> Combined:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+    """Combine two engines on one frame, geared one to one: H, U and opposed-piston engines.
 
     Args:
         first: Engine from `load`; both run at its speed.

@@ -86,14 +86,14 @@ def find_peaks_between(
 
 
 def _find_tops(heights: Real) -> NDArray[np.bool_]:
-    """Which of the heights (places, intervals) are no lower than their neighbours."""
+    """Return which of the heights (places, intervals) are no lower than their neighbours."""
     ends = np.full((1, heights.shape[1]), -np.inf)
     rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
     return rises[:-1] & ~rises[1:]
 
 
 def _take_around(heights: Real, top: Indices) -> Real:
-    """Three of the heights (places, intervals) of each interval: that at the top and its
+    """Return three of the heights (places, intervals) of each interval: that at the top and its
     neighbours, or the three at the end if it is there.
     """
     middle = np.clip(top, 1, len(heights) - 2)
@@ -101,7 +101,7 @@ def _take_around(heights: Real, top: Indices) -> Real:
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
-    """Puts the places and heights of some intervals, a few of each, into best and highest
+    """Put the places and heights of some intervals, a few of each, into best and highest
     (intervals,) where they are higher.
     """
     rising = np.argsort(height, kind="stable")  # the highest last, on every processor
@@ -117,7 +117,7 @@ _GOLDEN = (math.sqrt(5) - 1) / 2
 def find_least(
     judge: Callable[[float], Judged], low: float, high: float, rounds: int = ROUNDS
 ) -> float:
-    """Where a function with one valley between two places is least, by golden section.
+    """Return where a function with one valley between two places is least, by golden section.
 
     Args:
         judge: its value at a place; a tuple is judged by its first part, then by the next.

@@ -10,9 +10,9 @@ from .phasors import Array
 
 
 def share_by_lever(places: Array, planes: Array) -> Array:
-    """Share of each load that each plane takes, shape (planes, loads): the two planes on either
-    side of it share it, loads beyond the outermost plane hang on the last two (with shares below 0
-    and above 1); a single plane takes all of each.
+    """Return the share of each load that each plane takes, shape (planes, loads): the two planes on
+    either side of it share it, loads beyond the outermost plane hang on the last two (with shares
+    below 0 and above 1); a single plane takes all of each.
 
     Args:
         places: of the loads, m, shape (loads,).

@@ -102,7 +102,7 @@ class Loads:
 
 
 def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
-    """Force of a device, N.
+    """Return the force of a device, N.
 
     Args:
         n: orders as a column, shape (orders, *1).
@@ -124,8 +124,8 @@ _SERIES = {
 
 
 def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bool) -> set[str]:
-    """Names of the series of mechanisms (`closed_form.SERIES`) that these loads of the cylinders
-    are made of.
+    """Return the names of the series of mechanisms (`closed_form.SERIES`) that these loads of the
+    cylinders are made of.
 
     Args:
         parts: force, moment, couple or torque.

@@ -127,7 +127,8 @@ class Phases:
         return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
-        """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
+        """Return `sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n
+        pin}`.
 
         Args:
             turns: shape (sides, orders, banks, *trailing).
@@ -161,8 +162,8 @@ class Phases:
         return self._sum_banks(self._still)
 
     def _sum_banks(self, each: Complex) -> Complex:
-        """Sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders, banks,
-        *trailing).
+        """Return sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders,
+        banks, *trailing).
         """
         return np.add.reduceat(each, self._starts, axis=1)
 
@@ -200,7 +201,7 @@ class SeparatePhases(Phases):
         return values * (self._ones if sizes is None else sizes)
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
-        """The terms of this sum, shape (sides, orders, cylinders)."""
+        """Return the terms of this sum, shape (sides, orders, cylinders)."""
         counts = np.diff([*self._starts, self.count])
         arms = self._ones if arms is None else arms
         return np.asarray(np.repeat(turns, counts, axis=2) * (arms * sides * self._still))

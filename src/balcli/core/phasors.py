@@ -31,7 +31,7 @@ _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5
 
 
 def _cosine(k: int) -> float:
-    """cos of k times 15 degrees."""
+    """Return cos of k times 15 degrees."""
     k = min(k % 24, -k % 24)
     return _COSINES[k] if k <= 6 else -_COSINES[12 - k]
 
@@ -40,8 +40,8 @@ _UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
 
 
 def unit(degrees: ArrayLike) -> Complex:
-    """e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45 degrees,
-    however many turns.
+    """Return e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45
+    degrees, however many turns.
 
     The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating
     point), the rest turned on.
@@ -154,12 +154,14 @@ class Phasors:
         return Phasors(self.orders, self.vectors - other.vectors, self.noise + other.noise)
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
-        """Scaled, or scaled and turned where the factor is complex."""
+        """Return the phasors scaled, or scaled and turned where the factor is complex."""
         size: Any = abs(factor)  # of a number, that is quicker than numpy's
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
-        """Moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
+        """Return the moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a
+        scalar.
+        """
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
@@ -189,7 +191,7 @@ class Phasors:
         return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
 
     def select_row(self, row: int) -> Phasors:
-        """The order in this row alone."""
+        """Return the order in this row alone."""
         only = slice(row, row + 1)
         noise = self.noise[only] if len(self.noise) == len(self.orders) else self.noise
         return Phasors(self.orders[only], self.vectors[:, only], noise)
@@ -238,15 +240,15 @@ class Phasors:
         return self._project(-1j)
 
     def _project(self, turn: complex) -> Complex:
-        """Components along the axis that this factor turns onto x."""
+        """Return components along the axis that this factor turns onto x."""
         ahead, against = turn * self.forward, turn * self.backward
         mean = _column(self.orders, ahead) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))
         return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
     def values(self, theta: ArrayLike) -> Complex:
-        """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
-        without trailing axes.
+        """Return the curve at crank angles (radians): the sum over all orders, shape of theta, for
+        phasors without trailing axes.
         """
         angles = np.asarray(theta, float)
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
@@ -307,7 +309,7 @@ class FactoredPhasors(Phasors):
 
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:
-    """One run of orders from several, in their order."""
+    """Return one run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
     return Phasors(
         np.concatenate([p.orders for p in parts]),
@@ -317,5 +319,5 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:
-    """Orders shaped to stand before the trailing axes of `like`."""
+    """Return orders shaped to stand before the trailing axes of `like`."""
     return orders.reshape(-1, *(1,) * (like.ndim - 1))

@@ -328,7 +328,9 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER
 
 
-def _describe_many(origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node) -> Node:
+def _describe_many(
+    origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node
+) -> Node:
     """Return the schema of an array, dict, tuple or list."""
     import numpy as np  # schemas are seldom asked for
 

@@ -41,7 +41,7 @@ class RippleLine(NamedTuple):
 
 
 def find_step(orders: Iterable[float]) -> float:
-    """1, or 1/2 where an order is half a whole number."""
+    """Return 1, or 1/2 where an order is half a whole number."""
     return 0.5 if any(order % 1 for order in orders) else 1.0
 
 
@@ -95,7 +95,7 @@ class Timetable(NamedTuple):
 
 
 def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
-    """The timetable of a speed W.
+    """Return the timetable of a speed W.
 
     Args:
         w: (2 k + 1,) from `find_speed` with this step, without trailing axes.
@@ -128,8 +128,8 @@ def find_reach(timetable: Timetable, order: float) -> float:
 
 
 def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Curves over the crank angle by orders of the time: how often something happens while the
-    crank turns once on an average.
+    """Return curves over the crank angle by orders of the time: how often something happens while
+    the crank turns once on an average.
 
     Args:
         curves: without trailing axes, each of all orders that count.
@@ -147,7 +147,7 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
 
 
 def _sample(curve: Phasors, timetable: Timetable) -> Complex:
-    """Values (samples,) at the crank angles of a timetable."""
+    """Return values (samples,) at the crank angles of a timetable."""
     series = np.zeros(len(timetable.clock), complex)
     rows = np.rint(curve.orders / timetable.step).astype(int)
     np.add.at(series, rows, curve.forward)
@@ -156,7 +156,7 @@ def _sample(curve: Phasors, timetable: Timetable) -> Complex:
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
-    """Force, moment or couple under W.
+    """Return the force, moment or couple under W.
 
     Args:
         steady: the same at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
@@ -219,7 +219,7 @@ def _convolved(series: Complex, w: Complex) -> Complex:
 
 
 def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[Number]:
-    """Rows -N .. N from those of the orders 0 .. N of both sides."""
+    """Return rows -N .. N from those of the orders 0 .. N of both sides."""
     return np.concatenate([backward[:0:-1], forward])
 
 

@@ -205,7 +205,7 @@ def find_missed(parts: Parts) -> list[Problem]:
 
 
 def find_fitting_splay(model: EngineFile) -> float | None:
-    """`crank.splay` (deg) with which the cylinders of a file fire in its order and at its
+    """Return `crank.splay` (deg) with which the cylinders of a file fire in its order and at its
     intervals, evenly where it gives none; None where no splay does, or without a firing order.
     """
     parts = Parts(model)

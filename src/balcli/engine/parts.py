@@ -260,7 +260,7 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
 
     def of_each(find: Callable[[int], Figure]) -> Array:
-        """A figure of piston and rod, one row for all where they are equal."""
+        """Return a figure of piston and rod, one row for all where they are equal."""
         return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
 
     def turns_at_pin(number: int) -> Figure:

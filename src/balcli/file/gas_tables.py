@@ -124,7 +124,7 @@ class Gas(FileTable):
         return idle
 
     def _check_misplaced(self) -> Iterator[str]:
-        """Keys of a computed cycle without one."""
+        """Find keys of a computed cycle without one."""
         others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
         if others and self.cycle is None and (self.indicator or self.harmonics):
             what = "indicator" if self.indicator else "harmonics"
@@ -136,7 +136,7 @@ class Gas(FileTable):
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
 
     def _check_goals(self) -> Iterator[str]:
-        """Exactly one figure tells how much is burnt."""
+        """Check that exactly one figure sets the heat."""
         if self.cycle is None:
             return
         given = [key for key in self.goals if self.has(key)]

@@ -134,7 +134,7 @@ def find_table(annotation: object) -> type[FileTable] | None:
 
 
 def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th ..."""
+    """Return an ordinal number: 1st, 2nd, 3rd, 4th ..."""
     if number % 100 in (11, 12, 13):
         return f"{number}th"
     suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")

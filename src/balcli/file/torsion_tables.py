@@ -175,7 +175,7 @@ class ChainKeys(FileTable):
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
-    """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
+    """Return the torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
     if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
     return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
@@ -194,7 +194,7 @@ def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
 
 
 def _find_polar_moment(shaft: ShaftKeys) -> float:
-    """Polar moment of the section, m4; 0 without a diameter."""
+    """Return the polar moment of the section, m4; 0 without a diameter."""
     outer, inner = (shaft.diameter or 0.0) / 1e3, (shaft.bore or 0.0) / 1e3
     return math.pi * (outer**4 - inner**4) / 32
 

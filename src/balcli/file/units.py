@@ -83,7 +83,7 @@ PREFIXED = {
 
 
 def find_near_name(name: str) -> str:
-    """The unit that was probably meant; empty if none comes to mind."""
+    """Return the unit that was probably meant; empty if none comes to mind."""
     from difflib import get_close_matches  # after a mistake alone
 
     usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
@@ -278,7 +278,7 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
-    """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    """Return the figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
     if dimension is SPEED and re.search(_PER_SECOND, figure):
         message = 'has the unit "1/s": rad/s, or turns per second (Hz)?'
         raise ValueError(f"{message} {wanted(dimension)}")
@@ -341,7 +341,7 @@ def _spell_out(figure: str, dimension: Dimension) -> str:
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:
-    """A figure's number, and the names of its unit; None: it is no figure."""
+    """Return a figure's number, and the names of its unit; None: it is no figure."""
     match = re.fullmatch(FIGURE, figure, re.ASCII)
     if match is None:
         return None
@@ -391,7 +391,7 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
 
 @cache
 def _find(name: str) -> Unit | None:
-    """A unit by its name, with a prefix, or several of it; None: there is no such unit."""
+    """Return a unit by its name, with a prefix, or several of it; None: there is no such unit."""
     if name in _BASE:
         return _BASE[name]
     if name in DEFINITIONS:

@@ -122,7 +122,7 @@ def compute_spectra(
     *,
     each: bool = False,
 ) -> Spectra:
-    """Return free forces and moments of an engine, or of each of its cylinders.
+    """Return the free forces and moments of an engine, or of each of its cylinders.
 
     Args:
         engine: Engine, at steady or uneven speed; without trailing axes for `each` cylinder. With

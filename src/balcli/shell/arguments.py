@@ -125,7 +125,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
 
 
 def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
-    """Orders that excite torsional vibration, ascending, each once; None as it is.
+    """Return orders that excite torsional vibration, ascending, each once; None as it is.
 
     Raises:
         BalcliError: there are none, some are no multiples of 1/2, not above 0, or too high.

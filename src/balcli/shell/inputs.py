@@ -86,7 +86,7 @@ def read_engine(
 
 
 def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engine) -> None:
-    """Notes for those who want to know how a file was understood."""
+    """Print notes on how a file was understood."""
     from ..file.plain_tables import list_assumed  # for them alone
 
     note(f"{name}: read, {len(text)} bytes")
@@ -156,8 +156,8 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Engine files as named, and all that are in a folder or in folders within it; those whose
-    name begins with a dot, and files of settings, are passed over.
+    """Return engine files as named, and all that are in a folder or in folders within it; those
+    whose name begins with a dot, and files of settings, are passed over.
 
     Raises:
         BalcliError: a path that is not there, a folder without engine files.
@@ -177,13 +177,15 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
 
 
 def find_expected(paths: Sequence[Path]) -> list[Path]:
-    """Files where `check` has its records, of those paths that are folders and folders within."""
+    """Return files where `check` has its records, of those paths that are folders and folders
+    within.
+    """
     files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
     return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
 
 
 def _walk(folder: Path) -> Iterator[Path]:
-    """All files in a folder and those within it that are not hidden."""
+    """Yield all files in a folder and those within it that are not hidden."""
     for place, inner, files in os.walk(folder):
         inner[:] = [name for name in inner if not name.startswith(".")]
         yield from (Path(place, name) for name in files)

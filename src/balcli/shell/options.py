@@ -124,7 +124,7 @@ GuideHeight = Annotated[
 
 
 def parse_orders(text: str | None) -> list[float] | None:
-    """Orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
+    """Return orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
 
     Raises:
         BalcliError: anything else, with the text.
@@ -136,8 +136,8 @@ def parse_orders(text: str | None) -> list[float] | None:
 
 
 def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
-    """Orders and ranges of them with commas between; a range that begins or ends with a half has
-    halves.
+    """Return orders and ranges of them with commas between; a range that begins or ends with a half
+    has halves.
 
     Args:
         right: what to give, for messages.
@@ -166,14 +166,17 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
 
 
 def _count_halves(text: str) -> int | None:
-    """Twice an order that is written with digits, such as `8` or `0.5`; None for anything else."""
+    """Return twice an order that is written with digits, such as `8` or `0.5`; None for anything
+    else.
+    """
     if not re.fullmatch(r"\s*[0-9]{1,12}(\.[05]0*)?\s*", text, re.ASCII):
         return None
     return round(2 * float(text))
 
 
 def parse_only(text: str | None) -> list[str] | None:
-    """The quantities of `--only`, by name, with commas or blanks between; a plural names the same.
+    """Return the quantities of `--only`, by name, with commas or blanks between; a plural names the
+    same.
 
     Raises:
         BalcliError: all of them.
@@ -209,7 +212,7 @@ def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
 
 
 def parse_speed(text: str | None) -> float | None:
-    """The speed of `--speed`, rpm.
+    """Return the speed of `--speed`, rpm.
 
     Raises:
         BalcliError: unless it is positive and finite.

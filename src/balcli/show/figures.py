@@ -115,7 +115,7 @@ class Peaks(NamedTuple):
     moment: Annotated[Peak, Reached("moment_Nm", "moment_deg"), INLINE]
 
     def items(self) -> list[tuple[Kind, Peak]]:
-        """Each kind with its peak."""
+        """Return each kind with its peak."""
         return [(FORCE, self.force), (MOMENT, self.moment)]
 
 
@@ -216,13 +216,13 @@ def list_assumed(known: bool, inferred: Sequence[str] = ()) -> tuple[str, ...] |
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
-    """Numbers of the cylinders without gas, and of those that compress and burn nothing."""
+    """Return numbers of the cylinders without gas, and of those that compress and burn nothing."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: numbers for key, numbers in each.items() if numbers}
 
 
 def clean(value: Figure) -> float | None:
-    """A plain float; None for nan, and no negative zero."""
+    """Return a plain float; None for nan, and no negative zero."""
     number = float(value)
     return None if math.isnan(number) else number + 0.0
 
@@ -302,7 +302,8 @@ def phase_deg(c: complex | Complex) -> Array:
 def figure_rows(
     result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
 ) -> Iterator[FigureRow]:
-    """Every figure of the orders and the peaks, one a row; none of moments that are not known.
+    """Yield every figure of the orders and the peaks, one a row; none of moments that are not
+    known.
 
     Args:
         result: Analysis, or sum of two engines.
@@ -354,7 +355,9 @@ def order_rows(
 def _flattened(
     entry: Node, unit: ShownUnit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
-    """Name, value and unit of every figure of an entry: `x_amplitude` from `x` and `amplitude`."""
+    """Yield name, value and unit of every figure of an entry: `x_amplitude` from `x` and
+    `amplitude`.
+    """
     for name, value in entry.items():
         if isinstance(value, dict):
             yield from _flattened(value, unit, f"{prefix}{name}_")

@@ -75,8 +75,8 @@ def render(
     *,
     seen: bool = False,
 ) -> str:
-    """Text of one or more results in one format: sheets one after the other, one JSON document a
-    line, all rows of CSV under one header.
+    """Return the text of one or more results in one format: sheets one after the other, one JSON
+    document a line, all rows of CSV under one header.
 
     Args:
         seen: whether a person will see it in a terminal, with colours and at its width.

@@ -21,7 +21,7 @@ def show_engine(engine: Engine) -> str:
 
 
 def outline(columns: Columns) -> Grid:
-    """The first and the last rows of columns."""
+    """Return the first and the last rows of columns."""
     heads = [
         f"{name}, {columns.units[name]}" if columns.units.get(name) else name
         for name in columns.values

@@ -54,18 +54,20 @@ class Result:
         return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
     def to_dict(self) -> Node:
-        """The document that the command writes as JSON (docs/json.md): its keys name SI units."""
+        """Return the document that the command writes as JSON (docs/json.md): its keys name SI
+        units.
+        """
         return describe(self)
 
     def rows(self) -> list[Node]:
-        """One dict a row, all with the same keys: a DataFrame of any library takes them as they
-        are. What has no value is None.
+        """Return one dict a row, all with the same keys: a DataFrame of any library takes them as
+        they are. What has no value is None.
         """
         return list_rows(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The rows as a DataFrame; units of columns are its `attrs["units"]`, as far as neither
-        their names nor a column `unit` tell them.
+        """Return the rows as a DataFrame; units of columns are its `attrs["units"]`, as far as
+        neither their names nor a column `unit` tell them.
 
         Raises:
             BalcliError: pandas is not installed.
@@ -87,12 +89,12 @@ def find_renderer(result: Result) -> Columnar[Any]:
 
 
 def describe(result: Result) -> Node:
-    """The JSON document of an answer."""
+    """Return the JSON document of an answer."""
     return stamp(find_renderer(result).document(result))
 
 
 def list_rows(result: Result) -> list[Node]:
-    """One dict a row."""
+    """Return one dict a row."""
     found = list_columns(result).values
     lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
     lines = zip(*lists, strict=True)
@@ -104,7 +106,7 @@ def _none_for_nan(value: object) -> object:
 
 
 def list_columns(result: Result) -> Columns:
-    """The columns of an answer: those that its renderer names, or those of its CSV."""
+    """Return the columns of an answer: those that its renderer names, or those of its CSV."""
     renderer = find_renderer(result)
     if renderer.columns is None and isinstance(renderer, Renderer):
         found = _read_columns(renderer.rows(result, SI))
@@ -114,7 +116,7 @@ def list_columns(result: Result) -> Columns:
 
 
 def _fill_gaps(column: Column) -> Column:
-    """Numbers among which some are missing as an array with nan: of a list with None other
+    """Return numbers among which some are missing as an array with nan: of a list with None other
     libraries make objects, with which nothing can be computed.
     """
     if isinstance(column, np.ndarray) or None not in column:
@@ -123,8 +125,8 @@ def _fill_gaps(column: Column) -> Column:
 
 
 def _read_columns(rows: Rows) -> Columns:
-    """Rows of CSV as columns of one type each: words among numbers get a column of their own, with
-    `_text` after its name.
+    """Return rows of CSV as columns of one type each: words among numbers get a column of their
+    own, with `_text` after its name.
     """
     lines = list(rows.lines)
     values: dict[str, Column] = {}
@@ -143,12 +145,12 @@ def _read_columns(rows: Rows) -> Columns:
 
 
 def _number(cell: object) -> float | None:
-    """A cell as a number; None if it is none."""
+    """Return a cell as a number; None if it is none."""
     return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
 
 
 def _word(cell: object) -> str | None:
-    """A cell as text; None for a number, and where nothing is said."""
+    """Return a cell as text; None for a number, and where nothing is said."""
     if isinstance(cell, bool):
         return str(cell).lower()
     return cell if isinstance(cell, str) and cell else None
@@ -156,7 +158,7 @@ def _word(cell: object) -> str | None:
 
 # ------------------------------------------------------------------ other libraries
 def make_frame(result: Result) -> pandas.DataFrame:
-    """A DataFrame of pandas."""
+    """Return a DataFrame of pandas."""
     try:
         import pandas
     except ImportError:

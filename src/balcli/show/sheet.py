@@ -18,15 +18,17 @@ _digits: int | None = None  # significant ones, that were asked for
 
 
 def set_digits(digits: int | None) -> None:
-    """How many significant digits figures have, for the rest of this process; None: those that are
-    usual where they stand.
+    """Set how many significant digits figures have, for the rest of this process; None: those that
+    are usual where they stand.
     """
     global _digits
     _digits = digits
 
 
 def get_digits(usual: int = USUAL_DIGITS) -> int:
-    """How many significant digits a figure has: those that were asked for, else the usual ones."""
+    """Return how many significant digits a figure has: those that were asked for, else the usual
+    ones.
+    """
     return _digits or usual
 
 
@@ -72,22 +74,22 @@ class Sheet(NamedTuple):
 
 
 def capitalized(text: str) -> str:
-    """Text with its first letter large, the others as they are."""
+    """Return a text with its first letter large, the others as they are."""
     return text[0].upper() + text[1:]
 
 
 def sentence(text: str) -> str:
-    """Text with its first letter large and a full stop at its end."""
+    """Return a text with its first letter large and a full stop at its end."""
     return f"{capitalized(text).removesuffix('.')}."
 
 
 def order_number(order: float) -> int | float:
-    """An order as it is written: whole ones without a point."""
+    """Return an order as it is written: whole ones without a point."""
     return int(order) if order == int(order) else float(order)
 
 
 def order_name(order: float) -> str:
-    """An order as a table shows it: 2, ½, 1½."""
+    """Return an order as a table shows it: 2, ½, 1½."""
     whole, half = divmod(order, 1)
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
@@ -226,7 +228,7 @@ class NamedResult(NamedTuple, Generic[R]):
 
 
 def tell_assumed_speed(model: EngineFile | None) -> str:
-    """A sentence, where there is a file that gives no speed."""
+    """Return a sentence, where there is a file that gives no speed."""
     if model is None or "speed" in model.operation.model_fields_set:
         return ""
     return f"The file gives no speed: figures are those at {model.operation.speed:g} rpm."

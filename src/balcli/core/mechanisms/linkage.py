@@ -68,7 +68,7 @@ class Linkage(ABC):
 
     @abstractmethod
     def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
-        """Mechanisms in motion.
+        """Return the mechanisms in motion.
 
         Args:
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
@@ -77,7 +77,7 @@ class Linkage(ABC):
         """
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
-        """The cylinders in motion.
+        """Return the cylinders in motion.
 
         Args:
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
@@ -88,7 +88,7 @@ class Linkage(ABC):
     def find_distinct_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
+        """Return harmonics of the mechanisms that differ, and which of them each cylinder has.
 
         Args:
             orders: whole, shape (orders,).
@@ -148,7 +148,7 @@ class Linkage(ABC):
 
 
 def revolution(count: int) -> Array:
-    """Crank angles of so many samples."""
+    """Return crank angles of so many samples."""
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 

@@ -15,15 +15,15 @@ Series: TypeAlias = dict[int, Fraction]
 
 
 def cos_beta_in_sine(power: int) -> Series:
-    """cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1, -1/2,
-    -1/8, ...
+    """Return cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1,
+    -1/2, -1/8, ...
     """
     return {2 * j: Fraction(-comb(2 * j, j), 4**j * (2 * j - 1)) for j in range(power // 2 + 1)}
 
 
 def beta_in_sine(power: int) -> Series:
-    """beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6, 3/40,
-    ...
+    """Return beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6,
+    3/40, ...
     """
     return {
         2 * j + 1: Fraction(comb(2 * j, j), 4**j * (2 * j + 1)) for j in range((power + 1) // 2)
@@ -118,7 +118,7 @@ def _in_harmonics(in_sine: Series, order: int) -> Series:
 
 
 def _sine_power(power: int, order: int) -> Fraction:
-    """Coefficient in sin^p psi of cos n psi (p even) or sin n psi (p odd)."""
+    """Return the coefficient in sin^p psi of cos n psi (p even) or sin n psi (p odd)."""
     if order > power or (power - order) % 2:
         return Fraction(0)
     sign = (-1) ** (order // 2)
