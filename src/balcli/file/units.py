@@ -278,7 +278,7 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
-    """Return the figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    """Return a figure in m, kg, s and turns; a large and a small unit add up ("1 lb 4 oz")."""
     if dimension is SPEED and re.search(_PER_SECOND, figure):
         message = 'has the unit "1/s": rad/s, or turns per second (Hz)?'
         raise ValueError(f"{message} {wanted(dimension)}")

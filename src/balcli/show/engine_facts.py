@@ -209,7 +209,7 @@ def tell_strokes(engine: Engine) -> str:
 
 
 def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
-    """Return a line of the cylinders without gas, and one of those that compress and burn nothing."""
+    """Return lines of the cylinders without gas, and of those that compress and burn nothing."""
     return [
         (key.replace("_", " "), ", ".join(map(str, numbers)))
         for key, numbers in silent_entries(silent).items()

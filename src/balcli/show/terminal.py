@@ -108,7 +108,7 @@ def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
 
 
 def _fold(heading: str, width: int) -> str:
-    """Return a heading on lines of a width, broken between words or after an underscore of a name."""
+    """Return the lines of a heading, broken between words or after an underscore of a name."""
     lines = [""]
     for word in heading.split():
         gap = " " if lines[-1] else ""
