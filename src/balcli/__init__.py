@@ -88,7 +88,7 @@ def __dir__() -> list[str]:
 if not TYPE_CHECKING:  # which would else believe in any name
 
     def __getattr__(name: str) -> object:
-        """The library's door: what is behind it is imported when it is first asked for."""
+        """Public names of the library, each imported when it is first used."""
         if name not in PUBLIC:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return import_name(f"{PUBLIC[name]}:{name}")

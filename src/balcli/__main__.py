@@ -34,7 +34,7 @@ def main() -> NoReturn:
 
 
 def _flush_streams(status: int) -> int:
-    """Write what is buffered, and return the exit status: 2 if a result cannot be written.
+    """Flush all output, and return the exit status: 2 if a result cannot be written.
 
     A stream that fails is replaced by the null device, or the interpreter's own flush at the end
     would fail as well.

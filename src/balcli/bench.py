@@ -18,13 +18,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from .core.mechanisms import power_series
 from .core.phasors import Array, Complex
-from .core.records import to_document
+from .core.records import Node, to_document
 from .engine.build import build
 from .engine.engine import Engine
 from .engine.parse import parse
@@ -384,7 +384,7 @@ def _start(*argv: str, text: str = "") -> float:
 ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
 
-def document(result: Bench) -> dict[str, Any]:
+def document(result: Bench) -> Node:
     """Return `balcli.bench/1`."""
     return to_document(result)
 

@@ -154,8 +154,8 @@ class _OnDemand(TyperGroup):
 
 
 def _unwrapped(text: str) -> str:
-    """Paragraphs as one line each: the terminal wraps them to its own width. One that begins with a
-    backspace keeps its lines (examples).
+    """Return paragraphs as one line each: the terminal wraps them to its own width. One that begins
+    with a backspace keeps its lines (examples).
     """
     return re.sub(r"(?<=[^\s\b])\n(?=\S)", " ", text)
 
@@ -170,8 +170,8 @@ app = typer.Typer(
 
 
 def _share(options: Iterable[Any], command: str, own: Iterable[Any]) -> Iterator[Any]:
-    """The options of the program that stand after the command's name, too, without words that are
-    its own: `-q` of `sweep` is its --quantity.
+    """Return the options of the program that also stand after a command's name, without its own
+    words: `-q` of `sweep` is its --quantity.
     """
     taken = {word for option in own for word in option.opts}
     tables = "--format" in taken and command not in IN_FULL_PRECISION
@@ -285,7 +285,7 @@ def main() -> NoReturn:
 
 
 def _run() -> Any:
-    """The exit status of the command of `sys.argv`."""
+    """Return the exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
     status = app(prog_name="balcli", standalone_mode=False)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")
@@ -306,7 +306,7 @@ def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeErro
 
 
 def _usage(error: Any) -> str:
-    """How the command is used and what is wrong, plain: a box would fold it, even in a pipe."""
+    """Print the usage and the mistake in plain text: a box would fold it, even in a pipe."""
     text = StringIO()
     error.show(text)
     return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from enum import StrEnum
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
+from .core.records import Node, describe_record
 from .errors import BalcliError, Exit, legible
 from .file import examples
 from .file.examples import template
@@ -120,7 +121,7 @@ def engines(
 
 
 def _list(found: list[examples.Example]) -> str:
-    """Each class under its name: an engine a line, with what it teaches."""
+    """List each class under its name: an engine a line, with its lesson."""
     width = max(map(len, examples.names()))
     parts = []
     for group, members in groupby(found, key=lambda example: example.group):
@@ -170,7 +171,7 @@ def schema(
     emit(json.dumps(described, indent=2, ensure_ascii=False), output)
 
 
-def _describe_file(kind: File) -> dict[str, Any]:
+def _describe_file(kind: File) -> Node:
     from .field import tables as runs
     from .file import schema as files, torsion_tables  # pydantic
     from .torsion import tables as chain
@@ -191,7 +192,7 @@ def _describe_file(kind: File) -> dict[str, Any]:
             )
 
 
-def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
+def _describe_result(name: str, kind: File | None) -> Node:
     if kind is not None:
         raise BalcliError(f"--of {name}: is of a result; leave {kind} out, which is a file")
     if name not in DOCUMENTS:
@@ -200,11 +201,10 @@ def _describe_result(name: str, kind: File | None) -> dict[str, Any]:
     return describe_document(name)
 
 
-def describe_document(name: str) -> dict[str, Any]:
+def describe_document(name: str) -> Node:
     """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new
     ones may be added under the same version.
     """
-    from .core.records import describe_record  # numpy
     from .file.schema import DIALECT  # pydantic
 
     found = describe_record(import_name(DOCUMENTS[name]))

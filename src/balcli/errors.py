@@ -25,20 +25,20 @@ CONTROL_CHARACTERS = (
 
 
 def legible(text: str) -> str:
-    """Text for a terminal: of all control characters only line ends and tabs stay, so that nobody's
-    file name can command it.
+    """Return a text for a terminal: of all control characters only line ends and tabs stay, so that
+    nobody's file name can command it.
     """
     return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:
-    """A message on standard error, whether somebody reads it or not."""
+    """Print a message on standard error, whether somebody reads it or not."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 
 
 class Loudness(IntEnum):
-    """How much balcli prints besides results and errors."""
+    """How much balcli prints in addition to results and errors."""
 
     QUIET = 0  # nothing
     USUAL = 1  # warnings; on a terminal, how far a long computation is
@@ -91,7 +91,7 @@ class Problem(NamedTuple):
 
     Attributes:
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
-        message: what is wrong there, and what would be right.
+        message: the mistake, and then the remedy.
         missing: paths of keys that are not there, without which it is a mistake; empty: of none.
         meant: path of the key that was probably meant by an unknown one, "" if none comes to mind;
             None: the key is known.
@@ -104,7 +104,12 @@ class Problem(NamedTuple):
 
     @classmethod
     def of_missing(cls, path: str, hint: str) -> Problem:
-        """A key is not there; `hint`: why it has to be, or what to write."""
+        """Return the problem of a missing key.
+
+        Args:
+            path: Dotted name of the key.
+            hint: Why it is needed, or what to write.
+        """
         return cls(path, f"is missing; {hint}", (path,))
 
     def __str__(self) -> str:
@@ -116,7 +121,12 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """Return the error of a file that cannot be written; it names a missing folder."""
+    """Return the error of a file that cannot be written; it names a missing folder.
+
+    Args:
+        target: Path of the file.
+        error: Error of the operating system.
+    """
     folder = os.path.dirname(target)
     reason = error.strerror or str(error)
     if isinstance(error, FileNotFoundError) and folder and not os.path.exists(folder):
@@ -158,8 +168,14 @@ def naming_file(file: str) -> Iterator[None]:
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:
     """Raise an error if an argument of the library is not of this kind.
 
+    Args:
+        function: Name of the function or argument.
+        value: Value to check.
+        kind: Allowed types.
+        wanted: What would be right, in words.
+
     Raises:
-        TypeError: it is not.
+        TypeError: It is not.
     """
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise wrong_type(function, value, wanted)
@@ -168,8 +184,13 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
 def check_number(name: str, value: object, wanted: str) -> float:
     """Return an argument of the library as a number; hundreds of digits count as infinite.
 
+    Args:
+        name: Name of the argument.
+        value: Value to check.
+        wanted: What would be right, in words.
+
     Raises:
-        TypeError: it is none.
+        TypeError: It is no number.
     """
     check_type(name, value, Real, wanted)
     try:
@@ -195,8 +216,13 @@ def list_words(
 ) -> list[str]:
     """Return an argument of the library, a list of words or a text with commas, as a list.
 
+    Args:
+        name: Name of the argument.
+        words: Value to check.
+        example: A right value, as it is typed.
+
     Raises:
-        TypeError: they are no words.
+        TypeError: They are no words.
     """
     if isinstance(words, str):
         return [word.strip() for word in words.split(",")]
@@ -208,7 +234,13 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """Return the error for an argument of the library: what was given, and what would be right."""
+    """Return the error for an argument of the library: what was given, and what would be right.
+
+    Args:
+        function: Name of the function or argument.
+        value: Rejected value.
+        wanted: What would be right, in words.
+    """
     try:
         text = repr(value)
     except ValueError:  # Python writes no number of thousands of digits

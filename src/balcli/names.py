@@ -111,7 +111,7 @@ VARY = "engine.load:vary_engine"
 
 
 def import_name(place: str) -> Any:
-    """Return a module of the package, or what is called so in it.
+    """Return a module of the package, or an object of it.
 
     Args:
         place: Module below `balcli`, or `module:name`.

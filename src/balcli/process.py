@@ -1,5 +1,5 @@
-"""The process: signals that end it, what it takes from its surroundings, its cores, and what long
-computations are given to report how far they are.
+"""The process: signals that end it, its environment, its cores, and the callback of long
+computations.
 """
 
 from __future__ import annotations
@@ -58,5 +58,5 @@ Tell = Callable[[float], bool]
 
 
 def tell_nobody(done: float) -> bool:
-    """For those who do not want to know."""
+    """Ignore progress."""
     return False

@@ -20,7 +20,7 @@ import numpy as np
 
 from .analysis.answer import Analysis, analyze
 from .analysis.curves import compute_engine_curves
-from .core.records import to_document
+from .core.records import Node, to_document
 from .engine.engine import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
@@ -117,7 +117,7 @@ class _Leaf(NamedTuple):
 
     path: tuple[str, ...]
     value: Any
-    parent: Mapping[str, Any]
+    parent: Node
 
     @property
     def group(self) -> str:
@@ -205,9 +205,7 @@ def record_result(engine: Engine) -> str:
     return json.dumps(_describe(engine)[0], indent=1, ensure_ascii=False) + "\n"
 
 
-def _describe(
-    engine: Engine, orders: Iterable[float] | None = None
-) -> tuple[dict[str, Any], Spectra]:
+def _describe(engine: Engine, orders: Iterable[float] | None = None) -> tuple[Node, Spectra]:
     """Return the record of an engine, and the phasors of the orders in it."""
     only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
     found = analyze(engine, orders, only)
@@ -215,10 +213,10 @@ def _describe(
     return document, found.spectra
 
 
-def _describe_chapters(engine: Engine) -> dict[str, Any]:
+def _describe_chapters(engine: Engine) -> Node:
     """Return the main figures of the chapters that the engine file has."""
     model: EngineFile | None = engine.model
-    found: dict[str, Any] = {}
+    found: Node = {}
     if engine.gas is not None:
         torque = analyze_torque(engine).to_dict()
         found["torque"] = {
@@ -290,7 +288,7 @@ def _describe_error(error: Exception) -> str:
 
 
 def _list_leaves(
-    value: Any, path: tuple[str, ...] = (), parent: Mapping[str, Any] | None = None
+    value: Any, path: tuple[str, ...] = (), parent: Node | None = None
 ) -> Iterator[_Leaf]:
     if isinstance(value, dict):
         for key, part in value.items():
@@ -373,7 +371,7 @@ def _find_sizes(leaf: _Leaf) -> tuple[float, ...]:
 def _are_same_angles(
     key: str, old: _Leaf | None, new: _Leaf | None, order: str, allowed: float
 ) -> bool:
-    """Return whether two angles agree as far as the sizes of what they belong to decide it."""
+    """Return whether two angles agree as far as the sizes of their phasors decide it."""
     if old is None or new is None:
         return _differ_by_rounding(old, new, allowed)
     weights = [
@@ -417,6 +415,6 @@ def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
     return errors
 
 
-def describe_checks(checked: Iterable[CheckedEngine]) -> dict[str, Any]:
+def describe_checks(checked: Iterable[CheckedEngine]) -> Node:
     """Return the document `balcli.check/1`."""
     return to_document(Check(engines=tuple(checked)))

@@ -181,8 +181,8 @@ def mistake(path: str) -> str:
 def test_where_a_diagram_may_lie(beside, tmp_path):
     assert mistake(beside('indicator = "q.csv"\n')) == (f"gas.indicator: {tmp_path}/q.csv: no such file")
     assert mistake(beside('indicator = "../p.csv"\n')) == (
-        'gas.indicator: "../p.csv" lies outside the folder of the engine file; put it beside that '
-        "file, or into a folder below it"
+        'gas.indicator: "../p.csv" lies outside the folder of the engine file; put it next to that '
+        "file, or in a folder below it"
     )
 
 

@@ -125,7 +125,7 @@ def test_a_flywheel_that_torsion_lacks():
     wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
     alone = twist.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [
-        "[flywheel] counts for `torque`, not for `torsion`; write it as [[torsion.rear]], too"
+        "[flywheel] counts for `torque`, not for `torsion`; also write it as [[torsion.rear]]"
     ]
     assert find_suspicious(parse(changed(more=wheel + twist))) == []
     assert find_suspicious(parse(changed(more=alone))) == []

@@ -188,6 +188,6 @@ def test_more_results_along_the_crank_than_anybody_reads_are_refused():
         BalcliError,
         match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 "
         r"results, "
-        r"and at most 32768 are told: ask for fewer orders$",
+        r"and at most 32768 are listed; give fewer orders$",
     ):
         compute_inner_loads(inline_engine([0] * 9), np.arange(1.0, 4097))

@@ -94,7 +94,7 @@ def test_two_results_never_go_to_one_place(balcli, good, before):
     assert balcli("balance", good, "-o", "x.toml", "--write", "./x.toml") == (
         2,
         "",
-        "balcli: --write x.toml: another result goes there, too; choose another name\n",
+        "balcli: --write x.toml: another result goes there as well; choose another name\n",
     )
     assert {name: text for name, text in contents().items() if name == "x.toml"} == before
 

@@ -102,7 +102,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
 
 def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
     light = changed(("mass = 0.6\ncg = 45\n", ""))
-    with pytest.raises(InputError, match=r"rod\.big_end: needs small_end beside it: weigh the rod at both ends"):
+    with pytest.raises(InputError, match=r"rod\.big_end: needs small_end as well: weigh the rod at both ends"):
         check_corners(asked(light, "rod.big_end=0.1,0.2"))
 
 

@@ -57,13 +57,13 @@ DEFAULT_ORDERS = (1.0, 2.0)
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Whatever was not asked for is None.
+    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
 
     Attributes:
         engine: Engine as analyzed.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
         sizing: Devices of the scheme `auto`, and what is left with them.
         ladder: What balances the engine, step by step.
@@ -92,13 +92,13 @@ class Analysis(Result):
 
     @property
     def summary(self) -> str:
-        """What it is of, and which orders it shows."""
+        """Name of the engine and the orders shown, in words."""
         orders = ", ".join(f"{order:g}" for order in self.orders[:12])
         return f"of {self.engine.summary}; orders {orders}{', ...' * (len(self.orders) > 12)}"
 
     @property
     def orders(self) -> Array:
-        """Those shown, shape (orders,)."""
+        """Orders shown, shape (orders,)."""
         return self.spectra.orders
 
     @property
@@ -126,9 +126,9 @@ class Analysis(Result):
     @property
     def of_one_cylinder(self) -> dict[str, float]:
         """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
-        of the crank and its torque at the radius of the crank (N m), by kind: what is small beside
-        them is small. The length is that between the outermost throws; of throws in one plane,
-        between the outermost cylinders (stagger), or else the stroke.
+        of the crank and its torque at the radius of the crank (N m), by kind, against which a value
+        is judged to be small. The length is that between the outermost throws; of throws in one
+        plane, between the outermost cylinders (stagger), or else the stroke.
         """
         engine = self.engine
         masses = engine.weighed[engine.numbers.index(1)]
@@ -152,7 +152,7 @@ def shorten(analysis: Analysis) -> PeaksAndOrders:
 
 @dataclass(frozen=True)
 class Sizing:
-    """Devices of the scheme `auto`, and what is left with them.
+    """Devices of the scheme `auto`, and the forces left with them.
 
     Attributes:
         remedy: The devices.
@@ -173,7 +173,7 @@ def analyze(
     beside: Collection[Engine] = (),
     small: float = SMALL,
 ) -> Analysis:
-    """Free forces and moments of an engine, order by order.
+    """Return the free forces and moments of an engine, order by order.
 
     Args:
         engine: without trailing axes.
@@ -192,7 +192,7 @@ def analyze(
     Raises:
         BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
             of too many cylinders; a height that is not above 0.
-        TypeError: what is no engine, no number, no words.
+        TypeError: an argument of another type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
@@ -244,7 +244,7 @@ def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
 
 
 def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> set[str]:
-    """What is computed; `gas` stands for all that gas does."""
+    """Return the quantities to compute; `gas` stands for all quantities of gas."""
     if only is None:
         return set(list_usual_quantities(engine))
     wanted = {*list_words("only", only)}
@@ -258,8 +258,8 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Orders to compute: those asked for; all there are where the whole curve is needed, or none
-    was asked for.
+    """Return orders to compute: those asked for; all there are where the whole curve is needed, or
+    none was asked for.
     """
     if asked is not None and not whole:
         return asked
@@ -271,8 +271,9 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
 def _compute_visible_and_whole(
     engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
 ) -> tuple[Spectra, Spectra]:
-    """What may be shown, and what has the peaks. Near its lock an engine has tens of thousands of
-    orders, all of which its peaks need: its gas is computed for the few that may be shown.
+    """Return the spectra that may be shown, and those that have the peaks. Near its lock an engine
+    has tens of thousands of orders, all of which its peaks need: its gas is computed for the few
+    that may be shown.
     """
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
@@ -289,7 +290,7 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(
             f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
-            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are told: ask for fewer orders"
+            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are listed; give fewer orders"
         )
     own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
@@ -341,7 +342,12 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Shear, bending and bearing loads along the crankshaft, with gas as far as there is some."""
+    """Return shear, bending and bearing loads along the crankshaft, with gas as far as it is known.
+
+    Args:
+        engine: Engine without trailing axes.
+        asked: Orders to show, shape (orders,); None: the usual ones.
+    """
     inner = compute_inner_loads(engine, asked)
     if engine.gas is None:
         return inner

@@ -17,7 +17,6 @@ from ..show.csv import Rows, name_cell
 from ..show.formats import Format, Renderer, Units, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
-from . import show as chapter
 from .answer import Analysis, analyze, list_usual_quantities
 
 if TYPE_CHECKING:
@@ -25,12 +24,26 @@ if TYPE_CHECKING:
 
 
 def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
-    """What a person reads of it."""
+    """Return the sheet of one analysis.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
+    from . import show as chapter  # JSON has no sheets
+
     return chapter.sheet(one.result, system, one.view)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """CSV: the rows of the analysis, each after the engine's name."""
+    """Return CSV: the rows of the analysis, each after the engine's name.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
+    from . import show as chapter
+
     header, lines = chapter.rows(one.result, system, named=one.view.parts)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
@@ -43,16 +56,23 @@ def answer(
 ) -> None:
     """Analyze files and print the results, by the engines' names; messages name bad files.
 
+    Args:
+        paths: Engine files.
+        asked: What to compute and show.
+        form: Format of the results.
+        output: File to write; None: standard output.
+        units: System of units.
+
     Raises:
-        BalcliError: the output cannot be written.
-        Exit: with status 2, if a file is bad.
+        BalcliError: The output cannot be written.
+        Exit: With status 2, if a file is bad.
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
-    def find_one(path: str) -> tuple[str, str, Any]:
+    def find_one(path: str) -> tuple[str, str, object]:
         engine = read_engine(path, rpm, asked.words).engine
         return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
@@ -66,8 +86,8 @@ def answer(
 
 def _choose_result(
     asked: Request, for_people: bool
-) -> tuple[Callable[[Engine], Any], Renderer[NamedResult[Any]]]:
-    """Return what is found of an engine, and how it is shown."""
+) -> tuple[Callable[[Engine], object], Renderer[NamedResult[Any]]]:
+    """Return the result for an engine, and how it is shown."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds  # for those who ask for several
@@ -82,7 +102,7 @@ def _choose_result(
         )
         return sheets, speeds.MARINE
 
-    def find_series(engine: Engine) -> Any:
+    def find_series(engine: Engine) -> object:
         ask = _ask(asked, engine, for_people)
         return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import nan
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from ..core.phasors import Array
 from ..core.records import HIDDEN
@@ -118,7 +118,7 @@ class Comparison(Result):
 
     @property
     def summary(self) -> str:
-        """The engines."""
+        """Names of the engines, in words."""
         return f"of {', '.join(self.engines)}"
 
 
@@ -130,7 +130,7 @@ def compare_engines(
     whole: bool = False,
     small: float = SMALL,
 ) -> Comparison:
-    """The free forces and moments of several engines: the largest of each order, and peaks.
+    """Return the free forces and moments of several engines: the largest of each order, and peaks.
 
     Args:
         engines: without trailing axes, at least two.
@@ -170,8 +170,12 @@ def analyze_alike(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> tuple[Analysis, ...]:
-    """Analyses of several engines, or of one at several speeds, all by the same orders: those asked
-    for, or each that one of them shows unasked.
+    """Return analyses of several engines, or of one at several speeds, all by the same orders.
+
+    Args:
+        engines: Engines without trailing axes.
+        orders: Orders to show; None: each that one of the analyses shows by default.
+        analyze_one: Function that analyzes an engine by such orders.
     """
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
     if orders is not None:
@@ -181,7 +185,7 @@ def analyze_alike(
 
 
 def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tuple[Line, ...]:
-    """Every figure of analyses by the same orders side by side.
+    """Return every figure of analyses by the same orders side by side.
 
     Args:
         every_order: also orders above 2 of which all of them are free.
@@ -283,8 +287,8 @@ def compare(
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
 ) -> Comparison:
-    """Engines side by side: free forces and moments by order, peaks, and their ratios to the first
-    engine's.
+    """Compare engines side by side: free forces and moments by order, peaks, and their ratios to
+    the first engine's.
 
     Args:
         engines: two or more, as `load` makes them.
@@ -327,19 +331,29 @@ TITLES = {TORQUE: "inertia torque"}
 
 
 def rows(result: Comparison, system: System) -> Rows:
-    """CSV: a figure a line, a column an engine."""
+    """Return CSV: a figure a line, a column an engine.
+
+    Args:
+        result: Comparison of the engines.
+        system: System of units.
+    """
     header = ("quantity", "order", "unit", *map(name_cell, result.engines))
     return Rows(header, [_csv_line(line, system) for line in result.figures])
 
 
-def _csv_line(line: Line, system: System) -> tuple[Any, ...]:
+def _csv_line(line: Line, system: System) -> tuple[object, ...]:
     unit = system.unit(line.kind)
     name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
     return name, line.order, unit.name, *map(unit.of, line.values)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
-    """Amplitudes, with ratios to the first engine's below their size."""
+    """Return tables of amplitudes, with ratios to the first engine's below their size.
+
+    Args:
+        result: Comparison of the engines.
+        system: System of units.
+    """
     heads = (
         "",
         result.engines[0],
@@ -370,21 +384,27 @@ def sheet(result: Comparison, system: System) -> Sheet:
 
 
 def _tell_speeds(result: Comparison) -> Facts:
-    """One for all, or each in the order of the engines."""
+    """Return one speed for all engines, or each in their order."""
     told = [tell_speed(engine) for engine in result.compared]
     one_for_all = len(set(told)) == 1
     return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
-    """The unit for the largest of all that is known, if anything is."""
+    """Return the unit that fits the largest of all known values.
+
+    Args:
+        kind: Kind of force or moment.
+        lines: Lines with its values.
+        system: System of units.
+    """
     known = (v for line in lines for v in _list_known(line))
     return system.unit(kind).fit(max(known, default=0.0))
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Orders that are not small beside the largest or beside one cylinder's, and the peak; none if
-    all are 0. What is not known of one engine is told of low orders.
+    """Return the orders that are not small against the largest or against one cylinder's, and the
+    peak; none if all are 0. Low orders are kept where one engine's are not known.
     """
     largest = max((v for line in lines for v in _list_known(line)), default=0.0)
     return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
@@ -402,21 +422,27 @@ def _matters(line: Line, least: float) -> bool:
 
 
 def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
-    """Amplitudes in their unit, or a word where none counts, unless `every` one is wanted."""
+    """Return amplitudes in their unit, or a word for one that is negligible.
+
+    Args:
+        line: Amplitudes of all engines.
+        unit: Unit of the column.
+        every: Whether negligible amplitudes are shown as numbers.
+    """
     small = [False] * len(line.values) if every else _tell_negligible(line)
     sizes = zip(line.values, small, strict=True)
     return [size_cell(value, unit, negligible=s, digits=None) for value, s in sizes]
 
 
 def _tell_negligible(line: Line) -> list[bool]:
-    """Of each value whether it is 0, or small beside what one cylinder of its engine makes."""
+    """Return whether each value is 0, or small against that of one cylinder of its engine."""
     single = line.single or (0.0,) * len(line.values)
     pairs = zip(line.values, single, strict=True)
     return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
-    """Sizes, and ratios to the first engine's unless that is negligible."""
+    """Return sizes, and ratios to the first engine's unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
     to_nothing = _tell_negligible(line)[0]
     ratios = [UNKNOWN if to_nothing else number(ratio, 4) for ratio in line.ratios[1:]]

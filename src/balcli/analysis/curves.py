@@ -67,7 +67,7 @@ class Curves(Result):
 
     @property
     def summary(self) -> str:
-        """Of what, and at how many angles."""
+        """Name of the engine and number of angles, in words."""
         return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
     def known(self) -> dict[str, Array]:
@@ -97,8 +97,8 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
 
 
 def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
-    """Piston travel from top dead centre (m), velocity and acceleration away from it (m/s, m/s2)
-    and rod angle (deg) of one cylinder.
+    """Return piston travel from top dead centre (m), velocity and acceleration away from it (m/s,
+    m/s2) and rod angle (deg) of one cylinder.
 
     Args:
         engine: without trailing axes.
@@ -117,7 +117,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
-    """Curves by their parts. What lies within the rounding error of its parts is 0.
+    """Return curves by their parts. What lies within the rounding error of its parts is 0.
 
     Args:
         compute: parts at some angles, by name, each of shape (parts, angles).
@@ -142,7 +142,7 @@ def _sum_parts(
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """What each cylinder and device does, shape (cylinders and devices, angles)."""
+    """Return the curves of each cylinder and device, shape (cylinders and devices, angles)."""
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
     force = np.concatenate([_force_of_cylinders(motion), of_devices])
@@ -166,7 +166,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Parts of the motion of the cylinder in this row, shape (parts, angles)."""
+    """Return parts of the motion of the cylinder in this row, shape (parts, angles)."""
     motion = EngineMotion(engine, crank_deg)
     m, r = motion.moved, motion.radius
     v, a = -m.velocity[row], -m.acceleration[row]
@@ -180,7 +180,7 @@ def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[
 
 
 def _force_of_cylinders(motion: EngineMotion) -> Complex:
-    """N, shape (cylinders, angles)."""
+    """Return the free force of each cylinder, N, shape (cylinders, angles)."""
     c, r, w2, xi = motion.cylinders, motion.radius, motion.omega**2, motion.xi
     m = motion.moved
     on_axis = -as_rows(c.reciprocating) * r * (w2 * m.acceleration + xi * m.velocity)
@@ -191,8 +191,8 @@ def _force_of_cylinders(motion: EngineMotion) -> Complex:
 
 
 def _couple_of_cylinders(motion: EngineMotion) -> Array:
-    """Free couple of each cylinder about the crank's axis, N m, shape (cylinders, angles): h =
-    -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
+    """Return the free couple of each cylinder about the crank's axis, N m, shape (cylinders,
+    angles): h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
@@ -277,10 +277,11 @@ def _settle(values: Array) -> Array:
 
 @tell_arguments(step="step_deg")
 def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
-    """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
+    """Return force, moment, couple, torque and roll over the crank angle, or the motion of one
+    piston.
 
     Args:
-        engine: as `load` makes it.
+        engine: Engine from `load`.
         step_deg: of the crank angle, which begins at 0; with gas it runs over the whole cycle.
         cylinder: number of the one whose piston's travel, speed, acceleration and rod angle are
             wanted, with its pressure if there is gas; default: the whole engine.
@@ -314,12 +315,12 @@ def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float
 
 
 def columns(curves: Curves) -> Columns:
-    """Crank angles, and each quantity that is known; units stand in the names."""
+    """Return crank angles, and each quantity that is known; units stand in the names."""
     return Columns({"crank_deg": curves.crank_deg, **curves.known()})
 
 
 def rows(curves: Curves) -> Rows:
-    """CSV: a line a crank angle, a column a quantity that is known."""
+    """Return CSV: a line a crank angle, a column a quantity that is known."""
     known = curves.known()
     columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
     return Rows(("crank_deg", *known), zip(*columns, strict=True))

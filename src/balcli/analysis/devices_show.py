@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import FORCE, MOMENT, Kind
@@ -38,7 +38,12 @@ ANGLES = (
 
 # ------------------------------------------------------------------ for people
 def device_grid(remedy: Remedy, system: System) -> Grid:
-    """Return one row a device."""
+    """Return a table with one row for each device.
+
+    Args:
+        remedy: Devices.
+        system: System of units.
+    """
     devices, length = remedy.devices, system.length
     unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
 
@@ -132,7 +137,13 @@ def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> s
 
 
 def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
-    """Return the workshop's figures, one row a device; there must be one."""
+    """Return a table of the workshop's figures, one row for each device.
+
+    Args:
+        remedy: Devices.
+        practical: Figures of the devices for the workshop, at least one.
+        system: System of units.
+    """
     length, mass, force = system.length, system.mass, system.force
     radius = f"{_length(practical[0].radius_mm, length, 4)} {length.name}"
     note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
@@ -162,8 +173,13 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 def holes_grid(
     remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
 ) -> Grid:
-    """Return where to drill, how many holes and how deep; or where to put slugs. There must be a
-    drill.
+    """Return a table of where to drill, how many holes and how deep; or of where to put slugs.
+
+    Args:
+        remedy: Devices.
+        practical: Figures of the devices for the workshop, at least one.
+        tools: Drill and radius; it has a drill.
+        system: System of units.
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
@@ -198,13 +214,24 @@ def holes_grid(
 
 
 def tell_rim(tools: Tools, radius: str) -> str:
-    """Return from where holes go inwards, and whether anybody has given it."""
+    """Return in words where holes start, and whether the radius was given.
+
+    Args:
+        tools: Drill and radius.
+        radius: Radius as it is printed.
+    """
     why = "--radius" if tools.radius else "the crank radius, assumed: --radius says where it is"
     return f"from a rim at {radius} ({why})"
 
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
-    """Yield how long the largest row of holes is."""
+    """Yield how long the largest row of holes is.
+
+    Args:
+        practical: Figures of the devices for the workshop.
+        tools: Drill and radius.
+        unit: Unit of lengths.
+    """
     most = max((p.holes for p in practical if p.holes), default=0)
     if most > 1 and tools.drill is not None:
         length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
@@ -221,8 +248,13 @@ def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, Device
         yield f"{kind} {numbers[kind]}", device
 
 
-def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, Any, str]]:
-    """Yield name, value and unit of every figure of a device, as an engine file has it."""
+def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, float | str, str]]:
+    """Yield name, value and unit of every figure of a device, as an engine file has it.
+
+    Args:
+        device: Table of the device.
+        system: System of units.
+    """
     for field, key in KEYS.items():
         if field not in FIELDS[type(device)]:
             continue

@@ -1,4 +1,4 @@
-"""The options of `balcli analyze`, and what they ask for."""
+"""Options of `balcli analyze`, and the request that they make."""
 
 from __future__ import annotations
 
@@ -50,16 +50,16 @@ Why = Annotated[bool, typer.Option("--why", help="Print what is balanced by symm
 
 
 class Request(NamedTuple):
-    """What is asked of every engine.
+    """Options of an analysis, the same for every engine.
 
     Attributes:
         speeds_rpm: Crank speeds; empty: the file's.
-        orders: Orders to show; None: those that there are.
-        quantities: Quantities to compute; None: what there is of every engine.
+        orders: Orders to show; None: those that the engine has.
+        quantities: Quantities to compute; None: the usual ones of each engine.
         parts: Words of `--only`; empty: none was given.
         whole: Whether every table and every order is shown.
-        by_cylinder: Whether each cylinder's share is asked for.
-        why: Whether reasons are asked for.
+        by_cylinder: Whether each cylinder's share is shown.
+        why: Whether reasons are shown.
         height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
         misfires: Numbers of the cylinders without gas.
         marine: Whether it is the sheet of marine builders.
@@ -122,7 +122,13 @@ class Request(NamedTuple):
 def choose_analysis_format(
     output: Path | None, asked: Sequence[AnalysisFormat] | None
 ) -> tuple[Format, bool]:
-    """Return how to write, and whether it is the marine sheet; errors as `file_names.format_of`."""
+    """Return the format of the output, and whether it is the marine sheet; errors as for
+    `file_names.format_of`.
+
+    Args:
+        output: File to write; None: standard output.
+        asked: Values of `--format`; None: none.
+    """
     given = asked or ()
     plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
     if len(plain) > 1:

@@ -61,12 +61,12 @@ def order_tables(
     with_gas: bool = False,
     every: bool = False,
 ) -> Iterator[Grid]:
-    """A table of each vector, and one of what acts about z.
+    """Yield a table of each vector, and one of the torques about z.
 
     Args:
-        pivot: about what couple and roll are.
+        pivot: axis of couple and roll, in words.
         roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
-        with_gas: whether the engine has gas, beside which that of inertia alone is told as such.
+        with_gas: whether the engine has gas; the part of inertia is then labelled.
         every: also orders above 2 in which all is balanced.
     """
     for kind, phasors in spectra.vectors():
@@ -112,8 +112,13 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
 
 
 def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Force and moment as multiples of the units of textbooks, where there are such units; `every`
-    as of `order_tables`.
+    """Yield tables of force and moment as multiples of the units of textbooks, where such units
+    exist.
+
+    Args:
+        book: Forces in the form of textbooks.
+        system: System of units.
+        every: As for `order_tables`.
     """
     units = book.units
     if not units.force:
@@ -133,7 +138,13 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
-    """Return the part of one cylinder, as lecturers have it: vectors as size and angle."""
+    """Return a table of one cylinder's share, as lecturers list it: vectors as size and angle.
+
+    Args:
+        cylinder: Number of the cylinder.
+        share: Its spectra.
+        system: System of units.
+    """
     vectors = [(kind, phasors, system.unit(kind)) for kind, phasors in share.vectors()]
 
     def cells(k: int) -> Iterator[str]:
@@ -154,10 +165,13 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
 def peak_facts(
     result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
 ) -> Facts:
-    """The largest values over a revolution that were asked for.
+    """Return the largest values over a revolution that were computed.
 
     Args:
-        single: what one cylinder makes of each kind, beside which a peak may be negligible.
+        result: Result with peaks.
+        system: System of units.
+        title: Title of the block.
+        single: Size of each kind for one cylinder, against which a peak may be negligible.
     """
     pairs = []
     for kind, peak in result.peaks:
@@ -221,12 +235,17 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
 
 def show_peak_deg(c: complex, order: float) -> str:
-    """Where an amplitude is reached first, or a dash of a mean."""
+    """Return the crank angle at which an amplitude is first reached, or a dash for a mean.
+
+    Args:
+        c: Coefficient of e^{i n theta}.
+        order: Order n.
+    """
     return degrees(float(peak_deg(c, order)))
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
-    """The unit for the largest of all that is known."""
+    """Return the unit for the largest of all that is known."""
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
@@ -267,8 +286,8 @@ _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
 def gas_grid(
     spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
 ) -> Iterator[Grid]:
-    """Inertia torque, gas torque, both together and the roll of the frame, by order, if all of them
-    are known; negligible orders are left out unless every one was asked for.
+    """Yield inertia torque, gas torque, both together and the roll of the frame, by order, if all
+    of them are known; negligible orders are left out unless every one was asked for.
 
     Args:
         pivot: about what the roll is.
@@ -303,7 +322,13 @@ def gas_grid(
 
 
 def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
-    """Which order rocks the engine most about a `pivot`, in a sentence; empty: not known."""
+    """Return a sentence on the order that rocks the engine most; empty if it is not known.
+
+    Args:
+        spectra: Spectra with roll.
+        system: System of units.
+        pivot: Axis of the roll, in words.
+    """
     roll, gas, inertia = spectra.roll_total, spectra.gas, spectra.roll
     if roll is None or gas is None or inertia is None:
         return ""

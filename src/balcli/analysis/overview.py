@@ -39,10 +39,12 @@ if TYPE_CHECKING:
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
-    """Orders to 2, and those of which one force or moment is not small beside one cylinder's.
+    """Return orders to 2, and those with a force or moment that is not small against one
+    cylinder's.
 
     Args:
-        single: what one cylinder makes of each kind; of a kind that is not in it, none is small.
+        spectra: Spectra to show.
+        single: Size of each kind for one cylinder; of a kind that is not in it, none is small.
     """
     return [
         float(order)
@@ -54,7 +56,13 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
 def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
     """Return force and moment side by side, with the parts of each that turn with the crank and
-    against it; the other orders in one line, with a hint how to see them.
+    against it; the other orders are listed in one line, with a hint how to see them.
+
+    Args:
+        spectra: Spectra to show.
+        shown: Orders that have rows.
+        system: System of units.
+        hints: Whether the option that shows more is named.
     """
     chosen = spectra.select_orders(shown)
     heads = ["order"]
@@ -72,14 +80,14 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
 
 
 def name_column(kind: Kind) -> str:
-    """A kind at the head of a column, or in a sentence."""
+    """Return a kind at the head of a column, or in a sentence."""
     return "roll with gas" if kind is ROLL_TOTAL else kind.name
 
 
 def tell_others(
     states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
 ) -> str:
-    """One line on the orders that are not shown, or nothing.
+    """Return one line on the orders that are not shown, or nothing.
 
     Args:
         states: of one engine, as of now or before and after, with the same orders.
@@ -105,10 +113,12 @@ def tell_others(
 
 
 def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
-    """What acts about the crank's axis, and the largest values over a revolution, a line each.
+    """Return moments about the crank's axis and the largest values over a revolution, a line each.
 
     Args:
-        every_order: whether orders were asked for, which need not be those that roll has.
+        result: Analysis to show.
+        system: System of units.
+        every_order: Whether orders were given, which need not be those that roll has.
     """
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll
@@ -121,7 +131,9 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of `roll_and_peaks`."""
+    """Return every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of
+    `roll_and_peaks`.
+    """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
     rows = [k for k, size in enumerate(roll.major) if size > least]
     largest = float(roll.major.max(initial=0))
@@ -192,13 +204,13 @@ def verdict(
     steady: bool = True,
     devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
-    """A sentence for every order that matters; empty if neither forces nor moments were asked for.
+    """Return a sentence for every order that matters; none without forces and moments.
 
     Args:
-        single: force (N) and moment (N m) of one cylinder's reciprocating mass, beside which an
+        single: force (N) and moment (N m) of one cylinder's reciprocating mass, against which an
             order may be negligible.
-        steady: whether the speed is. If not, orders are told without what cancels them: most of an
-            order may be what the unevenness makes of another, and goes with that one.
+        steady: whether the speed is. If not, no cure is named: most of an order may come
+            from another one through the unevenness, and vanishes with that one.
         devices: Devices of the file, which are not named as what would cancel an order.
     """
     vectors = [
@@ -240,8 +252,8 @@ def _tell_low_order(
     steady: bool,
     devices: Sequence[Device],
 ) -> str:
-    """Return for order 1 or 2 what is there, which way it turns, and at steady speed what cancels
-    it; the roll couple where the moment is balanced.
+    """Return for order 1 or 2 its forces, the way they turn, and at steady speed the cure; the
+    roll couple where the moment is balanced.
     """
     there, balanced = [], []
     for vector in vectors:
@@ -262,7 +274,7 @@ def _tell_low_order(
 
 
 def _tell_balanced(names: list[str], couple: float, vectors: list[_Vector]) -> str:
-    """Return what is balanced, and the roll couple (N m) which remains about the crank axis."""
+    """Return the balanced quantities, and the roll couple (N m) that remains."""
     remains = f"; roll couple of {size_text(couple, vectors[-1].unit)}" if couple else ""
     return f"{' and '.join(names)} balanced{remains if 'moment' in names else ''}."
 
@@ -293,7 +305,7 @@ def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) 
 
 
 def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
-    """The largest force and moment of some orders; empty if all are balanced."""
+    """Return the largest force and moment of some orders; empty if all are balanced."""
     told = []
     for vector in vectors if rows else ():
         k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
-from ..show.plot_style import BLUE, GREEN, RED, SOFT, put_legend_above
+from ..show.plot_style import BLUE, GREEN, RED, SOFT, Look, put_legend_above
 from ..show.sheet import VISIBLE, number, order_name, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import FactorPeaks
@@ -20,14 +20,21 @@ if TYPE_CHECKING:
 
 
 _LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
-_DASHED: Any = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
+_DASHED: Look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
 
 
 def draw_vector_bars(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
     """Draw the largest value of each order as a bar: the part that turns with the crank, and on top
-    the part that turns against it; dashed the largest value `before`, of the same orders.
+    the part that turns against it.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        what: Name of the quantity.
+        unit: Its unit.
+        before: Phasors of the same orders whose largest value is drawn dashed; None: none.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -35,7 +42,7 @@ def draw_vector_bars(
     against = np.abs(curve.backward[shown]) / s.size
     places = np.arange(len(shown))
     if before is not None:
-        look: Any = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
+        look: Look = {"facecolor": "none", "edgecolor": SOFT, "linestyle": (0, (3, 2))}
         ax.bar(places, before.major[shown] / s.size, 0.72, label="before", **look)
     ax.bar(places, ahead, 0.56, color=BLUE, label="with the crank")
     upper = ax.bar(places, against, 0.56, bottom=ahead, color=RED, hatch="////", label="against it")
@@ -45,7 +52,13 @@ def draw_vector_bars(
 
 
 def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -> None:
-    """Draw the amplitudes of several moments about the crank, side by side."""
+    """Draw the amplitudes of several moments about the crank, side by side.
+
+    Args:
+        ax: Axes to draw on.
+        curves: Phasors by label, all of the same orders.
+        unit: Unit of the moments.
+    """
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
     s = fit_largest(unit, *curves.values())
     for (label, curve), look, shift in zip(curves.items(), _LOOKS, (-0.27, 0, 0.27), strict=False):
@@ -56,7 +69,12 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
-    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten."""
+    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten.
+
+    Args:
+        curve: Phasors, shape (orders,).
+        before: Phasors of the same orders that are drawn as well; None: none.
+    """
     major = curve.major if before is None else np.maximum(curve.major, before.major)
     always = (curve.orders == 1) | (curve.orders == 2)
     due = np.flatnonzero(always | (major > VISIBLE * major.max(initial=0)))
@@ -101,7 +119,13 @@ def draw_curves(
 
 
 def set_crank_axis(ax: Axes, crank_deg: Array, label: str = "crank angle, deg") -> None:
-    """Make x the crank angle, with ticks every 90 degrees."""
+    """Make x the crank angle, with ticks every 90 degrees.
+
+    Args:
+        ax: Axes to change.
+        crank_deg: Crank angles that are drawn, deg, shape (angles,).
+        label: Label of the axis.
+    """
     first, last = (round(float(angle)) for angle in crank_deg[[0, -1]])
     ax.set(xlim=(first, last), xticks=np.arange(first, last + 1, 90), xlabel=label)
 
@@ -155,7 +179,7 @@ def draw_along(
     unit = system.force if what == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
     s = unit.fit(float(max(map(np.max, values))))
-    now: Any = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
+    now: Look = {"color": BLUE, "linewidth": 2.2, "zorder": 3}
     labels = ("after", "before") if len(curves) > 1 else (f"largest over {over}",)
     for curve, sizes, look, label in zip(curves, values, (now, _DASHED), labels, strict=False):
         z = curve.z_m / system.length.size

@@ -2,16 +2,14 @@
 moments, strokes, and the devices of the scheme `auto`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.cylinders import Travel
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Reached, WrittenAs
+from ..core.records import INLINE, Node, Reached, WrittenAs
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -29,8 +27,7 @@ from ..sizing.planes import FIELDS, DeviceTable, find_unbalance
 from ..sizing.remedy import Remedy
 
 
-@dataclass(frozen=True)
-class CylinderShare:
+class CylinderShare(NamedTuple):
     """One cylinder's share, by itself.
 
     Attributes:
@@ -58,8 +55,7 @@ class PeaksAndOrders:
 
 
 # ------------------------------------------------------------------ along the crank
-@dataclass(frozen=True)
-class LoadOrder:
+class LoadOrder(NamedTuple):
     """One order of a load at one place.
 
     Attributes:
@@ -76,8 +72,7 @@ def list_load_orders(load: Phasors) -> list[LoadOrder]:
     return list(map(LoadOrder, map(order_number, load.orders), list_vectors(load)))
 
 
-@dataclass(frozen=True)
-class Load:
+class Load(NamedTuple):
     """A load at one place: its largest value over the cycle, and its orders.
 
     Attributes:
@@ -89,8 +84,7 @@ class Load:
     phasors: Annotated[Phasors, WrittenAs(list_load_orders, "orders")]
 
 
-@dataclass(frozen=True)
-class Section:
+class Section(NamedTuple):
     """Shear force and bending moment just behind one load.
 
     Attributes:
@@ -104,8 +98,7 @@ class Section:
     bending_Nm: Load
 
 
-@dataclass(frozen=True)
-class Bent:
+class Bent(NamedTuple):
     """A shaft, or the block, section by section.
 
     Attributes:
@@ -119,8 +112,7 @@ class Bent:
     sections: tuple[Section, ...]
 
 
-@dataclass(frozen=True)
-class BearingLoad:
+class BearingLoad(NamedTuple):
     """The load of one main bearing.
 
     Attributes:
@@ -132,8 +124,7 @@ class BearingLoad:
     load_N: Load
 
 
-@dataclass(frozen=True)
-class WithGas:
+class WithGas(NamedTuple):
     """Loads of inertia and gas, which bends crankshaft and block one against the other.
 
     Attributes:
@@ -147,8 +138,7 @@ class WithGas:
     block: Bent
 
 
-@dataclass(frozen=True)
-class Inner:
+class Inner(NamedTuple):
     """Loads along the crankshaft.
 
     Attributes:
@@ -198,8 +188,7 @@ def _list_loads(along: AlongCrank) -> tuple[list[float], list[Load]]:
 Includes = Literal["inertia and gas", "inertia, without gas"]
 
 
-@dataclass(frozen=True)
-class GuideOrder:
+class GuideOrder(NamedTuple):
     """Guide-force moments of one order.
 
     Attributes:
@@ -214,8 +203,7 @@ class GuideOrder:
     x_Nm: Harmonic | None = None
 
 
-@dataclass(frozen=True)
-class Guide:
+class Guide(NamedTuple):
     """Guide-force moments.
 
     Attributes:
@@ -241,8 +229,7 @@ def name_included(with_gas: bool) -> Includes:
     return "inertia and gas" if with_gas else "inertia, without gas"
 
 
-@dataclass(frozen=True, order=True)
-class Stroke:
+class Stroke(NamedTuple):
     """Stroke and dead centers of one piston.
 
     Attributes:
@@ -259,14 +246,18 @@ class Stroke:
 
 
 def list_strokes(travel: Travel, numbers: Sequence[int]) -> tuple[Stroke, ...]:
-    """Return strokes and dead centers by the numbers of the cylinders, in rising order."""
+    """Return strokes and dead centers by the numbers of the cylinders, in rising order.
+
+    Args:
+        travel: Strokes and dead centers, one for each cylinder.
+        numbers: Numbers of the cylinders.
+    """
     columns = ((values + 0.0).tolist() for values in travel)
     return tuple(sorted(map(Stroke, numbers, *columns)))
 
 
 # ------------------------------------------------------------------ devices
-@dataclass(frozen=True, kw_only=True)
-class Counterweight:
+class Counterweight(NamedTuple):
     """Unbalance fixed to the crankshaft.
 
     Attributes:
@@ -280,8 +271,7 @@ class Counterweight:
     position_mm: float
 
 
-@dataclass(frozen=True, kw_only=True)
-class Shaft:
+class Shaft(NamedTuple):
     """A balancer shaft, as it stands at crank angle 0.
 
     Attributes:
@@ -301,8 +291,7 @@ class Shaft:
     free: bool
 
 
-@dataclass(frozen=True, kw_only=True)
-class Slider:
+class Slider(NamedTuple):
     """A mass that runs to and fro.
 
     Attributes:
@@ -322,8 +311,7 @@ class Slider:
     position_mm: float
 
 
-@dataclass(frozen=True)
-class Devices:
+class Devices(NamedTuple):
     """Devices that a scheme fits, as an engine file would describe them.
 
     Attributes:
@@ -337,8 +325,7 @@ class Devices:
     sliders: tuple[Slider, ...]
 
 
-@dataclass(frozen=True)
-class SizedDevices:
+class SizedDevices(NamedTuple):
     """Devices of a scheme.
 
     Attributes:
@@ -379,10 +366,15 @@ def describe_devices(remedy: Remedy) -> Devices:
     )
 
 
-def _list_fields(device: DeviceTable) -> dict[str, Any]:
+def _list_fields(device: DeviceTable) -> Node:
     return {KEYS[field]: find_value(device, field) for field in FIELDS[type(device)]}
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
-    """Return a figure of a device by its field in the engine file; the unbalance in kg m."""
+    """Return a figure of a device; the unbalance in kg m.
+
+    Args:
+        device: Table of the device.
+        field: Key of the figure in the engine file.
+    """
     return find_unbalance(device) if field == "unbalance" else getattr(device, field)

@@ -88,8 +88,12 @@ def _list_loads(inner: InnerLoads, system: System) -> Iterator[_Load]:
 
 
 def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
-    """Yield a table of each quantity, a place a row, and the largest bending moment of all; of an
-    engine with gas also what bears it inside.
+    """Yield a table of each quantity, a row for each place, and the largest bending moment; for an
+    engine with gas also the loads of gas inside it.
+
+    Args:
+        inner: Loads along the crankshaft.
+        system: System of units.
     """
     gas = inner.with_gas
     notes = {"bending": _OPEN_END if gas is None else f"{_TOGETHER} {_OPEN_END}", "main": _CUT}
@@ -108,6 +112,10 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
     """Yield the figures of every place. Places are numbered along the crank: `shear 1` has its
     position as a figure.
+
+    Args:
+        inner: Loads along the crankshaft.
+        system: System of units.
     """
     length = system.length
     for name, along, unit, *_ in _list_loads(inner, system):
@@ -150,7 +158,12 @@ _ALONE = "of inertia alone, without gas"
 
 
 def lay_out_guide(guide: GuideMoments, system: System) -> Iterator[Grid]:
-    """One table, an order a row."""
+    """Yield one table, a row for each order.
+
+    Args:
+        guide: Guide-force moments.
+        system: System of units.
+    """
     both = (guide.h, guide.x)
     unit = fit_largest(system.moment, *filter(None, both))
 
@@ -166,7 +179,12 @@ def lay_out_guide(guide: GuideMoments, system: System) -> Iterator[Grid]:
 
 
 def define_guide_moments(height_m: Array, system: System) -> str:
-    """What H- and X-type are, with the height of the guides of shape (cylinders,), m."""
+    """Return a note that defines the H- and X-type moments.
+
+    Args:
+        height_m: Height of the guides, m, shape (cylinders,).
+        system: System of units.
+    """
     return (
         "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
         f"distance from the reference, divided by L = {_heights(height_m, system)} (crankshaft to "
@@ -175,7 +193,12 @@ def define_guide_moments(height_m: Array, system: System) -> str:
 
 
 def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
-    """The figures of every order, first of the H-type, then of the X-type."""
+    """Yield the figures of every order, first of the H-type, then of the X-type.
+
+    Args:
+        guide: Guide-force moments.
+        system: System of units.
+    """
     for entry in write_each(describe_guide(guide).orders):
         for name, key in (("guide_h", "h_Nm"), ("guide_x", "x_Nm")):
             if key in entry:
@@ -183,14 +206,19 @@ def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
 
 
 def _heights(height_m: Array, system: System) -> str:
-    """Of all cylinders if they are alike, else the shortest and the longest."""
+    """Return the height of all cylinders if it is the same, else the lowest and the highest."""
     found = (float(height_m.min()), float(height_m.max()))
     texts = dict.fromkeys(number(system.length.of(height)) for height in found)
     return f"{' to '.join(texts)} {system.length.name}"
 
 
 def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Iterator[Grid]:
-    """Yield one table, a cylinder a row."""
+    """Yield one table, a row for each cylinder.
+
+    Args:
+        travel: Strokes and dead centers of the cylinders.
+        system: System of units.
+    """
     length = system.length
     yield Grid(
         "Strokes and dead centres",
@@ -210,7 +238,12 @@ def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Iterator[Grid]:
 
 
 def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow]:
-    """Yield three figures a cylinder."""
+    """Yield three figures for each cylinder.
+
+    Args:
+        travel: Strokes and dead centers of the cylinders.
+        system: System of units.
+    """
     length = system.length
     for one in travel:
         about = one.cylinder, "travel", None
@@ -226,13 +259,15 @@ UNITS = (
 
 
 def lay_out_symmetry(why: Symmetry) -> Iterator[Text]:
-    """One paragraph a reason and the orders that have it; then what its units mean."""
+    """Yield one paragraph a reason and the orders that have it; then what its units mean."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
     yield Text("Why", (*why.sentences, *units))
 
 
 def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
-    """What decides and why, and what is left: in units of one cylinder's, and in the textbook's."""
+    """Yield the reasons for each order, and the amplitudes that remain: in units of one cylinder's,
+    and in those of textbooks.
+    """
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order
         yield FigureRow(*about, "why", reason.verdict, "")

@@ -49,7 +49,14 @@ TABLES = frozenset(
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
-    """What the engine is, the verdict, what it does order by order, peaks, sizing."""
+    """Return the sheet of an analysis: the engine, the verdict, forces order by order, peaks,
+    sizing.
+
+    Args:
+        result: Analysis to show.
+        system: System of units.
+        view: Tables and orders to show.
+    """
     return Sheet(result.engine.name or NAMELESS, tuple(_parts(result, system, view)))
 
 
@@ -76,7 +83,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 
 
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
-    """What there is only of some engines, or where it was asked for."""
+    """Yield the parts that only some engines have, or that were asked for."""
     if result.travel is not None and whole:
         yield from sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
@@ -116,7 +123,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """One table of force and moment, roll and peaks in a line each."""
+    """Yield one table of force and moment, roll and peaks in a line each."""
     spectra = result.spectra.with_moment_if(result.moments_known)
     vectors = spectra.only([kind.name for kind in VECTORS])
     shown = list(map(float, vectors.orders))
@@ -163,8 +170,8 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
 
 
 def columns(result: Analysis) -> Columns:
-    """An order a row: sizes and directions of each kind, named as the quantities of sweeps without
-    their order.
+    """Return an order a row: sizes and directions of each kind, named as the quantities of sweeps
+    without their order.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
     values: dict[str, Array] = {"order": result.orders}

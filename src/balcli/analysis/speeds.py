@@ -3,7 +3,7 @@
 For people a table a kind, a speed a row; for programs the analyses themselves. The sheet has
 external forces and moments by order, vertical and horizontal, guide-force moments and torque.
 Vertical is along x, horizontal along y. A vertical force makes the moment about the y axis that is
-called vertical, too: M1V is My of order 1, M1H its Mx.
+also called vertical: M1V is My of order 1, M1H its Mx.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class SpeedSeries:
 
     @property
     def speeds_rpm(self) -> list[float]:
-        """Of each analysis."""
+        """Speed of each analysis, rpm."""
         return [float(one.engine.speed_rpm) for one in self.analyses]
 
     @property
@@ -89,7 +89,7 @@ def analyze_speeds(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> SpeedSeries:
-    """An engine at each of these speeds.
+    """Return an engine at each of these speeds.
 
     Args:
         engine: without trailing axes.
@@ -199,7 +199,7 @@ class MarineSheet:
 
     @property
     def speeds_rpm(self) -> Array:
-        """Speeds, shape (speeds,)."""
+        """Speeds of the sheet, rpm, shape (speeds,)."""
         return np.array([speed.speed_rpm for speed in self.speeds])
 
     @property
@@ -229,8 +229,8 @@ def find_marine_sheet(
         orders: Orders; default: all that `analyze` shows of one of them at one of the speeds.
         guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
             rod's length.
-        every_order: Whether people are shown orders that are negligible, too; they are if orders
-            are given.
+        every_order: Whether sheets show negligible orders; they do if orders are
+            given.
 
     Raises:
         BalcliError: orders that are none or too high.
@@ -273,13 +273,23 @@ def _list_amplitudes(one: Analysis, torque: str) -> tuple[MarineOrder, ...]:
 
 
 def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
-    """What the engine is, and what it does at each speed."""
+    """Return the sheet of an engine at several speeds.
+
+    Args:
+        one: Analyses with the engine's name.
+        system: System of units.
+    """
     engine = one.result.analyses[0].engine
     return Sheet(engine.name or NAMELESS, tuple(_parts(one, system)))
 
 
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
-    """CSV: the rows of each analysis after the engine's name and the speed."""
+    """Return CSV: the rows of each analysis after the engine's name and the speed.
+
+    Args:
+        one: Analyses with the engine's name.
+        system: System of units.
+    """
     named = one.view.parts
     every = [analysis_show.rows(each, system, named=named) for each in one.result.analyses]
     lines = (
@@ -310,7 +320,9 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
 def _kind_part(
     kind: Kind, lines: list[Line], speeds_rpm: list[float], system: System, *, whole: bool
 ) -> Grid | Text:
-    """One kind by speed, a column an order, and the peak; one sentence where nothing matters."""
+    """Return one kind by speed, a column an order, and the peak; one sentence where nothing
+    matters.
+    """
     title = TITLES.get(kind, kind.label)
     shown = lines if whole else find_lines_that_matter(lines)
     if not shown:
@@ -342,8 +354,12 @@ _EXTERNAL, _INNER = FIGURES[:4], FIGURES[4:]
 
 
 def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
-    """Return what the engine is, what acts on its frame and on its crank, and what the names
-    mean.
+    """Return the marine sheet: the engine, forces and moments on its frame and on its crank, and
+    the meaning of the names.
+
+    Args:
+        one: Marine sheet with the engine's name.
+        system: System of units.
     """
     result = one.result
     head = engine_facts(
@@ -370,7 +386,12 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
 
 
 def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
-    """Return CSV: an order of a speed a line, a column a figure."""
+    """Return CSV: a line for each order of a speed, a column for each figure.
+
+    Args:
+        one: Marine sheet with the engine's name.
+        system: System of units.
+    """
     result = one.result
     units = {name: _unit(name, system) for name in FIGURES}
     heads = (f"{remove_unit(name)}_{unit.name.replace('·', '')}" for name, unit in units.items())
@@ -464,7 +485,7 @@ def _cell(name: str, i: int, k: int, unit: ShownUnit, result: MarineSheet) -> st
 
 
 def _tell_axes(result: MarineSheet) -> str:
-    """Where vertical is, by the banks of the file."""
+    """Return where vertical is, by the banks of the file."""
     axes = [round(float(axis), 6) + 0.0 for axis in np.ravel(result.engine.cylinders.axis_deg)]
     if axes == [0.0]:
         return "V is along the cylinders (x), H across them (y)."

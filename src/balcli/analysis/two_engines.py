@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 import numpy as np
 
@@ -78,7 +78,7 @@ def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
 
 @dataclass(frozen=True)
 class Arrangement:
-    """How the second engine stands to the first, and what they drive.
+    """Arrangement of the second engine to the first, and the load of both.
 
     Attributes:
         phase_deg: crank angle by which it leads, in its own sense of rotation.
@@ -122,22 +122,23 @@ class Arrangement:
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Combined(Result):
-    """What two engines do to their common frame, about the first one's point of reference.
+    """Forces and moments of two engines on their common frame, about the first one's point of
+    reference.
 
     Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
-    it, is T1 + T2, each in its own crank's sense, whichever way they turn. What the load takes does
-    not act on the frame: the roll is C - (T1 + T2) with the load on the first crank,
-    C + (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own.
-    The gas torques add like these, in orders of both cycles; an engine without gas has none.
+    it, is T1 + T2, each in its own crank's sense, whichever way they turn. The torque that the load
+    takes does not act on the frame: the roll is C - (T1 + T2) with the load on the first crank, C +
+    (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own. The
+    gas torques add like these, in orders of both cycles; an engine without gas has none.
 
     Attributes:
-        engines: as they were given.
-        arrangement: where the second one stands, how it leads, and who drives the load.
+        engines: Both engines, in the given order.
+        arrangement: Where the second one stands, how it leads, and who drives the load.
         state: Speed and point of reference of both.
         spectra: Orders shown, of both together.
-        assumed: What is taken because an engine file leaves it out.
+        assumed: Values that are taken because an engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
-        every_order: whether orders were asked for, so that none of them is left out.
+        every_order: Whether orders were given, so that none of them is left out.
     """
 
     format: Literal["balcli.sum/1"] = "balcli.sum/1"
@@ -151,12 +152,12 @@ class Combined(Result):
 
     @property
     def summary(self) -> str:
-        """Of which engines."""
+        """Names of both engines, in words."""
         return f"of {' and '.join(engine.name or 'an engine' for engine in self.engines)}"
 
     @property
     def has_gas(self) -> tuple[bool, bool]:
-        """Of which engine the file says what the gas does."""
+        """Whether each engine has gas."""
         first, second = self.engines
         return first.gas is not None, second.gas is not None
 
@@ -174,8 +175,8 @@ class Combined(Result):
 def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Both engines together, at the first one's speed and unevenness of speed; with gas where one
-    of them has some, or both.
+    """Return both engines together, at the first one's speed and unevenness of speed; with gas
+    where one of them has some, or both.
 
     Args:
         first, second: without trailing axes.
@@ -225,8 +226,12 @@ def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """An engine at another's speed, which it leads by an angle; the unevenness is that of the
-    other's crank angle.
+    """Return an engine at another's speed; its unevenness follows the other's crank angle.
+
+    Args:
+        engine: Engine whose speed is replaced.
+        leader: Engine that determines the speed.
+        phase_deg: Crank angle by which `engine` leads, deg.
     """
     ripple = tuple(
         RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
@@ -238,11 +243,12 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
 def place_spectra(
     own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
 ) -> Spectra:
-    """Phasors of an engine where it stands, by the crank angle of the engine that it is geared to.
+    """Return phasors of an engine where it stands, by the crank angle of the engine that it is
+    geared to.
 
     Args:
         own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
-            own crank angle; torques come out about z, too.
+            own crank angle; torques come out about z as well.
         reference_m: point of reference of the result, in the other engine's axes.
     """
     n = own.orders
@@ -264,8 +270,8 @@ def place_spectra(
 
 
 def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
-    """In the mirror that changes the sign of y a vector becomes its conjugate, and what turns
-    changes its sign besides.
+    """In the mirror that changes the sign of y a vector becomes its conjugate, and a rotation
+    also changes its sign.
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     mean = phasors.orders == 0
@@ -276,7 +282,7 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
-    """Both engines geared together; torque and roll as in `Combined`."""
+    """Return both engines geared together; torque and roll as in `Combined`."""
     parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
     parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
     parts["roll"] = parts["couple"] - taken
@@ -290,7 +296,9 @@ def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spec
 
 
 def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
-    """What the first crank feels of torques about z on both, and what the load takes, about z."""
+    """Return the torque about z that the first crank feels from torques on both, and the torque
+    that the load takes.
+    """
     sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
     felt = one + sense * other
     taken = {"first": felt, "second": sense * felt, "both": one + other}
@@ -309,11 +317,11 @@ def combine(
     load: Load = "first",
     orders: Iterable[float] | None = None,
 ) -> Combined:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+    """Combine two engines on one frame, geared one to one: H, U and opposed-piston engines.
 
     Args:
-        first: as `load` makes it; both run at its speed.
-        second: likewise.
+        first: Engine from `load`; both run at its speed.
+        second: Engine from `load`.
         phase_deg: crank angle by which the second engine leads, in its own sense of rotation; with
             gas in four strokes over two revolutions.
         at_m: x, y, z of its origin in the first one's axes, m.
@@ -329,7 +337,7 @@ def combine(
     Raises:
         BalcliError: something infinite or too far, an unknown load, or one that makes no
             difference.
-        TypeError: what is no engine, no number, no place.
+        TypeError: an argument of another type.
 
     Example:
         >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
@@ -357,13 +365,23 @@ _GAS = {  # whose gas counts, by whether the first and the second have some
 
 
 def rows(result: Combined, system: System) -> Rows:
-    """Return CSV: a figure a line, of both engines together."""
+    """Return CSV: a figure a line, of both engines together.
+
+    Args:
+        result: Both engines together.
+        system: System of units.
+    """
     header = ("quantity", "order", "figure", "value", "unit")
     return Rows(header, [row[1:] for row in figure_rows(result, system)])
 
 
 def sheet(result: Combined, system: System) -> Sheet:
-    """Return the engines, how they stand, and what they do together."""
+    """Return the sheet of both engines: how they stand, and their forces and moments together.
+
+    Args:
+        result: Both engines together.
+        system: System of units.
+    """
     spectra = result.spectra.with_moment_if(result.moments_known)
     how, pivot = result.arrangement, tell_pivot(result.engines[0])
     roll = _ROLL[how.load] if how.reverse else ""
@@ -399,7 +417,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
         yield "reference", "moments are not known: crank.spacing is missing"
 
 
-def _tell_place(point: Iterable[Any], unit: ShownUnit) -> str:
+def _tell_place(point: Iterable[Figure], unit: ShownUnit) -> str:
     return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 

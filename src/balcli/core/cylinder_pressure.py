@@ -64,7 +64,7 @@ class GasPiston:
 
     @property
     def swept(self) -> float:
-        """Swept volume, m3."""
+        """Swept volume of the cylinder, m3."""
         return self.area * self.stroke
 
     def travel(self, angle: Array) -> Array:
@@ -89,7 +89,12 @@ class GasPiston:
         return self.swept / (compression_ratio - 1)
 
     def volume(self, angle: ArrayLike, compression_ratio: float) -> Array:
-        """Return the volume at cycle angles, m3, of their shape."""
+        """Return the volume of the cylinder, m3, in the shape of the angles.
+
+        Args:
+            angle: Cycle angles, rad, any shape.
+            compression_ratio: Largest volume over smallest volume.
+        """
         travel = self.travel(np.asarray(angle, float))
         return self.clearance(compression_ratio) + self.area * travel
 
@@ -191,7 +196,14 @@ class GasTorque:
 def press(
     piston: GasPiston, pressure: PiecewiseCurve, breaks: Array, crankcase: float = 1e5
 ) -> GasTorque:
-    """Return the torque of a pressure (Pa) that is smooth between these cycle angles (rad)."""
+    """Return the torque that a pressure over the cycle makes.
+
+    Args:
+        piston: Piston on which it acts.
+        pressure: Absolute pressure, Pa, over the cycle angle.
+        breaks: Cycle angles, rad, between which the pressure is smooth, shape (breaks,).
+        crankcase: Absolute pressure below the piston, Pa.
+    """
 
     def torque(angle: Array) -> Array:
         return piston.area * (pressure.at(angle) - crankcase) * piston.rate(angle)

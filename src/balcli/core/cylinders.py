@@ -89,7 +89,7 @@ class Cylinders:
     def find_distinct_harmonics(
         self, orders: ArrayLike, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
+        """Return harmonics of the mechanisms that differ, and which of them each cylinder has.
 
         Args:
             orders: whole, shape (orders,).
@@ -99,18 +99,18 @@ class Cylinders:
         return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
 
     def find_highest_order(self) -> int:
-        """The order beyond which nothing that moves exceeds rounding errors."""
+        """Return the order beyond which nothing that moves exceeds rounding errors."""
         return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
 
     def count_all_samples(self) -> tuple[int, int]:
-        """How many mechanisms differ, and about how many samples of a revolution they take together
-        where they are sampled.
+        """Return how many mechanisms differ, and about how many samples of a revolution they take
+        together where they are sampled.
         """
         return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
 
 
 class DeviceKind(IntEnum):
-    """What a device is. Devices are summed in this order, as an engine file has them."""
+    """Kind of a device. Devices are summed in this order, as in an engine file."""
 
     COUNTERWEIGHT = 0
     SHAFT = 1
@@ -151,7 +151,7 @@ class Travel(NamedTuple):
 
 
 def find_travel(c: Cylinders) -> Travel:
-    """Strokes and dead centres of all cylinders.
+    """Return strokes and dead centres of all cylinders.
 
     They have a closed form for plain slider-cranks (`sin tau = e/(l + r)` at the top, `e/(l - r)`
     at the bottom), and are found on the curve of the motion for others.
@@ -181,7 +181,7 @@ def _find_on_curve(c: Cylinders, linkage: Linkage) -> tuple[Array, Array, Array]
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Newton's method for the zeros of the pistons' velocity beside these angles (rad)."""
+    """Return zeros, by Newton's method, of the pistons' velocity near these angles (rad)."""
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)
         psi = psi - (motion.velocity / motion.acceleration)[..., 0]

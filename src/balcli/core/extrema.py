@@ -20,7 +20,7 @@ _ROUNDS = 4
 def find_highest(
     judge: Callable[[Real, Indices], Real], places: Real, heights: Real, level: Real, near: float
 ) -> tuple[Real, Real]:
-    """Where each of several functions is highest, between places, too, and how high, (functions,).
+    """Return place and height of each function's maximum, also between places, (functions,).
 
     Searched is every interval between neighbouring places that may hold it: whose higher end is
     near the level, and no farther below it than the function rises or falls thereabouts.
@@ -30,7 +30,7 @@ def find_highest(
         places: (places,), rising.
         heights: (places, functions) there.
         level: (functions,), above which alone a height matters.
-        near: share of the level that a peak may exceed the places beside it by.
+        near: share of the level that a peak may exceed its neighbouring places by.
     """
     best, highest = places[heights.argmax(axis=0)], heights.max(axis=0)
     ends = np.maximum(heights[1:], heights[:-1])
@@ -47,9 +47,9 @@ def find_highest(
 def find_peaks_between(
     judge: Callable[[Real, Indices], Real], low: Real, high: Real, which: Indices
 ) -> tuple[Real, Real]:
-    """Places and heights (intervals,) of a peak in each of several intervals, in which several
-    functions are looked at. The highest of each function is good to 1e-8 where it is round and its
-    interval no wider than the peak; intervals that do not have it are given up.
+    """Return places and heights (intervals,) of a peak in each of several intervals, in which
+    several functions are searched. The highest of each function is good to 1e-8 where it is
+    round and its interval no wider than the peak; intervals that do not have it are given up.
 
     Every peak that shows at an eighth of its interval and may be the highest is enclosed ever
     closer; the last place is the vertex of a parabola. What rises and falls between two of these
@@ -86,14 +86,14 @@ def find_peaks_between(
 
 
 def _find_tops(heights: Real) -> NDArray[np.bool_]:
-    """Which of the heights (places, intervals) are no lower than their neighbours."""
+    """Return which of the heights (places, intervals) are no lower than their neighbours."""
     ends = np.full((1, heights.shape[1]), -np.inf)
     rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
     return rises[:-1] & ~rises[1:]
 
 
 def _take_around(heights: Real, top: Indices) -> Real:
-    """Three of the heights (places, intervals) of each interval: that at the top and its
+    """Return three of the heights (places, intervals) of each interval: that at the top and its
     neighbours, or the three at the end if it is there.
     """
     middle = np.clip(top, 1, len(heights) - 2)
@@ -101,7 +101,7 @@ def _take_around(heights: Real, top: Indices) -> Real:
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
-    """Puts the places and heights of some intervals, a few of each, into best and highest
+    """Put the places and heights of some intervals, a few of each, into best and highest
     (intervals,) where they are higher.
     """
     rising = np.argsort(height, kind="stable")  # the highest last, on every processor
@@ -117,10 +117,10 @@ _GOLDEN = (math.sqrt(5) - 1) / 2
 def find_least(
     judge: Callable[[float], Judged], low: float, high: float, rounds: int = ROUNDS
 ) -> float:
-    """Where a function with one valley between two places is least, by golden section.
+    """Return where a function with one valley between two places is least, by golden section.
 
     Args:
-        judge: what it is at a place; a tuple is judged by its first part, then by the next.
+        judge: its value at a place; a tuple is judged by its first part, then by the next.
         rounds: each leaves 0.618 of the distance.
     """
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)

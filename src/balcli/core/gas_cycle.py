@@ -71,8 +71,8 @@ class Process:
 
 
 class Goal(NamedTuple):
-    """What a cycle is to have: `imep` or `max_pressure` in Pa, `heat` supplied a cycle in J, or
-    `cut_off`, the ratio of the volumes at the end and at the start of constant pressure.
+    """Figure that a cycle must reach: `imep` or `max_pressure` in Pa, `heat` supplied a cycle in J,
+    or `cut_off`, the ratio of the volumes at the end and at the start of constant pressure.
     """
 
     name: Literal["imep", "heat", "max_pressure", "cut_off"]
@@ -96,10 +96,16 @@ class GasCycle(NamedTuple):
 
 
 def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
-    """Return the cycle that has what `goal` asks for.
+    """Return the cycle that reaches a goal.
+
+    Args:
+        piston: Piston of the cylinder.
+        process: Laws of compression, combustion and expansion.
+        goal: Figure that the cycle must reach; it determines the heat.
 
     Raises:
-        GasError: The first that `find_cycle_mistakes` finds, or a goal that no heat can reach.
+        GasError: The first mistake that `find_cycle_mistakes` finds, or a goal that no heat can
+            reach.
     """
     for mistake in find_cycle_mistakes(piston, process, goal):
         raise mistake
@@ -115,7 +121,13 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
 
 # ---------------------------------------------------------------- what is wrong
 def find_cycle_mistakes(piston: GasPiston, process: Process, goal: Goal) -> Iterator[GasError]:
-    """Yield all that is wrong with a cycle before it is computed."""
+    """Yield every mistake in a cycle before it is computed.
+
+    Args:
+        piston: Piston of the cylinder.
+        process: Laws of compression, combustion and expansion.
+        goal: Figure that the cycle must reach.
+    """
     p, goals = process, GOALS[process.cycle]
     if goal.name not in goals:
         hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
@@ -264,7 +276,12 @@ class _Cycle:
         return work / self.piston.swept
 
     def find_goal(self, name: str, heat: float) -> float:
-        """Return what a goal may ask for, of the cycle with this heat."""
+        """Return the figure that a goal names, for the cycle with this heat.
+
+        Args:
+            name: `heat` (J), `imep`, `max_pressure` (Pa) or `cut_off`.
+            heat: Heat supplied a cycle, J.
+        """
         if name == "heat":
             return heat
         if name == "imep":
@@ -278,7 +295,7 @@ class _Cycle:
         return max(self.pressure, resolved(burning, breaks).extremes()[1].value)
 
     def find_heat(self, goal: Goal) -> float:
-        """Return the heat (J) with which the cycle has what is asked for."""
+        """Return the heat (J) with which the cycle reaches the goal."""
         name, value = goal
         lowest, highest = self.find_goal(name, self.least), math.inf
         if self.most < math.inf:

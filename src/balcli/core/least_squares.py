@@ -59,7 +59,7 @@ def solve(
     weights: NDArray[np.float64] | None = None,
     lost: float = _LOST,
 ) -> Solution[Number]:
-    """The smallest x for which `matrix @ x` is nearest to the target.
+    """Return the smallest x for which `matrix @ x` is nearest to the target.
 
     Args:
         matrix: what one unit of each unknown does to each reading, shape (readings, unknowns).
@@ -86,9 +86,10 @@ def solve(
 
 
 def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
-    """The unknowns that the readings cannot tell apart: columns that are combinations of others.
+    """Return the unknowns that the readings cannot tell apart: columns that are combinations of
+    others.
 
-    Columns count by their direction, whatever their size. A column of zeros is found, too. Empty
+    Columns count by their direction, whatever their size. A column of zeros is found as well. Empty
     where every unknown is determined.
 
     Args:

@@ -10,9 +10,9 @@ from .phasors import Array
 
 
 def share_by_lever(places: Array, planes: Array) -> Array:
-    """Share of each load that each plane takes, shape (planes, loads): the two planes on either
-    side of it share it, loads beyond the outermost plane hang on the last two (with shares below 0
-    and above 1); a single plane takes all of each.
+    """Return the share of each load that each plane takes, shape (planes, loads): the two planes on
+    either side of it share it, loads beyond the outermost plane hang on the last two (with shares
+    below 0 and above 1); a single plane takes all of each.
 
     Args:
         places: of the loads, m, shape (loads,).
@@ -30,15 +30,32 @@ def share_by_lever(places: Array, planes: Array) -> Array:
 
 
 def find_ahead(z: Array, sections: Array) -> Array:
-    """1 for places on the free-end side of each section, else 0, shape (sections, places)."""
+    """Return 1 for places on the free-end side of each section, else 0, shape (sections, places).
+
+    Args:
+        z: Axial places, m, shape (places,).
+        sections: Axial positions of the sections, m, shape (sections,).
+    """
     return (z <= sections[:, None]).astype(float)
 
 
 def find_arms(z: Array, sections: Array) -> Array:
-    """Arms of those on the free-end side about each section, m, shape (sections, places)."""
+    """Return the arms about each section of the places on its free-end side, m, shape (sections,
+    places).
+
+    Args:
+        z: Axial places, m, shape (places,).
+        sections: Axial positions of the sections, m, shape (sections,).
+    """
     return find_ahead(z, sections) * (z - sections[:, None])
 
 
 def bound_arms(z: Array, sections: Array) -> Array:
-    """Sizes of what `find_arms` subtracts from one another, which bound the rounding of arms."""
+    """Return the sizes that `find_arms` subtracts from one another, m, which bound the rounding of
+    arms, shape (sections, places).
+
+    Args:
+        z: Axial places, m, shape (places,).
+        sections: Axial positions of the sections, m, shape (sections,).
+    """
     return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

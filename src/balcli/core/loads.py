@@ -42,7 +42,7 @@ class Loads:
 
     @property
     def force(self) -> Phasors:
-        """N."""
+        """Free force by order, N, shape (orders, *trailing)."""
         return sum(self._of_devices, self.phases.add_vectors(self._pulls))
 
     @property
@@ -102,7 +102,7 @@ class Loads:
 
 
 def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
-    """Force of a device, N.
+    """Return the force of a device, N.
 
     Args:
         n: orders as a column, shape (orders, *1).
@@ -124,8 +124,8 @@ _SERIES = {
 
 
 def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bool) -> set[str]:
-    """Names of the series of mechanisms (`closed_form.SERIES`) that these loads of the cylinders
-    are made of.
+    """Return the names of the series of mechanisms (`closed_form.SERIES`) that these loads of the
+    cylinders are made of.
 
     Args:
         parts: force, moment, couple or torque.
@@ -148,8 +148,15 @@ def _has_pistons(c: Cylinders) -> bool:
 def find_pulls(
     cylinders: Cylinders, harmonics: Harmonics, phases: Phases, square: Figure
 ) -> Vectors:
-    """Force of each cylinder in its own frame, N: `m_rec r (-s'') + m_rot r e^{i psi}` times the
-    square of the speed, and that of a linkage's masses on their curves.
+    """Return the force of each cylinder in its own frame, N, shape (orders, cylinders, *trailing):
+    `m_rec r (-s'') + m_rot r e^{i psi}` times the square of the speed, and that of a linkage's
+    masses on their curves.
+
+    Args:
+        cylinders: Cylinders of the engine.
+        harmonics: Series of their mechanisms.
+        phases: Phases of the cylinders by order.
+        square: Square of the crank speed, rad2/s2, shape (*trailing).
     """
     c, rounding = cylinders, phases.rounding
     if _has_pistons(c):
@@ -170,8 +177,14 @@ def find_pulls(
 
 
 def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Iterator[Series]:
-    """Couple of each cylinder about z, N m, its parts one by one: `H (-beta'')` of the rod, that of
-    the piston's force on its offset, `-m_rec e (-s'')`, and that of a linkage's masses.
+    """Yield the parts of each cylinder's couple about z, N m, shape (orders, cylinders, *trailing):
+    `H (-beta'')` of the rod, that of the piston's force on its offset, `-m_rec e (-s'')`, and that
+    of a linkage's masses.
+
+    Args:
+        cylinders: Cylinders of the engine.
+        harmonics: Series of their mechanisms.
+        square: Square of the crank speed, rad2/s2, shape (*trailing).
     """
     c = cylinders
     if np.count_nonzero(c.couple):
@@ -183,8 +196,13 @@ def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
-    """What changes of the moment of inertia I of each cylinder about the crank, times the square of
-    the speed, N m: `m_rec s'^2 - H beta'^2`, and that of a linkage's masses.
+    """Return the varying part of each cylinder's moment of inertia about the crank times the square
+    of the speed, N m: `m_rec s'^2 - H beta'^2`, and that of a linkage's masses.
+
+    Args:
+        cylinders: Cylinders of the engine.
+        harmonics: Series of their mechanisms.
+        square: Square of the crank speed, rad2/s2, shape (*trailing).
     """
     c = cylinders
     parts = []
@@ -198,9 +216,14 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 
 
 def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Array:
-    """Mean moment of momentum of each cylinder about z times the speed, N m: that of masses and
-    rods that turn, and of masses on curves, whose first order must be 0; shape (cylinders or 1,
+    """Return each cylinder's mean moment of momentum about z times the speed, N m: that of rotating
+    masses and rods, and of masses on curves, whose first order must be 0; shape (cylinders or 1,
     *trailing).
+
+    Args:
+        cylinders: Cylinders of the engine.
+        harmonics: Series of their mechanisms.
+        square: Square of the crank speed, rad2/s2, shape (*trailing).
     """
     c = cylinders
     linkage = c.linkage

@@ -107,10 +107,14 @@ def _find_repetition(curve: Phasors) -> float:
 
 # ------------------------------------------------------------------ curves by their harmonics
 def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
-    """Return the highest and lowest values over the cycle of phasors (orders, *curves).
+    """Return the highest and lowest values over the cycle.
+
+    Args:
+        orders: Multiples of 1/2, shape (orders,).
+        phasors: Phasors of the curves, shape (orders, *curves).
 
     Raises:
-        ValueError: an order that is no multiple of 1/2, is negative or comes twice.
+        ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
     top, at_top = _search(orders, phasors[..., None], squared=False)
     bottom, at_bottom = _search(orders, -phasors[..., None], squared=False)
@@ -118,10 +122,14 @@ def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
 
 
 def find_longest(orders: ArrayLike, phasors: Complex) -> CyclePeak:
-    """Return the largest lengths over the cycle of vectors (orders, *curves, components).
+    """Return the largest lengths of vectors over the cycle.
+
+    Args:
+        orders: Multiples of 1/2, shape (orders,).
+        phasors: Phasors of the components, shape (orders, *curves, components).
 
     Raises:
-        ValueError: an order that is no multiple of 1/2, is negative or comes twice.
+        ValueError: An order is no multiple of 1/2, is negative or comes twice.
     """
     return CyclePeak(*_search(orders, phasors, squared=True))
 

@@ -127,7 +127,8 @@ class Phases:
         return values[:, 0] * (self.count if sizes is None else np.add.reduce(sizes, axis=0))
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
-        """`sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n pin}`.
+        """Return `sum over banks of turns * sum over its cylinders of arms * vectors * e^{i n
+        pin}`.
 
         Args:
             turns: shape (sides, orders, banks, *trailing).
@@ -144,7 +145,9 @@ class Phases:
         return np.concatenate(own)
 
     def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> Complex:
-        """The same for factors of shape (1 or orders, cylinders, *trailing); None: all are 1."""
+        """Return the turned sum of factors of shape (1 or orders, cylinders, *trailing); None: all
+        are 1.
+        """
         of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
         total: Complex = np.add.reduce(turns * of_banks, axis=2)
         for bank, rows in groupby(self._moving, self._bank):
@@ -159,8 +162,8 @@ class Phases:
         return self._sum_banks(self._still)
 
     def _sum_banks(self, each: Complex) -> Complex:
-        """Sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders, banks,
-        *trailing).
+        """Return sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders,
+        banks, *trailing).
         """
         return np.add.reduceat(each, self._starts, axis=1)
 
@@ -189,11 +192,16 @@ class SeparatePhases(Phases):
     """
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
-        """The terms of this sum."""
+        """Return the terms of this sum, one for each cylinder.
+
+        Args:
+            values: Figures of the cylinders.
+            sizes: Factors of the figures; None: 1.
+        """
         return values * (self._ones if sizes is None else sizes)
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
-        """The terms of this sum, shape (sides, orders, cylinders)."""
+        """Return the terms of this sum, shape (sides, orders, cylinders)."""
         counts = np.diff([*self._starts, self.count])
         arms = self._ones if arms is None else arms
         return np.asarray(np.repeat(turns, counts, axis=2) * (arms * sides * self._still))

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
+Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 Side: TypeAlias = tuple[Array | Complex, Complex]  # a factor and a vector
 
@@ -30,7 +31,7 @@ _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5
 
 
 def _cosine(k: int) -> float:
-    """cos of k times 15 degrees."""
+    """Return cos of k times 15 degrees."""
     k = min(k % 24, -k % 24)
     return _COSINES[k] if k <= 6 else -_COSINES[12 - k]
 
@@ -39,8 +40,8 @@ _UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
 
 
 def unit(degrees: ArrayLike) -> Complex:
-    """e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45 degrees,
-    however many turns.
+    """Return e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45
+    degrees, however many turns.
 
     The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating
     point), the rest turned on.
@@ -56,22 +57,35 @@ def unit(degrees: ArrayLike) -> Complex:
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
-    """real + i imaginary: putting arrays side by side is quicker than sums of complex ones."""
+    """Return real + i imaginary; two arrays put into one are quicker than a sum of complex arrays.
+
+    Args:
+        real: Real part, any shape.
+        imaginary: Imaginary part, of a shape that broadcasts with it.
+    """
     result = np.empty(np.broadcast_shapes(real.shape, imaginary.shape), complex)
     result.real, result.imag = real, imaginary
     return result
 
 
 def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex:
-    """Both as one array, shape (2, *that to which they broadcast)."""
+    """Return both vectors as one array, shape (2, *that to which they broadcast).
+
+    Args:
+        forward: Vectors that turn with the crank.
+        backward: Vectors that turn against it.
+    """
     if forward.shape != backward.shape:
         forward, backward = np.broadcast_arrays(forward, backward)
     return np.array((forward, backward))
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
-    """The same direction in (-turn/2, turn/2], any shape, nan of nan; `turn` is 180 for lines, 360
-    for vectors.
+    """Return the same directions in (-turn/2, turn/2], in their shape, nan for nan.
+
+    Args:
+        degrees: Directions, deg, any shape.
+        turn: 180 for lines, 360 for vectors.
     """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
     # The remainder of what is barely negative rounds to a whole turn.
@@ -96,13 +110,25 @@ class Phasors:
 
     @classmethod
     def of(cls, orders: Array, forward: Complex, backward: Complex, noise: Array) -> Phasors:
-        """Those of vectors with the crank and against it, each of shape (orders, *trailing)."""
+        """Return the phasors of two rotating vectors.
+
+        Args:
+            orders: Orders, shape (orders,).
+            forward: Vectors that turn with the crank, shape (orders, *trailing).
+            backward: Vectors that turn against it, shape (orders, *trailing).
+            noise: Bound of the rounding error of each.
+        """
         return cls(orders, put_together(forward, backward), noise)
 
     @classmethod
     def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
-        """The scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own conjugate and stands
-        in `forward` alone.
+        """Return the phasors of the scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own
+        conjugate and stands in `forward` alone.
+
+        Args:
+            orders: Orders, shape (orders,).
+            coefficients: c_n, shape (orders, *trailing).
+            noise: Bound of the rounding error of each vector.
         """
         half = coefficients / 2
         if np.count_nonzero(orders) == len(orders):
@@ -128,18 +154,20 @@ class Phasors:
         return Phasors(self.orders, self.vectors - other.vectors, self.noise + other.noise)
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
-        """Scaled, or scaled and turned where the factor is complex."""
+        """Return the phasors scaled, or scaled and turned where the factor is complex."""
         size: Any = abs(factor)  # of a number, that is quicker than numpy's
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:
-        """Moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a scalar."""
+        """Return the moment about z of this force at the point p = x + iy: `Im(conj(p) F)`, a
+        scalar.
+        """
         moment = np.conjugate(p) * self.forward - p * np.conjugate(self.backward)
         return Phasors.from_scalar(self.orders, -1j * moment, 2 * np.abs(p) * self.noise)
 
     def drop_noise(self) -> Phasors:
-        """The same with whatever lies within its rounding error set to exactly 0, each of both
-        vectors for itself.
+        """Return these phasors with each vector that lies within its rounding error set to exactly
+        0.
         """
         nothing = self._sizes <= self.noise
         if not np.count_nonzero(nothing):
@@ -149,21 +177,21 @@ class Phasors:
         return Phasors(self.orders, vectors, self.noise)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
-        """Those of these orders, each of which must be there."""
+        """Return the phasors of these orders, each of which must exist."""
         return self.select_rows(np.searchsorted(self.orders, np.asarray(orders, float)))
 
     def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
-        """Those of the orders in these rows."""
+        """Return the phasors of the orders in these rows."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders[rows], self.vectors[:, rows], noise[rows])
 
     def select_place(self, place: int) -> Phasors:
-        """Those at one place along the trailing axis."""
+        """Return the phasors at one place along the trailing axis."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
 
     def select_row(self, row: int) -> Phasors:
-        """The order in this row alone."""
+        """Return the order in this row alone."""
         only = slice(row, row + 1)
         noise = self.noise[only] if len(self.noise) == len(self.orders) else self.noise
         return Phasors(self.orders[only], self.vectors[:, only], noise)
@@ -217,15 +245,15 @@ class Phasors:
         return Phasors(self.orders, unit(degrees) * self.vectors, noise)
 
     def _project(self, turn: complex) -> Complex:
-        """Components along the axis that this factor turns onto x."""
+        """Return components along the axis that this factor turns onto x."""
         ahead, against = turn * self.forward, turn * self.backward
         mean = _column(self.orders, ahead) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))
         return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
     def values(self, theta: ArrayLike) -> Complex:
-        """The curve at crank angles (radians): the sum over all orders, shape of theta, for phasors
-        without trailing axes.
+        """Return the curve at crank angles (radians): the sum over all orders, shape of theta, for
+        phasors without trailing axes.
         """
         angles = np.asarray(theta, float)
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
@@ -286,7 +314,7 @@ class FactoredPhasors(Phasors):
 
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:
-    """One run of orders from several, in their order."""
+    """Return one run of orders from several, in their order."""
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
     return Phasors(
         np.concatenate([p.orders for p in parts]),
@@ -296,5 +324,5 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:
-    """Orders shaped to stand before the trailing axes of `like`."""
+    """Return orders shaped to stand before the trailing axes of `like`."""
     return orders.reshape(-1, *(1,) * (like.ndim - 1))

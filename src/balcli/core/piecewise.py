@@ -215,8 +215,12 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
 
 
 def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
-    """Return straight lines between points whose angles (rad) rise; two points at one angle are a
-    jump. The last point closes the period, and if it differs from the first, there is a jump.
+    """Return straight lines between points; two points at one angle are a jump. The last point
+    closes the period, and if it differs from the first, there is a jump.
+
+    Args:
+        angle: Rising angles, rad, shape (points,).
+        value: Values at the angles, shape (points,).
     """
     angles, values = np.asarray(angle, float), np.asarray(value, float)
     wide = np.diff(angles) > 0
@@ -229,6 +233,10 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
 def quadrature(breaks: Array, nodes: int = _TERMS) -> tuple[Array, Array]:
     """Return angles within panels, rad, and their weights in a mean over the period, each of shape
     (nodes, panels).
+
+    Args:
+        breaks: Breakpoints of the panels, rad, shape (panels + 1,).
+        nodes: Gauss nodes in each panel.
     """
     x, weights = gauss(nodes)
     middle, half = _find_middles(breaks)
@@ -236,8 +244,11 @@ def quadrature(breaks: Array, nodes: int = _TERMS) -> tuple[Array, Array]:
 
 
 def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
-    """Return breakpoints in [0, period] of a sum of functions, each given by its breakpoints and
-    the angle (rad) by which it is shifted to the right.
+    """Return the breakpoints in [0, period] of a sum of functions, rad.
+
+    Args:
+        parts: Breakpoints of each function and the angle by which it is shifted to the right, rad.
+        period: Length of one period, rad.
     """
     inside = [np.remainder(breaks + shift, period) for breaks, shift in parts]
     rising = np.sort(np.concatenate([np.zeros(1), *inside, np.full(1, period)]))
@@ -247,7 +258,12 @@ def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
 
 
 def cut(breaks: Array, widest: float) -> Array:
-    """Return breakpoints with pieces wider than so much (rad) cut into equal panels."""
+    """Return breakpoints with wide pieces cut into equal panels.
+
+    Args:
+        breaks: Breakpoints, rad, shape (breaks,).
+        widest: Largest width of a panel, rad.
+    """
     counts = np.maximum(np.ceil(np.diff(breaks) / widest), 1)
     places = np.append(0, np.cumsum(counts))
     return np.interp(np.arange(places[-1] + 1), places, breaks)

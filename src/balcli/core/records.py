@@ -1,9 +1,10 @@
-"""Records: a figure of a result is declared once, as an attribute of a frozen dataclass.
+"""Records: a figure of a result is declared once, as an attribute of a record.
 
-A result is a tree of dataclasses, and all that programs read derives from their attributes. The
-name of an attribute is its key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the
-name is its unit, the annotation is its type, the line in `Attributes:` of the docstring is its
-description in the JSON Schema.
+A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
+records, and all that programs read derives from their attributes. The name of an attribute is its
+key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the name is its unit, the
+annotation is its type, the line in `Attributes:` of the docstring is its description in the JSON
+Schema.
 
     to_document(record)       the JSON object
     list_figures(document)    one figure a number, for the lines of CSV
@@ -35,8 +36,6 @@ Example::
 
     to_document(Weight(force=3j))      # {"force_N": 3.0, "angle_deg": 90.0}
 """
-
-from __future__ import annotations
 
 import math
 import re
@@ -125,7 +124,7 @@ def angle_deg(value: complex) -> float:
 class _Attribute(NamedTuple):
     name: str
     key: str  # in JSON
-    kind: Any  # annotation without marks
+    kind: object  # annotation without marks
     optional: bool
     inline: bool
     axes: int
@@ -137,22 +136,25 @@ class _Attribute(NamedTuple):
 def _list_attributes(record: type) -> tuple[_Attribute, ...]:
     """Return the attributes that documents show, in their order."""
     hints = get_type_hints(record, include_extras=True)
-    found = ((each, hints[each.name], _find_marks(hints[each.name])) for each in fields(record))
-    return tuple(
-        _read_marks(each.name, kind, each.default is None, marks)
-        for each, kind, marks in found
-        if HIDDEN not in marks
-    )
+    found = ((*each, hints[each[0]], _find_marks(hints[each[0]])) for each in _list_names(record))
+    return tuple(_read_marks(*each) for each in found if HIDDEN not in each[3])
 
 
-def _read_marks(name: str, kind: Any, optional: bool, marks: tuple[Any, ...]) -> _Attribute:
+def _list_names(record: Any) -> list[tuple[str, bool]]:
+    """Return the names of all attributes, and whether each is optional."""
+    if is_dataclass(record):
+        return [(each.name, each.default is None) for each in fields(record)]
+    return [(name, record._field_defaults.get(name, "") is None) for name in record._fields]
+
+
+def _read_marks(name: str, optional: bool, kind: object, marks: tuple[object, ...]) -> _Attribute:
     split = next((mark for mark in marks if isinstance(mark, (Polar, Reached))), None)
     axes = next((mark.number for mark in marks if isinstance(mark, Axes)), 1)
     make, key = next((mark for mark in marks if isinstance(mark, WrittenAs)), (None, ""))
     return _Attribute(name, key or name, kind, optional, INLINE in marks, axes, split, make)
 
 
-def _find_marks(annotation: Any) -> tuple[Any, ...]:
+def _find_marks(annotation: object) -> tuple[object, ...]:
     """Return what `Annotated` adds to a type and to the types within it."""
     inner = (mark for part in get_args(annotation) for mark in _find_marks(part))
     return (*getattr(annotation, "__metadata__", ()), *inner)
@@ -163,7 +165,7 @@ def to_document(record: Any) -> Node:
     """Return the JSON object of a record.
 
     Args:
-        record: Instance of a dataclass whose attributes are numbers, words, arrays, records, or
+        record: Record whose attributes are numbers, words, arrays, records, or
             lists and dicts of these.
     """
     document: Node = {}
@@ -177,20 +179,27 @@ def to_document(record: Any) -> Node:
 
 
 def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
-    """Return a number, word, record, or list or dict of these, as JSON has it."""
+    """Return a number, word, record, or list or dict of these, as JSON has it.
+
+    Args:
+        value: Value to write.
+        split: Mark that splits one value into several keys; None: none.
+    """
     if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here
         value = value.tolist()
     if isinstance(value, float):
         return value + 0.0 if math.isfinite(value) else None
+    if value is None or (split is None and isinstance(value, (int, str))):
+        return value
     if isinstance(value, (list, tuple)) and not hasattr(value, "_fields"):
         return [write_each(item, split) for item in value]
     if isinstance(value, Mapping):
         return {key: write_each(item, split) for key, item in value.items()}
-    if split is not None and value is not None:
+    if split is not None:
         return split.split(value)
-    if is_dataclass(value):
-        return to_document(value)
-    return [value.real + 0.0, value.imag + 0.0] if isinstance(value, complex) else value
+    if isinstance(value, complex):
+        return [value.real + 0.0, value.imag + 0.0]
+    return to_document(value)
 
 
 # ------------------------------------------------------------------ CSV
@@ -226,7 +235,12 @@ def list_figures(
 
 
 def list_series(document: Mapping[str, Any], place: int) -> Iterator[Figure]:
-    """Yield one figure for every list of numbers in a document: the number at `place`, from 0."""
+    """Yield one figure for every list of numbers in a document.
+
+    Args:
+        document: JSON object with lists of numbers.
+        place: Place in each list, from 0.
+    """
     for key, value in document.items():
         if isinstance(value, list) and value and not isinstance(value[0], (Mapping, list)):
             yield Figure(key, value[place], find_unit(key).translate(_IN_CSV))
@@ -301,11 +315,11 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     if each.split is not None and kind is not NoneType:
         properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
-    if is_dataclass(kind):
-        name = kind.__name__  # type: ignore[union-attr]
+    if is_dataclass(kind) or hasattr(kind, "_fields"):
+        name = kind.__name__
         if name not in definitions:
             definitions[name] = {}  # stands there while its attributes are described
-            definitions[name] = _describe_class(kind, definitions)  # type: ignore[arg-type]
+            definitions[name] = _describe_class(kind, definitions)
         return {"$ref": f"#/$defs/{name}"}
     if kind is Any:
         return {}
@@ -314,7 +328,9 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     return {"type": _SIMPLE[kind]} if kind in _SIMPLE else _NUMBER
 
 
-def _describe_many(origin: Any, arguments: Any, each: _Attribute, definitions: Node) -> Node:
+def _describe_many(
+    origin: type, arguments: tuple[object, ...], each: _Attribute, definitions: Node
+) -> Node:
     """Return the schema of an array, dict, tuple or list."""
     import numpy as np  # schemas are seldom asked for
 

@@ -41,13 +41,17 @@ class RippleLine(NamedTuple):
 
 
 def find_step(orders: Iterable[float]) -> float:
-    """1, or 1/2 where an order is half a whole number."""
+    """Return 1, or 1/2 where an order is half a whole number."""
     return 0.5 if any(order % 1 for order in orders) else 1.0
 
 
 def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
-    """Coefficients of W for both signs of the order, shape (2 k + 1, *trailing): k steps below 0 to
-    k steps above it. All orders are whole steps.
+    """Return the coefficients of W for both signs of the order, shape (2 k + 1, *trailing): k steps
+    below 0 to k steps above it. All orders are whole steps.
+
+    Args:
+        lines: Orders of the uneven speed.
+        step: 1, or 1/2 if some orders are halves.
     """
     halves = [
         (round(order / step), amplitude / 2 * unit(-angle)) for order, amplitude, angle in lines
@@ -91,7 +95,7 @@ class Timetable(NamedTuple):
 
 
 def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
-    """The timetable of a speed W.
+    """Return the timetable of a speed W.
 
     Args:
         w: (2 k + 1,) from `find_speed` with this step, without trailing axes.
@@ -111,8 +115,12 @@ def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
 
 
 def find_reach(timetable: Timetable, order: float) -> float:
-    """The highest order over the crank angle that is felt in this order of the time, or a lower
-    one, by more than _FELT of itself.
+    """Return the highest order over the crank angle (or a lower one) that contributes more than
+    _FELT to this order of the time.
+
+    Args:
+        timetable: Time by crank angle.
+        order: Order of the time.
     """
     wave = timetable.stay * np.exp(1j * order * timetable.clock)
     felt = np.flatnonzero(np.abs(np.fft.fft(wave, norm="forward")) > _FELT)
@@ -120,8 +128,8 @@ def find_reach(timetable: Timetable, order: float) -> float:
 
 
 def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Curves over the crank angle by orders of the time: how often something happens while the
-    crank turns once on an average.
+    """Return curves over the crank angle by orders of the time: how often something happens while
+    the crank turns once on an average.
 
     Args:
         curves: without trailing axes, each of all orders that count.
@@ -139,7 +147,7 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
 
 
 def _sample(curve: Phasors, timetable: Timetable) -> Complex:
-    """Values (samples,) at the crank angles of a timetable."""
+    """Return values (samples,) at the crank angles of a timetable."""
     series = np.zeros(len(timetable.clock), complex)
     rows = np.rint(curve.orders / timetable.step).astype(int)
     np.add.at(series, rows, curve.forward)
@@ -148,7 +156,7 @@ def _sample(curve: Phasors, timetable: Timetable) -> Complex:
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
-    """Force, moment or couple under W.
+    """Return the force, moment or couple under W.
 
     Args:
         steady: the same at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
@@ -161,8 +169,12 @@ def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
 
 
 def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
-    """Inertia torque under W, as `apply_to_force`; `mean` is the mean inertia times the square of
-    the mean speed, N m.
+    """Return the inertia torque under W, as `apply_to_force` does for a force.
+
+    Args:
+        steady: Torque at the mean speed, N m.
+        w: Coefficients of `find_speed`.
+        mean: Mean inertia times the square of the mean speed, N m.
     """
     return _apply(steady, w, mean / 2, rate_last=True)
 
@@ -207,7 +219,7 @@ def _convolved(series: Complex, w: Complex) -> Complex:
 
 
 def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[Number]:
-    """Rows -N .. N from those of the orders 0 .. N of both sides."""
+    """Return rows -N .. N from those of the orders 0 .. N of both sides."""
     return np.concatenate([backward[:0:-1], forward])
 
 
@@ -268,8 +280,12 @@ def energy(torque: PiecewiseCurve) -> PiecewiseCurve:
 
 
 def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: float) -> float:
-    """Return the coefficient of fluctuation of the textbooks, surplus/(I omega^2), for small
-    ones.
+    """Return the coefficient of fluctuation of the textbooks, surplus/(I omega^2), for small ones.
+
+    Args:
+        surplus_energy: Largest surplus of energy over a cycle, J.
+        mean_inertia: Mean moment of inertia, kg m2.
+        mean_speed: Mean crank speed, rad/s.
     """
     return surplus_energy / (mean_inertia * mean_speed**2)
 
@@ -320,10 +336,16 @@ def needed_inertia(
 ) -> float:
     """Return the constant inertia (kg m2) that keeps the exact fluctuation, together with the
     inertia of moving parts; it is negative where these alone do better. Where the shaft would stall
-    before it fluctuates so much, it is the least inertia with which it does not.
+    before it fluctuates so much, return the least inertia with which it does not stall.
 
-    Found between none of it and a stall by false position, in the inverse of the mean inertia, to
-    which the fluctuation is nearly proportional.
+    It is found between no inertia and a stall by false position, in the inverse of the mean
+    inertia, to which the fluctuation is nearly proportional.
+
+    Args:
+        torque: Torque on the shaft over the cycle, N m.
+        mean_speed: Mean crank speed, rad/s.
+        fluctuation: Wanted coefficient of fluctuation.
+        moving: Moment of inertia of moving parts over the crank angle, kg m2.
     """
     course = resolved(_as_function(moving), torque.breaks)
     mean, (least, most) = course.mean, course.extremes()

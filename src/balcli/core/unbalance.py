@@ -15,7 +15,7 @@ SLUGS = {"tungsten": 17000.0, "mallory": 17000.0, "lead": 11340.0}
 
 
 def find_drill_depth(unbalance: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Depth of a radial hole from the rim (radius, m) inwards whose removed steel had this
+    """Return the depth of a radial hole from the rim (radius, m) inwards that removes this
     unbalance; nan if none is deep enough.
 
     `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
@@ -30,8 +30,14 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
 
 
 def find_drilled_unbalance(depth: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Unbalance (kg m) that a radial hole of this depth from the rim inwards removes: the inverse
-    of `find_drill_depth`. All lengths in m, the depth at most the rim's radius.
+    """Return the unbalance (kg m) that a radial hole from the rim inwards removes: the inverse of
+    `find_drill_depth`.
+
+    Args:
+        depth: Depth of the hole, m, at most the rim's radius.
+        rim: Radius of the rim, m.
+        drill: Diameter of the hole, m.
+        density: Density of the rotor, kg/m3.
     """
     return density * math.pi / 4 * drill**2 * depth * (rim - depth / 2)
 

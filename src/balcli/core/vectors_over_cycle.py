@@ -43,7 +43,7 @@ class Panels:
         return quadrature(self.breaks)[0].reshape(-1)
 
     def find_orders(self, samples: Complex, orders: Array) -> tuple[Complex, Complex]:
-        """Vectors that turn with the crank, and against it, each of shape (orders, forces).
+        """Return vectors that turn with the crank, and against it, each of shape (orders, forces).
 
         Args:
             samples: of forces, shape (forces, samples).
@@ -65,8 +65,8 @@ class Panels:
         return ahead, against
 
     def find_largest(self, samples: Complex) -> Peak:
-        """The largest size of one force, and the first angle (rad) at which it is reached; at a
-        jump both sides count.
+        """Return the largest size of one force, and the first angle (rad) at which it is reached;
+        at a jump both sides count.
         """
         series = self._find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square
@@ -76,18 +76,20 @@ class Panels:
         return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
 
     def find_mean_size(self, samples: Complex) -> float:
-        """Mean over the period of the size of one force, which has a corner where it passes 0."""
+        """Return the mean over the period of the size of one force, which has a corner where it
+        passes 0.
+        """
         series = self._find_series(samples)
         x, y = (PiecewiseCurve(self.breaks, part) for part in (series.real, series.imag))
         return resolved(lambda at: np.hypot(x.within(at), y.within(at)), self.breaks).mean
 
     def _find_series(self, samples: Complex) -> Complex:
-        """Legendre coefficients of one force on each panel, shape (terms, panels)."""
+        """Return Legendre coefficients of one force on each panel, shape (terms, panels)."""
         return np.asarray(values_to_series(_TERMS) @ samples.reshape(_TERMS, -1))
 
 
 def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
-    """Panels for forces that are smooth between breakpoints, fine enough for these orders.
+    """Return panels for forces that are smooth between breakpoints, fine enough for these orders.
 
     Args:
         forces: values at angles (rad).

@@ -58,12 +58,17 @@ class UndampedResonanceError(ValueError):
 
 
 def frequencies(orders: ArrayLike, speeds: ArrayLike) -> Real:
-    """Angular frequency (orders, *speeds) of each order at each speed (rad/s, any shape)."""
+    """Return the angular frequency of each order at each speed, shape (orders, *speeds).
+
+    Args:
+        orders: Orders, shape (orders,).
+        speeds: Speeds, rad/s, any shape.
+    """
     return np.multiply.outer(np.asarray(orders, float), np.asarray(speeds, float))
 
 
 def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = None) -> Modes:
-    """Natural modes of masses on springs.
+    """Return natural modes of masses on springs.
 
     The frequencies are the singular values of `k^1/2 S M^-1/2`, not the roots of the eigenvalues of
     `(S^T k S, M)`: squaring would lose half the figures of the low ones.
@@ -95,7 +100,7 @@ def _normalise_rigid(rigid: Real, root: Real) -> Real:
 
 
 def scale_shapes(shapes: Real) -> Real:
-    """Mode shapes (modes, dof) with their largest element +1 (of equal ones the first)."""
+    """Return mode shapes (modes, dof) with their largest element +1 (of equal ones the first)."""
     size = np.abs(shapes)
     near = size >= size.max(axis=1, keepdims=True) * (1 - 1e-9)
     largest = np.take_along_axis(shapes, np.argmax(near, axis=1)[:, None], axis=1)
@@ -103,7 +108,8 @@ def scale_shapes(shapes: Real) -> Real:
 
 
 def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
-    """Loss factor (modes,) of every mode, `x^T (Im K + w C) x / w^2`; rigid modes have 0.
+    """Return the loss factor (modes,) of every mode, `x^T (Im K + w C) x / w^2`; rigid modes have
+    0.
 
     A mode alone at resonance is magnified by its inverse.
 
@@ -121,8 +127,8 @@ def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
 def find_resonances(
     modes: Modes, loss: Real, orders: Real, speeds: Real, load: Complex
 ) -> tuple[Resonance, ...]:
-    """Undamped modes that a load drives at their own frequency somewhere in a range of speeds,
-    between the speeds computed too: there, motion has no bound.
+    """Return undamped modes that a load drives at their own frequency somewhere in a range of
+    speeds, between the speeds computed too: there, motion has no bound.
 
     Args:
         modes: with shapes (modes, dof).
@@ -157,7 +163,7 @@ def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Compl
 def solve_response(
     stiffness: Complex, damping: Real, mass: Real, frequency: Real, load: Complex
 ) -> Complex:
-    """Motion q (*frequency, dof) under a harmonic load: `(K + i w C - w^2 M) q = f`.
+    """Return the motion q (*frequency, dof) under a harmonic load: `(K + i w C - w^2 M) q = f`.
 
     Where nothing is damped, an undamped mode that is not driven stays at rest at its own frequency.
 
@@ -181,8 +187,8 @@ def solve_response(
 def solve_equations(
     matrix: Complex, load: Complex, frequency: Real, singular: NDArray[np.bool_]
 ) -> Complex:
-    """Solutions (*frequency, n) of equations (*frequency, n, n) of motion, the least ones where
-    these are singular.
+    """Return solutions (*frequency, n) of equations (*frequency, n, n) of motion, the least ones
+    where these are singular.
 
     Args:
         singular: (*frequency,), where they are known to be so.

@@ -118,7 +118,7 @@ def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Prob
     return Problem(
         "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
         f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of cylinder "
-        f"{number} stands {lean:.9g} rod lengths beside the path of its piston pin; at most 1 - "
+        f"{number} stands {lean:.9g} rod lengths off the path of its piston pin; at most 1 - "
         f"{NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the knuckle radius "
         "smaller",
     )

@@ -106,7 +106,17 @@ def assemble(
     rank: int = 0,
     gas: EngineGas | None = None,
 ) -> Parts:
-    """Return the stages of an engine that keeps all rules; arguments and errors as for `build`."""
+    """Return the stages of an engine that keeps all rules; arguments and errors as for `build`.
+
+    Args:
+        model: Checked engine file.
+        varied: Values of keys that vary, by dotted names, in the units of the file.
+        rank: Number of trailing axes of the varied values.
+        gas: Gas of a variant that differs in nothing of it; None: the file's.
+
+    Raises:
+        InputError: The file has contradictions.
+    """
     parts = Parts(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)

@@ -194,7 +194,7 @@ def _list_contradictions(
 def _list_idle(gas: Gas, strokes: int, *, measured: bool) -> Iterator[str]:
     """Yield the keys of [gas] that change nothing of this engine, each with the reason."""
     if gas.harmonics and not measured and "crankcase" in gas.model_fields_set:
-        yield "gas.crankcase changes nothing beside harmonics, which are of the torque"
+        yield "gas.crankcase changes nothing with harmonics, which are of the torque"
     if strokes == 2 and "exhaust" in gas.model_fields_set:
         yield (
             "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the "

@@ -16,7 +16,14 @@ from .figures import AS_GIVEN, FileFigures, or_zero, place_in_plane
 def build_devices(
     model: EngineFile, figures: FileFigures, first_axis_deg: Figure
 ) -> Iterator[Device]:
-    """Yield the counterweights, shafts and sliders of a file, in this order, as `build_device`."""
+    """Yield the counterweights, shafts and sliders of a file, in this order, as `build_device`
+    does.
+
+    Args:
+        model: Engine file.
+        figures: Its figures, which may vary.
+        first_axis_deg: Angle of the first cylinder's axis, deg.
+    """
     for path, table in model.tables():
         if isinstance(table, (Counterweight, Shaft, Slider)):
             yield build_device(table, first_axis_deg, figures, path)

@@ -11,13 +11,14 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
+from ..core.records import Node
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
@@ -117,7 +118,9 @@ class Engine:
     model: EngineFile | None = None
 
     # -------------------------------------------------------------- the file and its variants
-    def vary(self, changes: Mapping[str, Any] = MappingProxyType({}), /, **named: Any) -> Engine:
+    def vary(
+        self, changes: Mapping[str, object] = MappingProxyType({}), /, **named: object
+    ) -> Engine:
         """Return the engine of the same file with other values of some keys.
 
         Args:
@@ -138,7 +141,7 @@ class Engine:
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> Node:
         """Return the tables of the engine file, from which `load` makes the same engine, with
         numbers in mm, kg, degrees, rpm.
 

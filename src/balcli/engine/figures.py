@@ -50,11 +50,21 @@ class FileFigures:
         return self._varied.get(path, given)
 
     def take_optional(self, path: str, given: float | None) -> Figure | None:
-        """Return a figure that the file may leave out; None if so."""
+        """Return a figure that the file may leave out; None if it does.
+
+        Args:
+            path: Dotted name of its key.
+            given: Value in the file; None: none.
+        """
         return None if path in self._displaced else self._varied.get(path, given)
 
     def take_each(self, path: str, given: Sequence[float]) -> tuple[Figure, ...]:
-        """Return all members of a list, which vary one by one (`crank.throws.2`)."""
+        """Return all members of a list, which vary one by one (`crank.throws.2`).
+
+        Args:
+            path: Dotted name of the list's key.
+            given: Values in the file.
+        """
         return tuple(self._varied.get(f"{path}.{k}", value) for k, value in enumerate(given, 1))
 
     def of_table(self, start: str) -> dict[str, Figure]:
@@ -153,7 +163,12 @@ _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
 
 
 def value_or(own: Figure | None, general: Figure) -> Figure:
-    """Return the figure of one cylinder, or else the figure for all."""
+    """Return the figure of one cylinder, or else the figure for all.
+
+    Args:
+        own: Figure of the cylinder; None: it has none.
+        general: Figure for all cylinders.
+    """
     return general if own is None else own
 
 
@@ -163,7 +178,12 @@ def or_zero(figure: Figure | None) -> Figure:
 
 
 def divide(figure: Figure | None, divisor: float) -> Figure | None:
-    """Return a figure divided by a number; None without a figure."""
+    """Return a figure divided by a number; None without a figure.
+
+    Args:
+        figure: Figure, or None.
+        divisor: Number, not 0.
+    """
     return None if figure is None else figure / divisor
 
 
@@ -196,7 +216,12 @@ _ROUNDING = 1e-9  # share of the largest by which rounding may set equal values 
 
 
 def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
-    """Return x + iy."""
+    """Return x + iy.
+
+    Args:
+        x: Coordinate along x, m.
+        y: Coordinate along y, m.
+    """
     return cast("complex | Complex", x + 1j * y)
 
 
@@ -215,7 +240,12 @@ def column(values: Sequence[Figure], rank: int) -> Array:
 
 
 def shared_column(values: Sequence[Figure], rank: int) -> Array:
-    """Return the `column` of values, or a single row, shape (1, *trailing), if all are equal."""
+    """Return the `column` of values, or a single row, shape (1, *trailing), if all are equal.
+
+    Args:
+        values: One figure for each cylinder.
+        rank: Number of trailing axes.
+    """
     rows = column(values, rank)
     return rows[:1] if len(rows) > 1 and (rows == rows[:1]).all() else rows
 

@@ -96,6 +96,10 @@ def count_banks(layout: Layout) -> int:
 def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
     """Return the angle of each bank from x, deg. A vee is symmetrical to x; the first bank of a
     radial engine is on x.
+
+    Args:
+        layout: Table of the engine file.
+        figures: Figures of the file, which may vary.
     """
     angle = figures.take_optional("layout.bank_angle", layout.bank_angle)
     if angle is not None:
@@ -248,7 +252,14 @@ def find_instants(
 def find_pins(
     fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
 ) -> dict[int, Array]:
-    """Return the crank pin that each cylinder needs, from that of `find_first`, in [0, 360)."""
+    """Return the crank pin angle that each cylinder needs, from that of `find_first`, deg in [0,
+    360).
+
+    Args:
+        fires: Crank angle of firing by cylinder, deg.
+        tops: Angle of each cylinder's axis at top dead centre, deg.
+        sense: 1, or -1 for cylinders that turn about a crank at rest.
+    """
     first = find_first(fires)
     return {
         i: np.remainder((tops[i] - tops[first]) - sense * (f - fires[first]), 360.0)
@@ -292,8 +303,13 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
 def find_dead_centres(
     pins: Mapping[int, float], tops: Mapping[int, float], sense: int = 1
 ) -> dict[int, float]:
-    """Return the crank angle at which each cylinder is at top dead centre, in [0, 360) from that
-    of cylinder 1; pins count from cylinder 1's.
+    """Return the crank angle at which each cylinder is at top dead centre, deg in [0, 360), from
+    that of cylinder 1.
+
+    Args:
+        pins: Crank pin angle of each cylinder, deg, from cylinder 1's.
+        tops: Angle of each cylinder's axis at top dead centre, deg.
+        sense: 1, or -1 for cylinders that turn about a crank at rest.
     """
     return {
         i: float(np.remainder(sense * ((tops[i] - tops[1]) - pin), 360.0))
@@ -307,8 +323,13 @@ def check_firing(
     tops: Mapping[int, Figure],
     sense: int = 1,
 ) -> Iterator[Problem]:
-    """Yield the first cylinder that is not at top dead centre when it fires; pins count from
-    cylinder 1's.
+    """Yield the first cylinder that is not at top dead centre when it fires.
+
+    Args:
+        fires: Crank angle of firing by cylinder, deg.
+        pins: Crank pin angle of each cylinder, deg, from cylinder 1's.
+        tops: Angle of each cylinder's axis at top dead centre, deg.
+        sense: 1, or -1 for cylinders that turn about a crank at rest.
     """
     first = find_first(fires)
     for i, wanted in find_pins(fires, tops, sense).items():

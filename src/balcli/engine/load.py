@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
+from ..core.records import Node
 from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
 from ..file.examples import text
@@ -22,7 +23,7 @@ from .parse import parse, parse_dict, parse_tables
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
 
-def load(source: str | Path | Mapping[str, Any]) -> Engine:
+def load(source: str | Path | Mapping[str, object]) -> Engine:
     """Return the engine that a file, a text or a dict describes.
 
     Args:
@@ -42,7 +43,7 @@ def load(source: str | Path | Mapping[str, Any]) -> Engine:
     return build_tables(*take_tables("load", source, _WANTED))
 
 
-def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
+def build_tables(tables: Mapping[str, object], name: str) -> Engine:
     """Return the engine that the tables of a file describe.
 
     Args:
@@ -58,7 +59,11 @@ def build_tables(tables: Mapping[str, Any], name: str) -> Engine:
 
 
 def build_named(model: EngineFile, path: str | Path) -> Engine:
-    """Return the engine of a model from the file at a path ("-": standard input).
+    """Return the engine of a model that was read from a file.
+
+    Args:
+        model: Checked engine file.
+        path: Path of the file, for messages; "-" is standard input.
 
     Raises:
         InputError: The file has contradictions; the error lists them.
@@ -87,12 +92,16 @@ def load_example(name: str) -> Engine:
 
 
 # ------------------------------------------------------------------ variants of an engine
-_NO_FIRING_ORDER: dict[str, Any] = {"layout.firing_order": None, "layout.firing_intervals": None}
+_NO_FIRING_ORDER: Node = {"layout.firing_order": None, "layout.firing_intervals": None}
 
 
-def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
-    """Return the engine of the same file with other values of some keys, by dotted names; errors as
-    for `Engine.vary`.
+def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
+    """Return the engine of the same file with other values of some keys; errors as for
+    `Engine.vary`.
+
+    Args:
+        engine: Engine that comes from a file.
+        changes: Values by dotted names, in the units of the file.
     """
     for path in changes:
         if not isinstance(path, str):
@@ -100,7 +109,7 @@ def vary_engine(engine: Engine, changes: Mapping[str, Any]) -> Engine:
     model = take_model(engine)
     name = f"{engine.name or 'engine'} with {', '.join(changes)}"
 
-    def build_with(changes: Mapping[str, Any]) -> Engine:
+    def build_with(changes: Mapping[str, object]) -> Engine:
         with naming_file(name):
             return build(parse_dict(change_tables(model, changes), model.folder))
 
@@ -151,7 +160,12 @@ def choose_speeds(
     engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
 ) -> Real:
     """Return the speeds (rpm) over which a quantity of a variant is the largest: the speed of the
-    variant alone where it is among the values that vary, else those of `usual`.
+    variant alone where it is among the values that vary, else the usual ones.
+
+    Args:
+        engine: Engine of the variant.
+        values: Values that vary, by dotted names.
+        usual: Function that returns the usual speeds, rpm.
     """
     return np.array([float(engine.speed_rpm)]) if SPEED in values else usual(engine)
 
@@ -213,7 +227,13 @@ class FiguresOfVariants(Generic[Asked]):
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
-    """Return the value of a key, made if it is new; the cache is emptied when it is full."""
+    """Return the value of a key, made if it is new; the cache is emptied when it is full.
+
+    Args:
+        known: Cache.
+        key: Key of the value.
+        make: Function that makes the value.
+    """
     found = known.get(key)
     if found is None:
         found = make()

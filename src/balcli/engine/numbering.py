@@ -98,7 +98,7 @@ class Candidate:
     Attributes:
         model: The file with `layout.numbering` and, where these make it fit, other firing
             intervals or another splay.
-        numberings: Numberings of this engine; the first one is that of `model`.
+        numberings: Numberings of this engine, the one of `model` first.
         change: The other key that makes it fit, with its value; may be empty.
         splay: The other splay, deg; 0 without.
     """
@@ -206,7 +206,7 @@ class Candidate:
 
 
 def find_missed(parts: Parts) -> list[Problem]:
-    """Return what is wrong with the first cylinder that is not at its dead centre when it fires;
+    """Return the mistake of the first cylinder that is not at its dead centre when it fires;
     articulated rods may be at their true dead centres, or at their nominal ones.
     """
     if parts.order is None:
@@ -221,8 +221,8 @@ def find_missed(parts: Parts) -> list[Problem]:
 
 
 def find_fitting_splay(model: EngineFile) -> float | None:
-    """`crank.splay` (deg) with which the cylinders of a file fire in its order and at its
-    intervals, evenly where it gives none; None where there is none, or no firing order.
+    """Return `crank.splay` (deg) with which the cylinders of a file fire in its order and at its
+    intervals, evenly where it gives none; None where no splay does, or without a firing order.
     """
     parts = Parts(model)
     if parts.order is None or parts.plan.rods_on_throw == 1:

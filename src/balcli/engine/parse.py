@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
@@ -43,7 +42,7 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
     return _refuse_mistakes(read_tables(text, name), name)
 
 
-def parse_tables(tables: Mapping[str, Any], name: str) -> EngineFile:
+def parse_tables(tables: Mapping[str, object], name: str) -> EngineFile:
     """Return the model of an engine that normalized tables describe.
 
     Args:
@@ -56,7 +55,7 @@ def parse_tables(tables: Mapping[str, Any], name: str) -> EngineFile:
     return _refuse_mistakes(check_tables(tables, Path(name).parent, name), name)
 
 
-def parse_dict(tables: Mapping[str, Any], folder: Path | None = None) -> EngineFile:
+def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> EngineFile:
     """Return the model of an engine that the tables of a dict describe.
 
     Args:

@@ -259,7 +259,7 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
 
     def of_each(find: Callable[[int], Figure]) -> Array:
-        """A figure of piston and rod, one row for all where they are equal."""
+        """Return a figure of piston and rod, one row for all where they are equal."""
         return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
 
     def turns_at_pin(number: int) -> Figure:
@@ -388,7 +388,7 @@ class Parts:
 
     @property
     def radius(self) -> Figure:
-        """Crank radius, m."""
+        """Crank radius of all throws, m."""
         return self.figures.take("crank.stroke", self.model.crank.stroke) / 2e3
 
     @cached_property
@@ -400,14 +400,24 @@ class Parts:
         )
 
     def override(self, number: int, key: str) -> Figure | None:
-        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none."""
+        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none.
+
+        Args:
+            number: Number N of the cylinder.
+            key: Key of its table.
+        """
         table = self.tables.get(number)
         if table is None:
             return None
         return self.figures.take_optional(f"cylinder.{number}.{key}", getattr(table, key))
 
     def find_rod(self, number: int, articulated: bool = False) -> RodPlace:
-        """Return the figures of a cylinder's rod; number 0 stands for what holds for all."""
+        """Return the figures of a cylinder's rod.
+
+        Args:
+            number: Number of the cylinder; 0 stands for what holds for all.
+            articulated: Whether it is an articulated rod.
+        """
         general, own = self._general_rods[articulated], RodFigures()
         if (table := self.tables.get(number)) is not None:
             own = rod_figures(self.figures, table, f"cylinder.{number}", "rod_")

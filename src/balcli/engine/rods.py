@@ -70,7 +70,7 @@ class CylinderMasses(NamedTuple):
 
     @property
     def reciprocating(self) -> Figure:
-        """Reciprocating mass, kg."""
+        """Reciprocating mass of the cylinder, kg."""
         return self.piston + self.small_end
 
     @property
@@ -147,13 +147,17 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
     ends = [end for end in ENDS if end in place.rod.given]
     if len(ends) == 1:
         path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
-        beside = f"rod_{missing}" if path.startswith("cylinder") else missing
-        yield Problem(path, f"needs {beside} beside it: weigh the rod at both ends")
+        other = f"rod_{missing}" if path.startswith("cylinder") else missing
+        yield Problem(path, f"needs {other} as well: weigh the rod at both ends")
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     """Check that the moment of inertia of a rod is not negative, by its pendulum test or as two
     masses at its ends, for the worst of all variants.
+
+    Args:
+        place: Rod and its place in the file.
+        gear: Running gear of its cylinder.
     """
     if np.all(gear.spin >= 0):
         return

@@ -1,3 +1,3 @@
-"""A TOML text in, a checked model of what it says out, in the file's own units, with every mistake
-by its path.
+"""Read TOML text into a checked model, in the file's own units, with every mistake by its
+path.
 """

@@ -66,7 +66,7 @@ GRAMS = 'is it in kg? Grams are said as in "47 g"'
 
 
 class Figure(NamedTuple):
-    """A figure of a file, and what is usual.
+    """A figure of a file, and its usual range.
 
     Attributes:
         name: with its verb, such as "rod.cg is".
@@ -87,7 +87,7 @@ class Figure(NamedTuple):
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
-    """Return warnings for what is allowed and yet unlikely; none for an ordinary engine.
+    """Return warnings for figures that are allowed and yet unlikely; none for an ordinary engine.
 
     Args:
         model: the engine file.
@@ -130,7 +130,7 @@ def _round(value: float) -> str:
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for what is left out, and probably forgotten."""
+    """Yield warnings for keys that are left out, and probably forgotten."""
     if _weigh_piston(model) == 0:
         yield (
             "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
@@ -158,7 +158,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
-        yield "[flywheel] counts for `torque`, not for `torsion`; write it as [[torsion.rear]], too"
+        yield "[flywheel] counts for `torque`, not for `torsion`; also write it as [[torsion.rear]]"
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:

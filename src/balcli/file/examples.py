@@ -1,8 +1,7 @@
-"""The engines that are shipped as examples.
+"""Files that are shipped: example engines, and files to start from.
 
-Textbook layouts, one of each kind, stand in the folder itself; engines that were built, or are of
-the size of such, in folders by class. The first line of a file is a comment that says what the
-engine teaches.
+Examples: textbook layouts, one of each kind, are in the folder itself; engines that were built, or
+are of the size of such, in folders by class. The first line of a file is a comment with its lesson.
 
 Starting files: commented ones that work as they stand, of every common kind of engine, of runs
 of a rotor and of a chain of shafts.
@@ -29,10 +28,10 @@ class Example(NamedTuple):
     """A shipped engine.
 
     Attributes:
-        name: the short one, of its file.
-        group: its class, which is its folder.
-        lesson: what it teaches, in a sentence.
-        text: the whole file.
+        name: Short name, that of its file.
+        group: Class, which is its folder.
+        lesson: Lesson of the engine, in a sentence.
+        text: Content of the file.
     """
 
     name: str
@@ -46,23 +45,23 @@ class Example(NamedTuple):
         """
         head, _, _ = self.text.partition("\n[")
         tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
-        told = f"{self.name} {self.group} {head} {' '.join(tables)}".lower()
-        return all(word in told for word in words.lower().split())
+        searched = f"{self.name} {self.group} {head} {' '.join(tables)}".lower()
+        return all(word in searched for word in words.lower().split())
 
 
 def find(words: str = "", group: str | None = None) -> list[Example]:
     """Return the examples that mention all the words; layouts first, then by class and name.
 
     Args:
-        words: with spaces between.
-        group: class of the examples; None: all.
+        words: Words with spaces between them.
+        group: Class of the examples; None: all.
 
     Raises:
-        BalcliError: no such class; nothing found.
+        BalcliError: No such class; no example.
     """
     if group is not None and group not in groups():
         raise BalcliError(f'there is no class "{group[:60]}" of engines: {", ".join(groups())}')
-    known = [_read(path) for path in _paths() if group in (None, _group(path))]
+    known = [_read(path) for path in _find_paths().values() if group in (None, _group(path))]
     found = [example for example in known if example.mentions(words)]
     if not found:
         raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists them all')
@@ -71,7 +70,12 @@ def find(words: str = "", group: str | None = None) -> list[Example]:
 
 def names() -> list[str]:
     """Return the short names, layouts first, then by class."""
-    return [path.stem for path in _paths()]
+    return list(_find_paths())
+
+
+def groups() -> list[str]:
+    """Return the classes, layouts first."""
+    return list(dict.fromkeys(map(_group, _find_paths().values())))
 
 
 def is_example(name: str) -> bool:
@@ -79,49 +83,46 @@ def is_example(name: str) -> bool:
     return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
 
 
-def groups() -> list[str]:
-    """Return the classes, layouts first."""
-    return list(dict.fromkeys(_group(path) for path in _paths()))
-
-
 def text(name: str) -> str:
     """Return the engine file of an example.
 
     Raises:
-        BalcliError: there is none of this name; with the nearest ones.
+        BalcliError: No example has this name; the error lists the nearest ones.
     """
-    known = {path.stem: path for path in _paths()}
-    if name not in known:
-        near = get_close_matches(name.lower()[:100], known, 3)
-        hint = f" Did you mean {' or '.join(near)}?" if near else ""
-        if name.lower() in groups():
-            hint = f" It is a class: balcli engines --class {name.lower()}."
-        raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
-    return known[name].read_text(encoding="utf-8")
+    known = _find_paths()
+    if name in known:
+        return known[name].read_text(encoding="utf-8")
+    near = get_close_matches(name.lower()[:100], known, 3)
+    hint = f" Did you mean {' or '.join(near)}?" if near else ""
+    if name.lower() in groups():
+        hint = f" It is a class: balcli engines --class {name.lower()}."
+    raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
 
 
 def folder() -> Path:
     """Return the folder of the examples.
 
     Raises:
-        BalcliError: the installation has none.
+        BalcliError: The installation has none.
     """
-    for place in _PLACES:
-        if place.is_dir():
-            return place
-    raise BalcliError(
-        f"the example engines are missing from this installation ({_PLACES[0]}): install balcli "
-        "again"
-    )
+    place = next(filter(Path.is_dir, _PLACES), None)
+    if place is None:
+        raise BalcliError(
+            f"the example engines are missing from this installation ({_PLACES[0]}): install "
+            "balcli again"
+        )
+    return place
 
 
-def _paths() -> list[Path]:
+def _find_paths() -> dict[str, Path]:
+    """Return the files of the examples by short name, layouts first, then by class."""
     place = folder()
-    return sorted(place.glob("*.toml")) + sorted(place.glob("*/*.toml"))
+    every = [*sorted(place.glob("*.toml")), *sorted(place.glob("*/*.toml"))]
+    return {path.stem: path for path in every}
 
 
 def _group(path: Path) -> str:
-    return LAYOUT if path.parent == folder() else path.parent.name
+    return LAYOUT if path.parent in _PLACES else path.parent.name
 
 
 def _read(path: Path) -> Example:
@@ -131,11 +132,11 @@ def _read(path: Path) -> Example:
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
 KINDS = (*ENGINE_KINDS, "field", "torsion")
-SCHEMA = """\
-#:schema balcli.schema.json
-# Editors that know TOML check and complete what you type, with that file here: `balcli schema -o balcli.schema.json`
-
-"""
+SCHEMA = (
+    "#:schema balcli.schema.json\n"
+    "# Editors that know TOML check and complete what you type, with that file here: "
+    "`balcli schema -o balcli.schema.json`\n\n"
+)
 _FOLDER = Path(__file__).with_name("starting_files")
 
 
@@ -143,7 +144,7 @@ def template(kind: str) -> str:
     """Return the starting file of a kind as TOML text.
 
     Raises:
-        BalcliError: there is no such kind; with the nearest one and all of them.
+        BalcliError: No such kind; the error lists all of them and the nearest.
     """
     if kind not in KINDS:
         near = nearest(kind, KINDS)

@@ -9,12 +9,14 @@ import math
 import re
 import sys
 from collections.abc import Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from ..core.records import Node
 from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
     from pydantic_core import CoreSchema
 
 
@@ -61,7 +63,12 @@ class WrittenFigure(float):
 
 
 def as_written(value: float, unit: str) -> str:
-    """Return a figure as its file has it; `unit` is that of a bare number."""
+    """Return a figure as its file has it.
+
+    Args:
+        value: Figure.
+        unit: Unit of a bare number.
+    """
     text = value.text if isinstance(value, WrittenFigure) else f"{value:g} {unit}"
     return printable(text.strip())
 
@@ -72,13 +79,22 @@ def order_number(order: float) -> int | float:
 
 
 def counted(count: int, what: str) -> str:
-    """Return a number with its noun: "1 place", "2 places"."""
+    """Return a number with its noun: "1 place", "2 places".
+
+    Args:
+        count: Number.
+        what: Noun in the singular.
+    """
     return f"{count} {what}{'s' * (count != 1)}"
 
 
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
     """Return how many digits of crank radius / rod length are shown: more next to 1, where the
     crank locks.
+
+    Args:
+        ratio: Crank radius / rod length.
+        usual: Digits of a ratio that is not next to 1.
     """
     return usual if ratio < 0.999 else max(usual, 7)
 
@@ -105,7 +121,13 @@ def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 
 def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
-    """Return "did you mean ...?" for the known word that was probably meant, else `otherwise`."""
+    """Return "did you mean ...?" for the known word that was probably meant, else another text.
+
+    Args:
+        word: Unknown word.
+        known: Known words.
+        otherwise: Text if none of them is near.
+    """
     near = nearest(word, known)
     return f"did you mean {near}?" if near else otherwise
 
@@ -116,15 +138,19 @@ class _Field:
     def read(self, value: object) -> object:
         raise NotImplementedError
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         raise NotImplementedError
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> CoreSchema:
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
         from pydantic_core import core_schema
 
         return core_schema.no_info_plain_validator_function(self.read)
 
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: Any) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
         return self.json()
 
 
@@ -146,23 +172,27 @@ class Number(_Field):
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
-        shown = shorten(value)
         if self.word and value == self.word:
             return WrittenFigure(math.nan, self.word)
+        try:
+            number = self._measure(value)
+        except ValueError as error:
+            raise ValueError(f"{shorten(value)} {error}") from None
+        return WrittenFigure(number, value) if isinstance(value, str) else number
+
+    def _measure(self, value: object) -> float:
+        """Return a figure in the unit of the file; ValueError says why it is none."""
         if isinstance(value, str):
-            try:
-                number = convert(value, self.dimension)
-            except ValueError as error:
-                raise ValueError(f"{shown} {error}") from None
+            number = convert(value, self.dimension)
         elif isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise ValueError(f"{shown} is not a number; {wanted(self.dimension)}")
+            raise ValueError(f"is not a number; {wanted(self.dimension)}")
         else:
             number = math.inf if abs(value) > sys.float_info.max else float(value)
         if not math.isfinite(number):
-            raise ValueError(f"{shown} is no finite number; {wanted(self.dimension)}")
+            raise ValueError(f"is no finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
-            raise ValueError(f"{shown} is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
-        return WrittenFigure(number, value) if isinstance(value, str) else number
+            raise ValueError(f"is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
+        return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
         """Return how a number is out of bounds, and its bounds; None if it is within."""
@@ -178,7 +208,7 @@ class Number(_Field):
             return f"more than {self.most:g}", f"up to {self.most:g}"
         return None
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         bounds = {
             "exclusiveMinimum": self.above,
             "minimum": self.least,
@@ -215,14 +245,14 @@ class Whole(_Field):
             raise ValueError(f"{shorten(value)} is out of range; {wanted}")
         return order_number(number)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         kind = {"type": "number", "multipleOf": 0.5} if self.halves else {"type": "integer"}
         limits = {"minimum": self.least, "maximum": self.most}
         return kind | limits | ({} if self.zero else {"not": {"const": 0}})
 
 
 class Flag(_Field):
-    """true or false."""
+    """A switch: true or false."""
 
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
@@ -231,7 +261,7 @@ class Flag(_Field):
             )
         return value
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"type": "boolean"}
 
 
@@ -249,12 +279,12 @@ class OneOf(_Field):
         hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
         raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"enum": list(self.options)}
 
 
 class Label(_Field):
-    """A short name."""
+    """A name, of limited length."""
 
     most, kind = LONGEST_NAME, "name"
     wanted = f"use up to {LONGEST_NAME} letters, digits and signs, in quotes"
@@ -265,7 +295,7 @@ class Label(_Field):
             raise ValueError(f"{shorten(value)} is no {self.kind}; {self.wanted}")
         return str(value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"type": "string", "minLength": 1, "maxLength": self.most}
 
 
@@ -290,7 +320,7 @@ class Choice(NamedTuple):
     complete: bool | tuple[str, ...] = False
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        """Yield what is wrong with the given keys, in words that follow the name of the table."""
+        """Yield the mistakes in the given keys, in words that follow the name of the table."""
         begun = [[key for key in group if key in given] for group in self.groups]
         keys, missing = [key for some in begun for key in some], self.find_missing(given)
         if sum(map(bool, begun)) > 1:

@@ -41,7 +41,7 @@ class Gas(FileTable):
     wiebe_keys: ClassVar[tuple[str, ...]] = WIEBE_KEYS
 
     indicator: Annotated[str, FileName()] | None = None
-    """A measured diagram: CSV beside the engine file, headed angle_deg,pressure_bar (or _MPa,
+    """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
     _kPa, _Pa, _psi; over the atmosphere _barg, _psig). Example: 'p_2000rpm.csv'"""
     zero: Annotated[str, OneOf("firing", "gas-exchange")] = "firing"
     """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
@@ -52,7 +52,7 @@ class Gas(FileTable):
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """A computed cycle, by how it burns. Example: 'wiebe'"""
     compression_ratio: Ratio | None = None
-    """Largest over smallest volume of the cylinder; beside a diagram it gives the volume.
+    """Largest over smallest volume of the cylinder; with a diagram it gives the volume.
     Example: 10.5"""
     compression_index: Index = 1.32
     """n of p V^n = const. Example: 1.35"""
@@ -63,8 +63,8 @@ class Gas(FileTable):
     exhaust: Pressure = 1.05
     """Absolute, while it empties; four-stroke. Example: 1.3"""
     imep: MeanPressure | None = None
-    """Indicated mean effective pressure that the cycle is to have; beside a diagram: what it
-    should have. Example: 10"""
+    """Indicated mean effective pressure that the cycle is to have; with a diagram: its expected
+    value. Example: 10"""
     bmep: MeanPressure | None = None
     """Instead of imep, with mechanical_efficiency. Example: 8.5"""
     mechanical_efficiency: Efficiency | None = None
@@ -93,8 +93,8 @@ class Gas(FileTable):
 
     @property
     def goals(self) -> tuple[str, ...]:
-        """Keys of which exactly one tells how much is burnt; the highest pressure of a dual cycle
-        stands beside it.
+        """Keys of which exactly one sets the heat; the highest pressure of a dual cycle stands next
+        to it.
         """
         return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
 
@@ -103,8 +103,12 @@ class Gas(FileTable):
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
 
     def list_idle_keys(self, strokes: int, measured: bool, computed: bool) -> set[str]:
-        """Those of figures that change nothing of the gas in an engine of so many strokes;
-        `measured`, `computed`: whether a cylinder has a diagram, or a cycle.
+        """Return the keys of figures that change nothing of the gas in this engine.
+
+        Args:
+            strokes: 2 or 4.
+            measured: Whether a cylinder has a diagram.
+            computed: Whether a cylinder has a computed cycle.
         """
         idle: set[str] = set()
         if not computed:
@@ -130,7 +134,7 @@ class Gas(FileTable):
                 yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
 
     def _check_misplaced(self) -> Iterator[str]:
-        """Keys of a computed cycle without one."""
+        """Find keys of a computed cycle without one."""
         others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
         if others and self.cycle is None and (self.indicator or self.harmonics):
             what = "indicator" if self.indicator else "harmonics"
@@ -142,7 +146,7 @@ class Gas(FileTable):
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
 
     def _check_goals(self) -> Iterator[str]:
-        """Exactly one figure tells how much is burnt."""
+        """Check that exactly one figure sets the heat."""
         if self.cycle is None:
             return
         given = [key for key in self.goals if self.has(key)]

@@ -1,5 +1,5 @@
 """Mistakes of an engine file in plain words: pydantic's findings translated, keys that no engine
-file has, and the kinds of files, told apart by the keys at their head.
+file has, and the kinds of files, which differ by the keys at their head.
 """
 
 from __future__ import annotations
@@ -58,6 +58,10 @@ def import_lists() -> dict[str, type[FileTable]]:
 def join_path(start: str, parts: Iterable[int | str]) -> str:
     """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
     count from 1. The path of the file itself is empty.
+
+    Args:
+        start: Path of the table.
+        parts: Keys, and places in lists from 0.
     """
     names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
     return ".".join(filter(None, [start, *names]))
@@ -110,7 +114,12 @@ def _describe_length(
 
 
 def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[FileTable]:
-    """Return the table in which the last part of a place stands: `table`, or one within it."""
+    """Return the table that holds the last part of a place: `table`, or one within it.
+
+    Args:
+        table: Table at the start of the place.
+        loc: Keys, and places in lists.
+    """
     for part in loc[:-1]:
         field = table.keys().get(str(part))
         table = table if field is None else find_table(field.annotation) or table
@@ -125,7 +134,7 @@ def find_table(annotation: object) -> type[FileTable] | None:
 
 
 def ordinal(number: int) -> str:
-    """1st, 2nd, 3rd, 4th ..."""
+    """Return an ordinal number: 1st, 2nd, 3rd, 4th ..."""
     if number % 100 in (11, 12, 13):
         return f"{number}th"
     suffix = {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
@@ -156,10 +165,15 @@ CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "exc
 
 def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
     """Raise an error if the keys at the head of a file are those of one other kind, and none of a
-    kind that is wanted: a list of all its mistakes would not help.
+    wanted kind: a list of all its mistakes would not help.
+
+    Args:
+        head: Keys at the head of the file.
+        file: Name of the file.
+        wanted: Kinds that can be read here.
 
     Raises:
-        OtherKindError: with what it is, and who reads it.
+        OtherKindError: The error names the kind, and the command that reads it.
     """
     found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
     if len(found) == 1 and found[0] not in wanted:

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 
 class Crank(FileTable):
-    """The crankshaft."""
+    """The crankshaft and its throws."""
 
     choices = (Choice((("spacing",), ("positions",))),)
 
@@ -95,7 +95,7 @@ class Pendulum(FileTable):
 
 
 class Rod(FileTable):
-    """The connecting rod."""
+    """The connecting rod of every cylinder."""
 
     choices = (
         Choice((("length",), ("ratio",)), required=True),
@@ -226,7 +226,7 @@ def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
 
 
 class Bobweight(FileTable):
-    """What turns with a crank pin besides rod and throw; it rotates."""
+    """Masses that turn with a crank pin in addition to rod and throw."""
 
     choices = (Choice((("oil",), ("oil_per_pin",))),)
 
@@ -262,7 +262,7 @@ class Operation(FileTable):
 
 
 class Frame(FileTable):
-    """The engine's frame."""
+    """The frame of the engine."""
 
     reference: Triple | None = None
     """x, y, z of the point about which all moments are taken; left out: on the crank axis,
@@ -273,7 +273,7 @@ class Frame(FileTable):
 
 
 class Override(FileTable):
-    """What differs in one cylinder."""
+    """Figures of a cylinder that differs from the others."""
 
     choices = (
         *(choice.for_overrides("rod_") for choice in Rod.choices),
@@ -316,7 +316,7 @@ class Override(FileTable):
 
 
 class Device(FileTable):
-    """What all devices share: how much, as unbalance or as mass and radius."""
+    """Keys of all devices: the size, as unbalance or as mass and radius."""
 
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
@@ -369,6 +369,10 @@ class Slider(Device):
 def label_table(table: FileTable, number: int) -> str:
     """Return the word for a table of several in dotted names: its name, with `_` for spaces, if
     that is a word; else its number.
+
+    Args:
+        table: Table, which may have a name.
+        number: Number of the table, from 1.
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
@@ -385,7 +389,7 @@ class EngineFile(FileTable):
     name: str = ""
     """What the engine is called. Example: 'in-line four'"""
     source: str = ""
-    """Where the figures come from, and what is assumed. Example: 'weighed, May 2024'"""
+    """Where the figures come from, and which are assumed. Example: 'weighed, May 2024'"""
     crank: Crank
     rod: Rod
     piston: Piston

@@ -5,15 +5,17 @@ They are imported for files that have them (`names.CHAPTERS`).
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
+from ..core.records import Node
 from .fields import Choice, Number, as_written
 from .table import Angle, FileTable, Name, Switch, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
     from pydantic_core import CoreSchema
 
 
@@ -23,15 +25,19 @@ class AlikeOrEach:
     def __init__(self, one: Number) -> None:
         self._one = one
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> "CoreSchema":
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: "GetCoreSchemaHandler"
+    ) -> "CoreSchema":
         from pydantic_core import core_schema
 
-        def read(value: object, each: Callable[[object], Any]) -> Any:
+        def read(value: object, each: Callable[[object], object]) -> object:
             return each(value) if isinstance(value, (list, tuple)) else (self._one.read(value),) * 3
 
         return core_schema.no_info_wrap_validator_function(read, handler(source))
 
-    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: Any) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(
+        self, schema: "CoreSchema", handler: "GetJsonSchemaHandler"
+    ) -> Node:
         return {"anyOf": [self._one.json(), handler(schema)], "unit": self._one.dimension.unit}
 
 
@@ -49,7 +55,7 @@ _PERPENDICULAR = 1e-6  # cosine between two axes that are
 
 
 class Body(FileTable):
-    """All that rocks on the mounts: the engine with its gearbox, as one rigid body."""
+    """The body on the mounts: the engine with its gearbox, as one rigid body."""
 
     mass: Annotated[float, Number(MASS, above=0, most=1e12)]
     """Of the whole. Example: 163.9"""
@@ -62,8 +68,8 @@ class Body(FileTable):
     gravity: Direction = (-1.0, 0.0, 0.0)
     """Direction of the weight, of any length. Example: [-1, 0, 0]"""
     carries_load: Switch = False
-    """What takes the engine's torque stands on the body, too, such as the generator of a genset:
-    at rest no mount feels its mean. Example: true"""
+    """The load that takes the engine's torque also stands on the body, such as the generator of a
+    genset: at rest no mount feels its mean. Example: true"""
 
     def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..core.records import Node
 from ..errors import InputError, Problem, wrong_type
 from ..limits import MOST_KEY_VALUES
 from .fields import RIGID, Number
@@ -20,9 +21,9 @@ from .table import FileTable, document_keys
 from .toml import name_file, parse_toml, read_bytes
 
 
-def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
+def normalize_tables(tables: Mapping[Any, object]) -> Node:
     """Return tables of a user of Python as TOML has them: keys are text, arrays and tuples are
-    lists, numpy's numbers are Python's; what is None is left out.
+    lists, numpy's numbers are Python's; None is left out.
 
     Raises:
         InputError: a key that is no text or number; tables that hold themselves.
@@ -36,9 +37,9 @@ def normalize_tables(tables: Mapping[Any, Any]) -> dict[str, Any]:
         raise InputError([Problem("", message)]) from None
 
 
-def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, Any], str]:
+def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, object], str]:
     """Return the tables of what a user of Python gives: a path ("-": standard input), the text of a
-    file, of several lines, or a dict; and the file's name, empty where there is none.
+    file, of several lines, or a dict; and the file's name, empty without a file.
 
     Args:
         function: that was given it, for messages.
@@ -68,7 +69,7 @@ def _key(key: object) -> str:
     )
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     if isinstance(value, Mapping):
         return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -78,12 +79,12 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def list_tables(model: EngineFile) -> dict[str, Any]:
+def list_tables(model: EngineFile) -> Node:
     """Return the tables that describe a file again; numbers are in the units of the file."""
     return _write(model)
 
 
-def _write(value: Any) -> Any:
+def _write(value: object) -> Any:
     if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
@@ -96,7 +97,7 @@ def _write(value: Any) -> Any:
     return RIGID if value == math.inf else value
 
 
-def change_tables(model: EngineFile, changes: Mapping[str, Any]) -> dict[str, Any]:
+def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
     """Return the tables of a file with other values of some keys.
 
     Args:

@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from ..core.records import Node
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
 from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
 from ..names import CHAPTER_LISTS
@@ -117,7 +118,13 @@ class TableReader:
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """Return the table with this path (empty: the file itself); None if it has mistakes."""
+        """Return a table; None if it has mistakes.
+
+        Args:
+            path: Path of the table; empty: the file itself.
+            value: Content of the table as TOML has it.
+            table: Keys that it may have.
+        """
         if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
             self.add(path, f"stands once, in single brackets: [{path}]")
             return None
@@ -173,11 +180,16 @@ class TableReader:
         return refuse(self.problems, name or self._file_kind.removeprefix("a "))
 
     def add(self, path: str, message: str) -> None:
-        """Collect a mistake."""
+        """Add a mistake.
+
+        Args:
+            path: Path of the key or table.
+            message: The mistake, and then the remedy.
+        """
         self.problems.append(Problem(path, message))
 
     def _translate(
-        self, path: str, table: type[FileTable], value: Mapping[str, Any], error: ValidationError
+        self, path: str, table: type[FileTable], value: Mapping[str, object], error: ValidationError
     ) -> None:
         """Collect what the keys say against each other, as far as they can be read, and pydantic's
         findings in them.
@@ -205,9 +217,11 @@ def _is_miscounted(finding: ErrorDetails) -> bool:
 
 
 def _read_without(
-    table: type[FileTable], value: Mapping[str, Any], broken: set[str]
+    table: type[FileTable], value: Mapping[str, object], broken: set[str]
 ) -> FileTable | None:
-    """Return `RefusedTable.draft`."""
+    """Return the table without its broken keys (`RefusedTable.draft`); None if others are broken
+    too.
+    """
     known = {key: part for key, part in value.items() if key not in broken}
     needed = [key for key, field in table.keys().items() if field.is_required()]
     examples = {key: document_keys(table)[key].example for key in needed}
@@ -222,7 +236,7 @@ def _read_without(
 def _find_conflicts(
     path: str,
     table: type[FileTable],
-    value: Mapping[str, Any],
+    value: Mapping[str, object],
     broken: set[str],
     draft: FileTable | None,
 ) -> Iterator[Problem]:
@@ -278,7 +292,7 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
 
 
 def check_tables(
-    data: Mapping[str, Any], folder: Path, name: str = "", *, bare: bool = False
+    data: Mapping[str, object], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
     """Return the readable part of the tables of a file; pydantic compiles only tables that are
     there.
@@ -307,7 +321,7 @@ def check_tables(
     return _draft(reader, parts, folder)
 
 
-def _read_part(reader: TableReader, key: str, value: object) -> Any:
+def _read_part(reader: TableReader, key: str, value: object) -> object:
     """Return what stands under a key at the head of the file; None: it has mistakes."""
     if key in TEXTS:
         return _read_text(reader, key, value)
@@ -341,7 +355,7 @@ def change_figures(
     return model.model_copy(update=changed)
 
 
-def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:
+def _refuse_strangers(reader: TableReader, data: Mapping[str, object]) -> None:
     """Refuse keys of the file itself that no engine file has. Of a table such as `[engine]`, which
     is like none that there is, each of its keys: they have their places elsewhere.
     """
@@ -356,7 +370,7 @@ def _refuse_strangers(reader: TableReader, data: Mapping[str, Any]) -> None:
                 reader.refuse_key(printable(key), inner, None, value)
 
 
-def _draft(reader: TableReader, parts: dict[str, Any], folder: Path) -> Draft:
+def _draft(reader: TableReader, parts: Node, folder: Path) -> Draft:
     """Return what was read, from the parts of the file by their keys."""
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {key for key, part in parts.items() if part is None}

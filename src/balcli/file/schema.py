@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import combinations, product
-from typing import Any, TypeAlias
 
 from pydantic import BaseModel
 
+from ..core.records import Node
 from ..names import CHAPTER_LISTS, CHAPTERS
 from .messages import DEVICES, TABLES, import_table
 from .model import EngineFile, Override
 from .table import FileTable
-
-Node: TypeAlias = dict[str, Any]  # of a JSON Schema, whose members are of many kinds
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
@@ -44,7 +42,7 @@ def describe_file(
     an example.
 
     Args:
-        file: what they hold.
+        file: table that they hold.
         tables: those within it.
         name: that the schema's identifier ends in.
     """

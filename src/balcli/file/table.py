@@ -10,14 +10,19 @@ from functools import cache
 from inspect import getsource
 from itertools import chain, pairwise
 from textwrap import dedent
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
 from pydantic.fields import FieldInfo
 
+from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Flag, Label, Number, Whole
 from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
+
+if TYPE_CHECKING:
+    from pydantic import GetJsonSchemaHandler
+    from pydantic_core import CoreSchema
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
@@ -83,11 +88,11 @@ class KeyDocument(NamedTuple):
 
     Attributes:
         description: what the key means.
-        example: a value that it may have; None: there is none.
+        example: a value that it may have; None: no example.
     """
 
     description: str = ""
-    example: Any = None
+    example: object = None
 
 
 class _BrokenKeyError(Exception):
@@ -169,8 +174,10 @@ class FileTable(BaseModel):
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
-        node: dict[str, Any] = handler(schema)
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
+        node = handler(schema)
         properties = handler.resolve_ref_schema(node)["properties"]
         for key, document in document_keys(cls).items():
             if document.description:
@@ -181,7 +188,7 @@ class FileTable(BaseModel):
 
 
 @cache
-def _list_rules(table: type[FileTable]) -> list[Callable[[Any], Iterator[str]]]:
+def _list_rules(table: type[FileTable]) -> list[Callable[[Reading], Iterator[str]]]:
     """Return the rules of a table, those of its bases first."""
     names = (vars(base).items() for base in reversed(table.__mro__))
     return [rule for name, rule in chain.from_iterable(names) if name.startswith("_check_")]

@@ -4,10 +4,11 @@ between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field
 
+from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
 from .fields import RIGID, Number, OneOf, as_written, counted, shorten
 from .table import FileTable, GivenInertia, Name, Size
@@ -34,7 +35,7 @@ class _Stiffness(Number):
     def read(self, value: object) -> float:
         return math.inf if value == RIGID else super().read(value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"anyOf": [super().json(), {"const": RIGID}], "unit": TORSIONAL_STIFFNESS.unit}
 
 
@@ -67,7 +68,7 @@ STEEL = 7.85  # g/cm3
 
 
 class ShaftKeys(FileTable):
-    """What a shaft is like: its stiffness, or the steel that makes it; its section gives stress."""
+    """Keys of a shaft: its stiffness, or the steel that makes it; its section gives stress."""
 
     stiffness: Stiffness | None = None
     """Torsional stiffness in the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
@@ -156,7 +157,7 @@ class Damper(FileTable):
 
 
 class NodeKeys(FileTable):
-    """What a node is like: its name, its inertia, and its damper."""
+    """Keys of a node: its name, its inertia, and its damper."""
 
     name: Name
     """What to call it; each its own. Example: 'flywheel'"""
@@ -167,7 +168,7 @@ class NodeKeys(FileTable):
 
 
 class ChainKeys(FileTable):
-    """What holds for a whole chain: the loss of its shafts, and limits."""
+    """Keys of a whole chain: the loss of its shafts, and limits."""
 
     loss: Loss = 0.0
     """Loss factor of every shaft that names none. Example: 0.035"""
@@ -179,22 +180,26 @@ class ChainKeys(FileTable):
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
-    """Torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
+    """Return the torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
     if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
     return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
 
 
 def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
-    """Moment of inertia of a plain shaft of this density (g/cm3), kg m2; 0 without one, and of a
-    shaft given by its stiffness.
+    """Return the moment of inertia of a plain shaft, kg m2; 0 without a density, and for a shaft
+    given by its stiffness.
+
+    Args:
+        shaft: Table of the shaft.
+        density: Density of its steel, g/cm3.
     """
     length = (shaft.length or 0.0) / 1e3
     return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0
 
 
 def _find_polar_moment(shaft: ShaftKeys) -> float:
-    """Polar moment of the section, m4; 0 without a diameter."""
+    """Return the polar moment of the section, m4; 0 without a diameter."""
     outer, inner = (shaft.diameter or 0.0) / 1e3, (shaft.bore or 0.0) / 1e3
     return math.pi * (outer**4 - inner**4) / 32
 
@@ -228,21 +233,21 @@ class _EachOrAll(Number):
             )
         return tuple(super(_EachOrAll, self).read(each) for each in value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         items = {"type": "array", "items": super().json(), "minItems": 1}
         return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
 
 
 class Part(ShaftKeys, NodeKeys):
-    """What turns with the crankshaft before or behind its throws, and the shaft that leads to
-    it from the throws.
+    """A part that turns with the crankshaft before or behind its throws, and the shaft that leads
+    to it from the throws.
     """
 
     gear: Annotated[float, SpeedRatio()] | None = None
-    """Speed over that of the crank; left out: as fast as what it hangs on. The mesh sits there,
-    and the shaft turns with this part. Example: 0.5"""
+    """Speed over that of the crank; left out: the speed of the part it hangs on. The mesh sits
+    there, and the shaft turns with this part. Example: 0.5"""
     of: Name | None = None
-    """What it hangs on, a part or throw 1, throw 2, ...; left out: the part before it in the
+    """The part it hangs on, or throw 1, throw 2, ...; left out: the part before it in the
     list, the first on the nearest throw. Example: 'throw 1'"""
     node_damping: Damping = 0.0
     """Of the part against ground, as water damps a propeller. Example: 5"""

@@ -83,7 +83,7 @@ PREFIXED = {
 
 
 def find_near_name(name: str) -> str:
-    """The unit that was probably meant; empty if none comes to mind."""
+    """Return the unit that was probably meant; empty if none comes to mind."""
     from difflib import get_close_matches  # after a mistake alone
 
     usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
@@ -262,8 +262,11 @@ def convert(text: str, dimension: Dimension) -> float:
 
 
 def convert_exactly(text: str, dimension: Dimension) -> Fraction:
-    """Return the exact figure in the bare unit of a dimension; arguments and errors as of
-    `convert`.
+    """Return the exact figure in the bare unit of a dimension; errors as for `convert`.
+
+    Args:
+        text: Number, with or without a unit.
+        dimension: Dimension of the figure.
     """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
@@ -285,7 +288,7 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
-    """The figure in m, kg, s and turns; a large unit and a small one add up ("1 lb 4 oz")."""
+    """Return a figure in m, kg, s and turns; a large and a small unit add up ("1 lb 4 oz")."""
     if dimension is SPEED and re.search(_PER_SECOND, figure):
         message = 'has the unit "1/s": rad/s, or turns per second (Hz)?'
         raise ValueError(f"{message} {wanted(dimension)}")
@@ -316,7 +319,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
 
 
 def _explain(figure: str) -> str:
-    """Return why a figure cannot be read, up to the words that say what is wanted."""
+    """Return why a figure cannot be read, up to the words that name the wanted unit."""
     if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
         return f'has "{strange[0]}" in Cyrillic letters, which is no unit; write it in Latin ones;'
     hint = ""
@@ -348,7 +351,7 @@ def _spell_out(figure: str, dimension: Dimension) -> str:
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:
-    """A figure's number, and the names of its unit; None: it is no figure."""
+    """Return a figure's number, and the names of its unit; None: it is no figure."""
     match = re.fullmatch(FIGURE, figure, re.ASCII)
     if match is None:
         return None
@@ -398,7 +401,7 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
 
 @cache
 def _find(name: str) -> Unit | None:
-    """A unit by its name, with a prefix, or several of it; None: there is no such unit."""
+    """Return a unit by its name, with a prefix, or several of it; None: there is no such unit."""
     if name in _BASE:
         return _BASE[name]
     if name in DEFINITIONS:

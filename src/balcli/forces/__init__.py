@@ -1,3 +1,3 @@
-"""An `Engine` in, what it does to its frame and its crankshaft out, order by order and along the
-crank angle.
+"""Compute the loads of an `Engine` on frame and crankshaft, by order and over the crank
+angle.
 """

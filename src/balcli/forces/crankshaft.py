@@ -15,7 +15,6 @@ shaft and block is that of inertia alone, with the block's own devices.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -44,8 +43,7 @@ from .spectrum import (
 )
 
 
-@dataclass(frozen=True)
-class AlongCrank:
+class AlongCrank(NamedTuple):
     """A force or moment at several places along the crank.
 
     Attributes:
@@ -64,7 +62,7 @@ class AlongCrank:
 
     def select_orders(self, orders: Array) -> AlongCrank:
         """Return the force or moment with these orders; peaks remain those of all orders."""
-        return replace(self, phasors=self.phasors.select_orders(orders))
+        return self._replace(phasors=self.phasors.select_orders(orders))
 
     @property
     def largest(self) -> int:
@@ -72,8 +70,7 @@ class AlongCrank:
         return int(find_first_largest([peak.value for peak in self.peaks]))
 
 
-@dataclass(frozen=True)
-class InnerLoads:
+class InnerLoads(NamedTuple):
     """Shear force (N) and bending moment (N m) just behind each load, and inertia loads of the main
     bearings (N).
 
@@ -94,8 +91,7 @@ class InnerLoads:
     obstacle: str = ""
 
 
-@dataclass(frozen=True)
-class CrankLoads:
+class CrankLoads(NamedTuple):
     """Largest inertia loads within a crankshaft with throws in several planes.
 
     Attributes:
@@ -161,7 +157,7 @@ def _refuse_too_many_results(orders: int, loads: int) -> None:
     if told > MOST_RESULTS_ALONG_CRANK:
         raise BalcliError(
             f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
-            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are told: ask for fewer orders"
+            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are listed; give fewer orders"
         )
 
 
@@ -275,17 +271,22 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return the internal loads with those of the gas as far as they are known; arguments and other
-    errors as for `compute_loads_with_gas`.
+    """Return the internal loads with those of the gas as far as they are known; other errors as for
+    `compute_loads_with_gas`.
+
+    Args:
+        inner: Internal loads of inertia.
+        engine: Engine with gas, without trailing axes.
+        orders: Orders to show, shape (orders,); None: the usual ones.
     """
     try:
         place_main_bearings(engine)
         compute_rod_forces(engine, np.zeros(1))
     except BearingsUnknownError as error:
-        return replace(inner, obstacle=error.reason)
+        return inner._replace(obstacle=error.reason)
     except BalcliError as error:
-        return replace(inner, obstacle=str(error))
-    return replace(inner, with_gas=compute_loads_with_gas(engine, orders))
+        return inner._replace(obstacle=str(error))
+    return inner._replace(with_gas=compute_loads_with_gas(engine, orders))
 
 
 def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> LoadsWithGas:
@@ -318,7 +319,14 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     largest = float(np.abs(samples).max(axis=1).sum())
 
     def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
-        """Return orders and largest values of the sums at some places, 0 below rounding."""
+        """Return orders and largest values of the sums at some places, 0 below rounding.
+
+        Args:
+            z: Axial places, m, shape (places,).
+            weights: Share of each force at each place, shape (places, forces).
+            factor: Factor of all values.
+            size: Size of the values that cancel, against which rounding is measured.
+        """
         values, least = factor * (weights @ samples), ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)
         phasors = Phasors.of(shown, forward, backward, np.full(forward.shape, least))
@@ -377,14 +385,22 @@ def find_breaks(engine: Engine) -> Array:
 def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
     """Return the force of the shaft on each main bearing, x + iy, N, shape (bearings, angles);
     errors as for `place_main_bearings` and `compute_rod_forces`.
+
+    Args:
+        engine: Engine with gas, without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
     return np.asarray(shares @ compute_forces_along(engine, crank_deg).on_shaft)
 
 
 def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
-    """Return forces on shaft and block at crank angles (deg), shape (angles,); articulated rods
-    press on the shaft at the positions of their own cylinders.
+    """Return forces on shaft and block over the crank angle; articulated rods press on the shaft at
+    the positions of their own cylinders.
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     found = compute_rod_forces(engine, crank_deg)
     pressed = found.axis * found.pin
@@ -412,8 +428,14 @@ def _place_forces(engine: Engine) -> tuple[Array, Array]:
 
 
 def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
-    """Raise BalcliError if the forces at so many crank angles of a cycle (0: the fewest that its
-    breaks need) are more than are kept.
+    """Raise an error if the forces over a cycle are more than are kept.
+
+    Args:
+        engine: Engine with gas.
+        angles: Number of crank angles; 0: the fewest that the breaks of the cycle need.
+
+    Raises:
+        BalcliError: They are too many; the error states the numbers.
     """
     angles = angles or quadrature(cut(find_breaks(engine), 0.5))[0].size
     cylinders, count = engine.cylinders.count, 2 * engine.cylinders.count + len(engine.devices)

@@ -54,20 +54,33 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
 
 
 def compute_cylinder_torque(engine: Engine, row: int, crank_deg: Array) -> Array:
-    """Return the inertia torque of the cylinder in a row, N m, shape (angles,)."""
+    """Return the inertia torque of one cylinder, N m, shape (angles,).
+
+    Args:
+        engine: Engine without trailing axes.
+        row: Row of the cylinder, from 0.
+        crank_deg: Crank angles, deg, shape (angles,).
+    """
     return _torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
 
 
 def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
-    """Return the inertia torque of all cylinders on the crank, N m, shape (angles,), for an engine
-    without trailing axes.
+    """Return the inertia torque of all cylinders on the crank, N m, shape (angles,).
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
 def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
     """Return the moment of inertia of pistons, rods and rotating masses about the crank, kg m2,
-    shape (angles,), for an engine without trailing axes.
+    shape (angles,).
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
     """
     return _inertia_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
@@ -131,7 +144,13 @@ class EngineMotion:
 
 
 def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
-    """Return crank speed omega, rad/s, and acceleration xi = omega d omega/d theta, by angle."""
+    """Return crank speed omega, rad/s, and acceleration xi = omega d omega/d theta, rad/s2, each of
+    shape (angles,).
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
+    """
     ratio, slope = np.ones_like(crank_deg), np.zeros_like(crank_deg)
     for line in engine.ripple:
         wave = line.amplitude * unit(line.order * crank_deg - line.angle_deg)
@@ -140,7 +159,12 @@ def find_crank_speed(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
 
 
 def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
-    """Return the force of each device, x + iy, N, shape (devices, angles)."""
+    """Return the force of each device, x + iy, N, shape (devices, angles).
+
+    Args:
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, deg, shape (angles,).
+    """
     omega, xi = find_crank_speed(engine, crank_deg)
     rows = np.empty((len(engine.devices), len(crank_deg)), complex)
     for row, d in enumerate(engine.devices):
@@ -253,7 +277,11 @@ def find_constant_inertia(engine: Engine) -> float | None:
 
 
 def silence(engine: Engine, number: int) -> Engine:
-    """Return the engine with a cylinder whose gas does nothing.
+    """Return the engine without the gas of one cylinder.
+
+    Args:
+        engine: Engine with gas.
+        number: Number of the cylinder.
 
     Raises:
         BalcliError: The engine has no gas, or no such cylinder.

@@ -5,8 +5,9 @@ quantities of variants: `guide.6.H`, `guide.4.5.X`.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,8 +29,7 @@ from .spectrum import (
 )
 
 
-@dataclass(frozen=True)
-class GuideMoments:
+class GuideMoments(NamedTuple):
     """Sums of the cylinders' roll moments, N m, by order.
 
     Attributes:
@@ -52,9 +52,9 @@ def compute_guide_moments(
 ) -> GuideMoments:
     """Return the guide-force moments of an engine's cylinders; devices have none.
 
-    Each cylinder's roll moment is that about the crank axis, wherever the point of reference stands
-    in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines, section
-    17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
+    The roll moment of a cylinder is taken about the crank axis, wherever the point of reference
+    stands in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines,
+    section 17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
 
     Args:
         engine: Engine without trailing axes.
@@ -128,7 +128,15 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise BalcliError for an X-type quantity of an engine that has no X-type moment."""
+    """Raise an error for an X-type quantity of an engine that has no X-type moment.
+
+    Args:
+        model: Engine file.
+        quantities: Wanted quantities.
+
+    Raises:
+        BalcliError: The first of them that is not known, and why.
+    """
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
@@ -141,7 +149,12 @@ def _find(model: EngineFile) -> GuideMoments:
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
-    """Return the amplitude of each quantity of one engine, N m."""
+    """Return the amplitude of each quantity of one engine, N m.
+
+    Args:
+        engine: Engine without trailing axes.
+        quantities: Wanted quantities; each is known.
+    """
     orders = np.array(sorted({float(q.target) for q in quantities}))
     guide = compute_guide_moments(engine, orders)
     found = {"H": guide.h, "X": guide.x or guide.h}

@@ -62,7 +62,7 @@ class Quantity:
 
     @property
     def signed(self) -> bool:
-        """Whether it is a coefficient of cosine or sine, which may be negative."""
+        """Whether the quantity is a coefficient of cosine or sine, which may be negative."""
         return self.part.endswith(("cos", "sin"))
 
     def read_from(self, phasors: Phasors) -> Array:
@@ -112,13 +112,25 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
 
 
 def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Quantity, ...]:
-    """Return the quantities, without moments if the positions of the throws are not known."""
+    """Return the quantities, without moments if the positions of the throws are not known.
+
+    Args:
+        engine: Engine of which they are wanted.
+        quantities: Wanted quantities.
+    """
     return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
 
 
 def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
-    """Raise BalcliError for a moment if the positions of the throws are not known, and for a
-    quantity of gas if the engine has none.
+    """Raise an error for a moment if the positions of the throws are not known, and for a quantity
+    of gas if the engine has none.
+
+    Args:
+        engine: Engine of which they are wanted.
+        quantities: Wanted quantities.
+
+    Raises:
+        BalcliError: The first of them that is not known, and why.
     """
     has_gas = engine.gas is not None or engine.gas_of_variants is not None
     for q in quantities:
@@ -134,6 +146,10 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
 
     Only the orders that a kind is asked for are computed; kinds with the same orders share what
     they have in common.
+
+    Args:
+        engine: Engine, or variants along trailing axes.
+        quantities: Wanted quantities; each is known.
     """
     values: dict[Quantity, Array] = {}
     for orders, members in _group_by_orders(quantities):
@@ -147,7 +163,12 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
 
 
 def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:
-    """Return the orders that are computed together for these quantities, group by group."""
+    """Return the orders that are computed together for these quantities, group by group.
+
+    Args:
+        engine: Engine, which determines the orders of peaks.
+        quantities: Wanted quantities.
+    """
     groups = [orders for orders, _ in _group_by_orders(quantities)]
     if any(q.part == "peak" for q in quantities):
         groups.append(find_relevant_orders(engine).tolist())
@@ -202,7 +223,11 @@ class TargetQuantity:
 
 
 def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQuantity:
-    """Return the quantity that a text `kind.target.part` names, its kind one of the subjects.
+    """Return the quantity that a text `kind.target.part` names.
+
+    Args:
+        text: Name, whose kind is one of the subjects.
+        subjects: Kinds of quantities by name, with their parts and units.
 
     Raises:
         BalcliError: The part does not exist, or the target is missing; the error lists examples.

@@ -125,7 +125,7 @@ def compute_spectra(
     *,
     each: bool = False,
 ) -> Spectra:
-    """Return free forces and moments of an engine, or of each of its cylinders.
+    """Return the free forces and moments of an engine, or of each of its cylinders.
 
     Args:
         engine: Engine, at steady or uneven speed; without trailing axes for `each` cylinder. With
@@ -178,7 +178,13 @@ def count_engine_samples(engine: Engine) -> int:
 
 
 def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phasors:
-    """Return the force of one device, N, by order, for an engine without trailing axes."""
+    """Return the force of one device by order, N, shape (orders,).
+
+    Args:
+        engine: Engine without trailing axes.
+        device: One of its devices.
+        orders: Orders, shape (orders,).
+    """
     speed, dense = _mix_orders(engine, orders)
     force = find_device_force(device, dense, engine.omega**2).drop_noise()
     if not engine.ripple:
@@ -187,7 +193,12 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
 
 
 def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
-    """Return the phasors of a kind from those of its parts (`Kind.parts`), given by name."""
+    """Return the phasors of a kind as the sum of its parts (`Kind.parts`).
+
+    Args:
+        kind: Kind of force or moment.
+        parts: Phasors of its parts by name.
+    """
     plus = reduce(add, (parts[name] for name in kind.plus or (kind.name,)))
     return reduce(sub, (parts[name] for name in kind.minus), plus)
 
@@ -276,6 +287,10 @@ def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
 def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
     """Return the orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. where some of
     those that are mixed are halves.
+
+    Args:
+        highest: Highest order.
+        mixed: Orders of the uneven speed, and of the engine, that mix with one another.
     """
     step = ripple.find_step(mixed)
     return np.arange(round(highest / step) + 1.0) * step
@@ -356,9 +371,13 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
-    """Return orders of gas torque up to the highest, shape (orders,): multiples of 1/2 (of 1 in
-    two-stroke engines). Of so many cylinders that all of these may cancel, also the order of their
-    firing, and its double.
+    """Return orders of gas torque, shape (orders,): multiples of 1/2 (of 1 in two-stroke engines).
+    In engines with so many cylinders that all of these may cancel, add the order of firing and its
+    double.
+
+    Args:
+        engine: Engine with gas.
+        highest: Highest order but for the firing order and its double.
     """
     step = 2 / engine.strokes
     firing = step * len(engine.fires_deg or engine.numbers)
@@ -376,8 +395,12 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
 
 
 def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
-    """Return the orders worth showing: 1 and 2 (and 0), and all in which some kind is considerable,
-    of gas those that are listed.
+    """Return the orders worth showing, shape (orders,): 1 and 2 (and 0), and each in which some
+    kind is considerable.
+
+    Args:
+        found: Computed phasors of every kind.
+        listed: Orders of gas that may be shown.
     """
     due = (found.orders <= 2) & (found.orders % 1 == 0)
     listed = set(merge_orders(listed).tolist())

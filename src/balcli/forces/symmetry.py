@@ -17,7 +17,7 @@ layout balances it. The speed is a common factor of all forces and needs no test
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple, cast
@@ -59,14 +59,24 @@ class TextbookUnits(NamedTuple):
     equal: bool
 
     def size(self, kind: Kind, order: float) -> float:
-        """Return F_n of one of the orders, N, or F_n a, N m; nan without such a force or arm."""
+        """Return F_n of an order, N, or F_n a, N m; nan without such a force or arm.
+
+        Args:
+            kind: Kind of force or moment.
+            order: One of the orders.
+        """
         ratio = float(self.ratios[np.searchsorted(self.orders, order)])
         if not self.force or ratio < _NO_FORCE:
             return float("nan")
         return self.force * ratio * (1.0 if kind.dimension == "force" else self.arm)
 
     def name(self, kind: Kind, order: object = "n") -> str:
-        """Return the symbol of the unit of an order."""
+        """Return the symbol of the unit of an order.
+
+        Args:
+            kind: Kind of force or moment.
+            order: Order as it is printed.
+        """
         return f"F{order}" if kind.dimension == "force" else f"F{order}·a"
 
 
@@ -87,7 +97,13 @@ class Textbook(NamedTuple):
 
 
 def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
-    """Return the forces of an engine without trailing axes, for orders and names of kinds."""
+    """Return the forces of an engine in the form of textbooks.
+
+    Args:
+        engine: Engine without trailing axes.
+        orders: Orders, shape (orders,).
+        kinds: Names of kinds of forces and moments.
+    """
     built = without_devices(engine)
     return Textbook(
         find_textbook_units(engine, orders),
@@ -109,7 +125,12 @@ def with_reciprocating_only(engine: Engine) -> Engine:
 
 
 def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
-    """Return the units of an engine without trailing axes, for these orders."""
+    """Return the units in which textbooks express the forces of an engine.
+
+    Args:
+        engine: Engine without trailing axes.
+        orders: Orders, shape (orders,).
+    """
     c, row = engine.cylinders, engine.numbers.index(1)
     if c.linkage is not None and not engine.rotary:
         row = int(cast("Articulated", c.linkage).master[row])
@@ -147,8 +168,7 @@ _SEED = 1
 _EVEN = 1e-11  # of a cycle, by which intervals that are equal may differ
 
 
-@dataclass(frozen=True)
-class Reason:
+class Reason(NamedTuple):
     """Whether one order of a group of kinds is balanced, and how.
 
     Attributes:
@@ -198,8 +218,7 @@ class Reason:
         return f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
 
 
-@dataclass(frozen=True)
-class Symmetry:
+class Symmetry(NamedTuple):
     """Whether each order of each group of kinds is balanced, and how.
 
     Attributes:
@@ -291,7 +310,7 @@ def _is_balanced(spectra: Spectra, parts: Collection[str], row: int) -> bool:
 def _compare_with_textbook(
     book: Textbook, group: str, order: float, row: int
 ) -> tuple[float | None, float | None, str]:
-    """Return what is left of the reciprocating masses' force or moment, and of all, in the
+    """Return the remaining force or moment of the reciprocating masses, and of all masses, in the
     textbook's unit, and this unit.
     """
     force = book.units.size(KINDS[group], order) if group in ("force", "moment") else np.nan

@@ -1,4 +1,4 @@
-"""What a user of Python gives, as the rooms take it; what is wrong is told in words."""
+"""Arguments of public functions, checked and converted; errors describe the mistake in words."""
 
 from __future__ import annotations
 
@@ -60,10 +60,14 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
 
 
 def join_names(function: str, words: Words | None) -> str | None:
-    """Names as the command line has them, with commas between; None as it is.
+    """Return names as the command line has them, with commas between them; None stays None.
+
+    Args:
+        function: Name of the public function, for messages.
+        words: Names, or a text with commas.
 
     Raises:
-        TypeError: they are no names.
+        TypeError: They are no names.
     """
     if words is None or isinstance(words, str):
         return words
@@ -75,10 +79,15 @@ def join_names(function: str, words: Words | None) -> str | None:
 
 
 def check_mapping(function: str, value: object, example: str) -> Mapping[Any, Any]:
-    """A dict that a function was given.
+    """Return an argument that must be a dict.
+
+    Args:
+        function: Name of the public function, for messages.
+        value: Value to check.
+        example: A right value, as it is typed.
 
     Raises:
-        TypeError: it is none.
+        TypeError: It is no dict.
     """
     if not isinstance(value, Mapping):
         raise wrong_type(function, value, f"give a dict, such as {example}")
@@ -86,11 +95,15 @@ def check_mapping(function: str, value: object, example: str) -> Mapping[Any, An
 
 
 def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
-    """Speeds as an array that rises, rpm; None as it is.
+    """Return speeds as an array that rises, rpm; None stays None.
+
+    Args:
+        function: Name of the public function, for messages.
+        speeds_rpm: Speeds, rpm, shape () or (speeds,).
 
     Raises:
-        BalcliError: one that is not above 0; too many; more than one axis.
-        TypeError: they are no numbers.
+        BalcliError: One is not above 0; too many; more than one axis.
+        TypeError: They are no numbers.
     """
     if speeds_rpm is None:
         return None
@@ -115,7 +128,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
 
 
 def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
-    """Orders that excite torsional vibration, ascending, each once; None as it is.
+    """Return orders that excite torsional vibration, ascending, each once; None as it is.
 
     Raises:
         BalcliError: there are none, some are no multiples of 1/2, not above 0, or too high.
@@ -133,11 +146,15 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
 
 
 def check_inertia(name: str, value: object) -> float | None:
-    """A moment of inertia that a function was given, kg m2; None as it is.
+    """Return a moment of inertia, kg m2; None stays None.
+
+    Args:
+        name: Name of the argument, for messages.
+        value: Value to check.
 
     Raises:
-        BalcliError: it is not above 0, or beyond computing.
-        TypeError: it is no number.
+        BalcliError: It is not above 0, or too large to compute with.
+        TypeError: It is no number.
     """
     if value is None:
         return None
@@ -149,11 +166,17 @@ def check_inertia(name: str, value: object) -> float | None:
 
 
 def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> int:
-    """A whole number that a function was given.
+    """Return an argument that must be a whole number.
+
+    Args:
+        name: Name of the argument, for messages.
+        value: Value to check.
+        least: Smallest allowed number.
+        most: Largest allowed number; None: none.
 
     Raises:
-        BalcliError: it is too small or too large.
-        TypeError: it is none.
+        BalcliError: It is too small or too large.
+        TypeError: It is no whole number.
     """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
@@ -165,10 +188,14 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
 
 
 def read_position(name: str, value: object) -> tuple[float, float, float]:
-    """A place that a function was given, m: x, y and z.
+    """Return an argument that must be a place: x, y and z, m.
+
+    Args:
+        name: Name of the argument, for messages.
+        value: Value to check.
 
     Raises:
-        TypeError: it is not three numbers.
+        TypeError: It is not three numbers.
     """
     try:
         numbers = list(islice(value, 4))  # type: ignore[call-overload]

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import typer
 
@@ -88,10 +88,15 @@ def parse_output(path: Path | None) -> Path | None:
 
 
 def choose_target(second: Path | None, output: Path | None, example: str) -> Path:
-    """Return the file of a page or picture: the second argument, or the value of `--output`.
+    """Return the file of a page or picture.
+
+    Args:
+        second: Second argument of the command; None: not given.
+        output: Value of `--output`; None: not given.
+        example: File name for the message.
 
     Raises:
-        BalcliError: both are given, or neither.
+        BalcliError: Both are given, or neither.
     """
     if second is not None and output is not None:
         raise BalcliError(f"{second} and --output {output}: one file is written; leave one out")
@@ -100,7 +105,7 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
     return target
 
 
-def format_option(formats: type[StrEnum], text: str) -> Any:
+def format_option(formats: type[StrEnum], text: str) -> object:
     """Declare an option `--format`, `-f` for these formats, by name or by ending, in any case.
 
     Args:
@@ -122,7 +127,12 @@ def format_option(formats: type[StrEnum], text: str) -> Any:
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
-    """Return the format of a result; a table by default. Raises as `format_of`."""
+    """Return the format of a result; a table by default. Raises as `format_of` does.
+
+    Args:
+        output: File to write; None: standard output.
+        asked: Value of `--format`; None: not given.
+    """
     return format_of(output, asked, TEXTS, Format.TABLE)
 
 
@@ -165,12 +175,26 @@ def format_of(
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:
-    """Return the format of a picture: svg, png or pdf. Raises as `format_of`."""
+    """Return the format of a picture: svg, png or pdf. Raises as `format_of` does.
+
+    Args:
+        output: File to write.
+        option: Option that names it.
+    """
     return format_of(output, None, PICTURES, option=option)
 
 
 def require_ending(output: Path | None, ending: str, option: str = "--output") -> None:
-    """Raise BalcliError for a file with another ending than this one."""
+    """Raise an error for a file name with another ending.
+
+    Args:
+        output: File to write; None: none.
+        ending: Wanted ending, such as .html.
+        option: Option that names the file.
+
+    Raises:
+        BalcliError: It has another ending.
+    """
     format_of(output, None, {ending: ending}, ending, option)
 
 

@@ -1,4 +1,4 @@
-"""Engine files as commands read them: what is good is computed, what is bad is named."""
+"""Engine files as commands read them: good ones are computed, and bad ones are named."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ T = TypeVar("T")
 
 
 class LoadedEngine(NamedTuple):
-    """An engine file that has been read: its text, what it says, and the engine."""
+    """An engine file that has been read: its text, its model, and the engine."""
 
     text: bytes
     model: EngineFile
@@ -89,7 +89,7 @@ def read_engine(
 
 
 def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engine) -> None:
-    """Notes for those who want to know how a file was understood."""
+    """Print notes on how a file was understood."""
     from ..file.plain_tables import list_assumed  # for them alone
 
     note(f"{name}: read, {len(text)} bytes")
@@ -115,7 +115,12 @@ def warn_of_unknown_moments(name: str) -> None:
 
 
 def warn_each(doubts: Iterable[str], name: str) -> None:
-    """Say on standard error what is doubted of this file."""
+    """Print the doubts about a file on standard error.
+
+    Args:
+        doubts: Doubts in words.
+        name: Name of the file.
+    """
     for doubt in doubts:
         warn(f"{name}: {doubt}")
 
@@ -123,8 +128,13 @@ def warn_each(doubts: Iterable[str], name: str) -> None:
 def try_each(
     paths: Iterable[P], work: Callable[[P], T], found: Collection[P] = ()
 ) -> tuple[list[T], list[str]]:
-    """Results of all good files, in order, and the messages of the bad ones. Those that were found
-    in a folder are passed over, with a note, where they are of another kind.
+    """Return the results of all good files, in order, and the messages of the bad ones.
+
+    Args:
+        paths: Files to work on.
+        work: Function of one file.
+        found: Files that were found in a folder: those of another kind are passed over, with a
+            note.
     """
     results, errors = [], []
     for path in paths:
@@ -147,8 +157,8 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Engine files as named, and all that are in a folder or in folders within it; those whose
-    name begins with a dot, and files of settings, are passed over.
+    """Return engine files as named, and all that are in a folder or in folders within it; those
+    whose name begins with a dot, and files of settings, are passed over.
 
     Raises:
         BalcliError: a path that is not there, a folder without engine files.
@@ -168,13 +178,15 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
 
 
 def find_expected(paths: Sequence[Path]) -> list[Path]:
-    """Files where `check` has its records, of those paths that are folders and folders within."""
+    """Return files where `check` has its records, of those paths that are folders and folders
+    within.
+    """
     files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
     return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
 
 
 def _walk(folder: Path) -> Iterator[Path]:
-    """All files in a folder and those within it that are not hidden."""
+    """Yield all files in a folder and those within it that are not hidden."""
     for place, inner, files in os.walk(folder):
         inner[:] = [name for name in inner if not name.startswith(".")]
         yield from (Path(place, name) for name in files)
@@ -185,20 +197,29 @@ def _is_engine(path: Path) -> bool:
 
 
 def require_gas(engine: Engine, path: str) -> None:
-    """Refuse an engine without gas, by its file.
+    """Raise an error for an engine without gas.
+
+    Args:
+        engine: Engine to check.
+        path: Its file, for messages.
 
     Raises:
-        BalcliError: with what is missing.
+        BalcliError: It has none; the error names the missing table.
     """
     if engine.gas is None:
         raise BalcliError(f"{name_file(path)}: {NO_GAS}")
 
 
 def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> Engine:
-    """The engine with the gas of some cylinders doing nothing.
+    """Return the engine without the gas of some cylinders.
+
+    Args:
+        engine: Engine with gas.
+        numbers: Numbers of the cylinders.
+        path: File of the engine, for messages.
 
     Raises:
-        BalcliError: it has no gas, or no such cylinder.
+        BalcliError: It has no gas, or no such cylinder.
     """
     if not numbers:
         return engine
@@ -211,13 +232,22 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
 
 
 def named_by_file(engine: Engine, path: str) -> Engine:
-    """The engine, called by its file where it has no name."""
+    """Return the engine, named by its file if it has no name.
+
+    Args:
+        engine: Engine.
+        path: Its file.
+    """
     return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
 def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """What to call engines beside each other: each by its name, or by its file where it has none or
+    """Return names that distinguish engines: the name of each, or its file if it has no name or
     shares it with another.
+
+    Args:
+        names: Names of the engines; may be empty.
+        paths: Their files.
     """
     return [
         name if name and names.count(name) == 1 else legible(name_file(path))

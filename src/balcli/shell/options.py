@@ -136,7 +136,7 @@ GuideHeight = Annotated[
 
 
 def parse_orders(text: str | None) -> list[float] | None:
-    """Orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
+    """Return orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
 
     Raises:
         BalcliError: anything else, with the text.
@@ -148,8 +148,8 @@ def parse_orders(text: str | None) -> list[float] | None:
 
 
 def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
-    """Orders and ranges of them with commas between: of a range that begins or ends with a half
-    halves, too.
+    """Return orders and ranges of them with commas between; a range that begins or ends with a half
+    has halves.
 
     Args:
         right: what to give, for messages.
@@ -178,14 +178,17 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
 
 
 def _count_halves(text: str) -> int | None:
-    """Twice an order that is written with digits, such as `8` or `0.5`; None for anything else."""
+    """Return twice an order that is written with digits, such as `8` or `0.5`; None for anything
+    else.
+    """
     if not re.fullmatch(r"\s*[0-9]{1,12}(\.[05]0*)?\s*", text, re.ASCII):
         return None
     return round(2 * float(text))
 
 
 def parse_only(text: str | None) -> list[str] | None:
-    """The quantities of `--only`, by name, with commas or blanks between; a plural names the same.
+    """Return the quantities of `--only`, by name, with commas or blanks between; a plural names the
+    same.
 
     Raises:
         BalcliError: all of them.
@@ -199,13 +202,13 @@ def parse_only(text: str | None) -> list[str] | None:
 
 
 def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
-    """What `--only` of `analyze` asks to compute, and all words of it.
+    """Return the quantities that `--only` of `analyze` names, and all words of it.
 
     A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
-    are named beside it.
+    are named with it.
 
     Raises:
-        BalcliError: words that are none of these.
+        BalcliError: Words that are none of these.
     """
     words = parse_only(text)
     if words is None:
@@ -234,7 +237,7 @@ def parse_small(text: str | None) -> float:
 
 
 def parse_speed(text: str | None) -> float | None:
-    """The speed of `--speed`, rpm.
+    """Return the speed of `--speed`, rpm.
 
     Raises:
         BalcliError: unless it is positive and finite.
@@ -251,10 +254,14 @@ def parse_speed(text: str | None) -> float | None:
 
 
 def parse_guide_height(text: str | None, units: Units) -> float | None:
-    """The height of `--guide-height`, m.
+    """Return the height of `--guide-height`, m; None without it.
+
+    Args:
+        text: Value of the option.
+        units: System of units of a bare number.
 
     Raises:
-        BalcliError: unless it is positive and finite.
+        BalcliError: It is not positive and finite.
     """
     if text is None:
         return None

@@ -8,8 +8,9 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO, TypeVar
+from typing import TYPE_CHECKING, TextIO, TypeVar
 
+from ..core.records import Node
 from ..errors import BalcliError, tell_unwritable
 from ..file.toml import parse_toml, read_bytes
 from ..files import replacing
@@ -35,10 +36,17 @@ def show(
     output: Path | None,
     units: Units = Units.SI,
 ) -> None:
-    """Print results in this format, or write them into a file.
+    """Print results in a format, or write them into a file.
+
+    Args:
+        results: Results of one kind.
+        renderer: Writer of this kind.
+        form: Format of the output.
+        output: File to write; None: standard output.
+        units: System of units.
 
     Raises:
-        BalcliError: the file cannot be written.
+        BalcliError: The file cannot be written.
     """
     emit(render(results, renderer, form, SYSTEMS[units], seen=is_seen(output)), output)
 
@@ -49,10 +57,14 @@ def is_seen(output: Path | None) -> bool:
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print a text that ends in a newline, or write it into a file.
+    """Print a text, or write it into a file; it ends in a newline.
+
+    Args:
+        text: Text.
+        output: File to write; None: standard output.
 
     Raises:
-        BalcliError: the file cannot be written; an older one is left as it was.
+        BalcliError: The file cannot be written; an older one is left as it was.
     """
     text = text if text.endswith("\n") else text + "\n"
     if output is not None:
@@ -84,8 +96,12 @@ def standard_output() -> Iterator[TextIO]:
 def write_file(content: str | bytes, target: Path) -> None:
     """Write a file in one step.
 
+    Args:
+        content: Whole content of the file.
+        target: File to write.
+
     Raises:
-        BalcliError: the file cannot be written; an older one is left as it was.
+        BalcliError: The file cannot be written; an older one is left as it was.
     """
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
@@ -93,7 +109,13 @@ def write_file(content: str | bytes, target: Path) -> None:
 
 
 def write_figure(figure: Figure, form: Form, target: Path) -> None:
-    """Write the file of a picture in one step; raises as `write_file`."""
+    """Write the file of a picture in one step; raises as `write_file` does.
+
+    Args:
+        figure: Picture.
+        form: Format of the file.
+        target: File to write.
+    """
     from ..show.plot_style import save_figure  # few draw
 
     write_file(save_figure(figure, form), target)
@@ -114,7 +136,15 @@ def make_folder_of(path: Path) -> Path:
 
 # ------------------------------------------------------------------ refusals
 def refuse_existing(path: Path | None, force: bool) -> None:
-    """Raise BalcliError if a file exists that may not be overwritten."""
+    """Raise an error if a file exists that may not be overwritten.
+
+    Args:
+        path: File to write; None: standard output.
+        force: Whether it may be overwritten.
+
+    Raises:
+        BalcliError: It exists.
+    """
     if path is not None and os.path.lexists(path) and not force:
         raise BalcliError(
             f"{path}: already exists; choose another name, or --force to overwrite it"
@@ -153,7 +183,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
             )
         if any(_is_same_file(target, other) for other in done):
             raise BalcliError(
-                f"{option} {target}: another result goes there, too; choose another name"
+                f"{option} {target}: another result goes there as well; choose another name"
             )
         done.append(target)
         try:
@@ -202,7 +232,7 @@ def _list_named_files(source: Path) -> list[Path]:
         return []
 
 
-def _list_names(data: dict[str, Any]) -> Iterator[str]:
+def _list_names(data: Node) -> Iterator[str]:
     """Yield the file names in an engine file's tables."""
     for table in (data.get("gas", {}), *data.get("cylinder", {}).values()):
         yield from (table[key] for key in ("indicator", "harmonics") if key in table)

@@ -59,7 +59,7 @@ class Progress:
         return f"{count_name(self.done)} of {count_name(self._total)} {self._what}"
 
     def close(self) -> None:
-        """Remove the bar."""
+        """Remove the progress bar from the terminal."""
         if self._bar is not None:
             self._bar.stop()
 
@@ -111,8 +111,15 @@ def reporting(
 def reporting_until_stopped(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
-    """As `reporting`, for a computation that can end early with a smaller result: the first Ctrl-C
-    only sets `stopped`, the second one ends the command. An ignored Ctrl-C (`nohup`) stays ignored.
+    """Report progress as `reporting` does, for a computation that can end early with a smaller
+    result: the first Ctrl-C only sets `stopped`, the second one ends the command. An ignored Ctrl-C
+    (`nohup`) stays ignored.
+
+    Args:
+        what: Name of the work.
+        total: Number of its steps; None: not known.
+        at_once: Whether the bar appears without delay.
+        shown: Whether there is a bar.
     """
     before = signal.getsignal(signal.SIGINT)
     with reporting(what, total, at_once, shown) as progress:
@@ -129,7 +136,12 @@ def reporting_until_stopped(
 
 
 def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
-    """End with the status of an interruption and print how far the work was, if there was one."""
+    """End with the status of an interruption, and print how far the work was, if it was cut short.
+
+    Args:
+        progress: Progress of the work.
+        what_there_is: Words on the result so far.
+    """
     if progress.cut_short:
         tail = f"; {what_there_is}" if what_there_is else ""
         say(f"balcli: stopped after {progress.describe()}{tail}")
@@ -137,7 +149,12 @@ def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
 
 
 def each_until_stopped(items: Sequence[T], progress: Progress) -> Iterator[T]:
-    """Yield the items until Ctrl-C; each one is counted when the next is requested."""
+    """Yield the items until Ctrl-C; each one is counted when the next is requested.
+
+    Args:
+        items: Items of the work.
+        progress: Progress of the work.
+    """
     for count, item in enumerate(items):
         if progress(count):
             return

@@ -1,5 +1,5 @@
-"""What a balance scheme is asked for, wherever devices are fitted: `balance`, and all that shows an
-engine with them beside the engine as it is.
+"""Options of a balance scheme: for `balance`, and for commands that show an engine with and without
+devices.
 """
 
 from __future__ import annotations
@@ -65,10 +65,21 @@ def parse_scheme_options(
     roll: str | None,
     units: Units,
 ) -> SchemeOptions:
-    """Return what of a scheme is asked for, in SI.
+    """Return the options of a balancing scheme, in SI; each argument is an option as typed, or
+    None.
+
+    Args:
+        order: Order to balance.
+        at: Places of shafts, each as `x,y`.
+        position: Axial place of new devices.
+        planes: "ends", "throws", or axial places of new devices.
+        factor: Share of the reciprocating mass, or a range of shares.
+        measured: Mass that balances a bare pin.
+        roll: "zero", if the roll of inertia is to vanish.
+        units: System of units of bare numbers.
 
     Raises:
-        BalcliError: a text that cannot be read.
+        BalcliError: A text that cannot be read.
     """
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
@@ -85,8 +96,12 @@ def parse_scheme_options(
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
-    """Return the scheme asked for; without one `factor` where there is a factor, else the usual
-    one.
+    """Return the given scheme; without one, `factor` where a factor is given, else the usual one.
+
+    Args:
+        asked: Value of `--scheme`; None: not given.
+        options: Options of the scheme.
+        usual: Scheme without any of these.
     """
     if asked is not None:
         return asked
@@ -95,7 +110,12 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
 
 
 def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
-    """Return the scheme to show next to the engine as it is; None if none was asked for."""
+    """Return the scheme to show next to the engine as it is; None if none was given.
+
+    Args:
+        asked: Value of `--scheme`; None: not given.
+        options: Options of the scheme.
+    """
     if asked is None and options == SchemeOptions():
         return None
     return choose_scheme(asked, options)

@@ -37,7 +37,16 @@ _IMPERIAL_AND_SI = {
 
 
 def read_length(option: str, text: str, units: Units = Units.SI) -> float:
-    """A length in m; BalcliError with the option and its text."""
+    """Return a length, m; an error names the option and its text.
+
+    Args:
+        option: Name of the option, for messages.
+        text: Number, with or without a unit.
+        units: System of units of a bare number.
+
+    Raises:
+        BalcliError: It is no length.
+    """
     found = _read(option, text, LENGTH, units) / 1e3
     _doubt_metres(option, text, [_as_bare(text)])
     return found
@@ -46,10 +55,10 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
 def read_lengths(
     option: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
 ) -> tuple[float, ...]:
-    """Lengths with commas between them, in m.
+    """Return lengths with commas between them, in m.
 
     Args:
-        needed: what is wanted, for the message: `one place along z in mm, such as 40`.
+        needed: the wanted value, for the message: `one place along z in mm, such as 40`.
         count: how many there have to be; None: any number from one.
 
     Raises:
@@ -78,12 +87,14 @@ def _doubt_metres(option: str, text: str, bare: Sequence[float | None]) -> None:
 
 
 def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
-    """A mass in kg; BalcliError with the option and its text."""
+    """Return a mass in kg; BalcliError with the option and its text."""
     return _read(option, text, MASS, units)
 
 
 def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> float:
-    """As `read_mass`, but a bare number is in g, as on the scales of a shop, and finite."""
+    """Return a mass as `read_mass` does, but a bare number is in g, as on the scales of a shop, and
+    finite.
+    """
     found = _read(option, text, _SCALES, units) / 1e3
     if not math.isfinite(found):
         raise BalcliError(f"{_shown(option, text)}: {wanted(_SCALES)}")
@@ -91,8 +102,8 @@ def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> floa
 
 
 def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
-    """A moment of inertia in kg m2; BalcliError with the option and its text, or for one that is
-    not above 0.
+    """Return a moment of inertia in kg m2; BalcliError with the option and its text, or for one
+    that is not above 0.
     """
     found = _read(option, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
@@ -101,16 +112,15 @@ def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
 
 
 def read_angle(option: str, text: str) -> float:
-    """An angle in degrees; BalcliError with the option and its text."""
+    """Return an angle in degrees; BalcliError with the option and its text."""
     return _read(option, text, ANGLE, Units.SI)
 
 
 def as_bare_angles(option: str, text: str) -> str:
-    """A range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no unit
-    stays as it is.
+    """Return a range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no
+    unit stays as it is.
 
-    Raises:
-        BalcliError: with the option and what is no angle.
+    Raises: BalcliError: It names the option and the text that is no angle.
     """
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
@@ -121,7 +131,7 @@ def as_bare_angles(option: str, text: str) -> str:
 
 
 def read_speed(option: str, text: str) -> float:
-    """A speed in rpm; BalcliError with the option and its text."""
+    """Return a speed in rpm; BalcliError with the option and its text."""
     return _read(option, text, SPEED, Units.SI)
 
 
@@ -140,7 +150,7 @@ def doubt_thousands(option: str, text: str) -> None:
 
 
 def read_number(option: str, text: str, needed: str) -> float:
-    """A plain number; BalcliError with the option, its text and what is needed."""
+    """Return a plain number; BalcliError with the option, its text and the wanted value."""
     value = _as_bare(text)
     if value is None or not math.isfinite(value):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
@@ -148,13 +158,13 @@ def read_number(option: str, text: str, needed: str) -> float:
 
 
 def convert_speed(text: str) -> float:
-    """A speed in rpm, for one of a range; ValueError for anything else."""
+    """Return a speed in rpm, for one of a range; ValueError for anything else."""
     value = _as_bare(text)
     return convert(text, SPEED) if value is None else value
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """A share, as a number or in per cent; BalcliError with option, text and what is needed."""
+    """Return a share, given as a number or in per cent; errors as of `read_number`."""
     number, percent, rest = text.strip().partition("%")
     value = _as_bare(number)
     if value is None or rest or not math.isfinite(value):
@@ -163,7 +173,9 @@ def read_share(option: str, text: str, needed: str) -> float:
 
 
 def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
-    """In the dimension's bare unit; whether it is finite is for the caller to judge."""
+    """Return a figure in the dimension's bare unit; whether it is finite is for the caller to
+    judge.
+    """
     value = _as_bare(text)
     if value is None:
         return _convert(option, text, dimension)
@@ -183,7 +195,7 @@ def _convert(option: str, text: str, dimension: Dimension) -> float:
 
 
 def _as_bare(text: str) -> float | None:
-    """The number, if there is no unit to it."""
+    """Return the number, if there is no unit to it."""
     try:
         return float(text)
     except ValueError:
@@ -194,8 +206,8 @@ def _shown(option: str, text: str) -> str:
     return f'{option} "{text[:LONGEST_SHOWN]}"'
 
 
-def optional(metavar: str, text: str, *names: str, **more: Any) -> Any:
-    """An option that says nothing of a default, as it is left out unless it is asked for.
+def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
+    """Return an option that says nothing of a default, as it is left out unless it is asked for.
 
     Args:
         metavar: what stands for its value in help.
@@ -220,8 +232,8 @@ Speeds = Annotated[
 def parse_speeds(
     text: str | None, option: str = "--speeds", most: int = MOST_SPEEDS
 ) -> Real | None:
-    """Speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`, rpm,
-    rising.
+    """Return speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`,
+    rpm, rising.
 
     Args:
         option: by which they were given, for messages.

@@ -35,27 +35,27 @@ class Columns(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """What CSV says of a result: names of the columns, and lines of as many cells."""
+    """CSV of a result: names of the columns, and lines of as many cells."""
 
     header: Sequence[str]
     lines: Iterable[Sequence[Any]]
 
 
 def csv_text(results: Sequence[Rows]) -> str:
-    """The lines of all results under the header of the first; None is an empty cell."""
+    """Return the lines of all results under the header of the first; None is an empty cell."""
     lines = [results[0].header, *(line for rows in results for line in rows.lines)]
     return "".join(",".join(map(_cell, line)) + "\n" for line in lines)
 
 
 def name_cell(name: str) -> str:
-    """A name that a user has given, with an apostrophe before it where a spreadsheet would take it
-    for a formula and run it.
+    """Return a name that a user has given, with an apostrophe before it where a spreadsheet would
+    take it for a formula and run it.
     """
     return f"'{name}" if name.startswith(FORMULA) else name
 
 
-def _cell(value: Any) -> str:
-    """A cell, between quotes where any program might part it."""
+def _cell(value: object) -> str:
+    """Return a cell, between quotes where any program might part it."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -64,13 +64,13 @@ def _cell(value: Any) -> str:
     return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
 
 
-def json_text(document: Any) -> str:
-    """One document on one line; ValueError for a nan or infinity in it, a fault of ours."""
+def json_text(document: object) -> str:
+    """Return one document on one line; ValueError for a nan or infinity in it, a fault of ours."""
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 
 
 def stamp(document: Any) -> Any:
-    """A result with the version that wrote it, after its format; anything else as it is."""
+    """Return a result with the version that wrote it, after its format; anything else as it is."""
     if not isinstance(document, dict) or "format" not in document:
         return document
     return {"format": document["format"], "version": __version__} | document

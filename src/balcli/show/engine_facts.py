@@ -23,12 +23,12 @@ EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 
 def speed_facts(engine: Engine) -> Facts:
-    """The crank speed, and which cylinders have no gas, or burn nothing."""
+    """Return the crank speed, and which cylinders have no gas, or burn nothing."""
     return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
 
 
 def tell_pivot(engine: Engine) -> str:
-    """About what couple and roll are told."""
+    """Return the axis of couple and roll, in words."""
     return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
 
 
@@ -38,8 +38,8 @@ _TURNING = '"with the crank" is with the cylinders here, and counterweights stan
 def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
-    """Cylinders, crank, firing, speed, masses that the figures include, devices; and, of the whole,
-    how high orders go, the reference of moments and the source.
+    """Return cylinders, crank, firing, speed, masses that the figures include, devices; and, of the
+    whole, how high orders go, the reference of moments and the source.
 
     Args:
         higher: whether there may be orders above those that are shown unless they are asked for.
@@ -73,7 +73,7 @@ def engine_facts(
 
 
 def _has_arm(device: Device) -> bool:
-    """Return whether a slider moves on a line beside the crank axis."""
+    """Return whether a slider moves on a line that misses the crank axis."""
     if device.kind != DeviceKind.SLIDER:
         return False
     along = device.place**2 * np.conj(device.forward * device.backward)  # positive: through it
@@ -106,8 +106,8 @@ def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
 
 
 def _throws(engine: Engine) -> str:
-    """Angles of the throws after cylinder 1's pin, free end to flywheel end; of split pins, first
-    those of one bank. Empty of one throw with one pin.
+    """Return angles of the throws after cylinder 1's pin, free end to flywheel end; of split pins,
+    first those of one bank. Empty of one throw with one pin.
     """
     pins: dict[int, list[float]] = {}
     for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
@@ -135,7 +135,7 @@ def _banks(engine: Engine) -> str:
 
 
 def _bore(engine: Engine, system: System) -> str:
-    """Bore, stroke and displacement, where the file gives the bore."""
+    """Return bore, stroke and displacement, where the file gives the bore."""
     bore_m = float(engine.bore_m)
     if math.isnan(bore_m):
         return ""
@@ -148,7 +148,7 @@ def _bore(engine: Engine, system: System) -> str:
 
 
 def _crank(engine: Engine, system: System) -> str:
-    """Crank radius, rod length and their ratio, of cylinder 1."""
+    """Return the crank radius, rod length and their ratio, of cylinder 1."""
     c, unit = engine.cylinders, system.length
     first = engine.numbers.index(1)
     radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
@@ -158,8 +158,8 @@ def _crank(engine: Engine, system: System) -> str:
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:
-    """Masses that go to and fro and that turn, of cylinder 1, and what turns with its pin where
-    that carries several rods.
+    """Return masses that go to and fro and that turn, of cylinder 1, and what turns with its pin
+    where that carries several rods.
     """
     row, unit = engine.numbers.index(1), system.mass
     weighed = engine.weighed[row]
@@ -186,8 +186,8 @@ def _unequal(engine: Engine) -> str:
 
 
 def _firing(engine: Engine) -> str:
-    """Firing order, the intervals between firings, and the strokes of a cycle, as far as the file
-    says or implies them.
+    """Return the firing order, the intervals between firings, and the strokes of a cycle, as far as
+    the file says or implies them.
     """
     if not engine.fires_deg:
         said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
@@ -203,12 +203,12 @@ def _firing(engine: Engine) -> str:
 
 
 def tell_strokes(engine: Engine) -> str:
-    """`four-stroke` or `two-stroke`."""
+    """Return `four-stroke` or `two-stroke`."""
     return "two-stroke" if engine.strokes == 2 else "four-stroke"
 
 
 def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
-    """A line of the cylinders without gas, and one of those that compress and burn nothing."""
+    """Return lines of the cylinders without gas, and of those that compress and burn nothing."""
     return [
         (key.replace("_", " "), ", ".join(map(str, numbers)))
         for key, numbers in silent_entries(silent).items()

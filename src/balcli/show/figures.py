@@ -1,7 +1,5 @@
 """The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,8 +21,7 @@ from .sheet import tell_assumed
 from .units import ShownUnit, System
 
 
-@dataclass(frozen=True)
-class Component:
+class Component(NamedTuple):
     """One order along an axis: amplitude * cos(order * angle - phase).
 
     Attributes:
@@ -88,8 +85,7 @@ class FreeMoment(Vector):
     pitching: Component | None = None
 
 
-@dataclass(frozen=True)
-class Harmonic:
+class Harmonic(NamedTuple):
     """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
 
     Attributes:
@@ -134,8 +130,7 @@ class OrderFigures:
     roll_total_Nm: Harmonic | None = None
 
 
-@dataclass(frozen=True)
-class Peaks:
+class Peaks(NamedTuple):
     """Largest values over a revolution, all orders together, and the first crank angles at which
     they are reached.
 
@@ -148,12 +143,11 @@ class Peaks:
     moment: Annotated[Peak, Reached("moment_Nm", "moment_deg"), INLINE]
 
     def items(self) -> list[tuple[Kind, Peak]]:
-        """Each kind with its peak."""
+        """Return each kind with its peak."""
         return [(FORCE, self.force), (MOMENT, self.moment)]
 
 
-@dataclass(frozen=True)
-class EngineSize:
+class EngineSize(NamedTuple):
     """An engine.
 
     Attributes:
@@ -167,8 +161,7 @@ class EngineSize:
     displacement_m3: float
 
 
-@dataclass(frozen=True)
-class EngineName:
+class EngineName(NamedTuple):
     """An engine by its name.
 
     Attributes:
@@ -180,7 +173,7 @@ class EngineName:
 
 @dataclass(frozen=True, kw_only=True)
 class EngineState:
-    """What an engine does while it is analyzed.
+    """State of an engine while it is analyzed.
 
     Attributes:
         speed_rpm: Mean speed of the crank.
@@ -259,13 +252,13 @@ def list_assumed(
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
-    """Numbers of the cylinders without gas, and of those that compress and burn nothing."""
+    """Return numbers of the cylinders without gas, and of those that compress and burn nothing."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: numbers for key, numbers in each.items() if numbers}
 
 
 def clean(value: Figure) -> float | None:
-    """A plain float; None for nan, and no negative zero."""
+    """Return a plain float; None for nan, and no negative zero."""
     number = float(value)
     return None if math.isnan(number) else number + 0.0
 
@@ -308,19 +301,34 @@ def list_harmonics(phasors: Phasors) -> list[Harmonic]:
 
 
 def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return the orders of `Re sum c_n e^{i n theta}`, each argument of shape (orders,)."""
+    """Return the orders of `Re sum c_n e^{i n theta}`, one record each.
+
+    Args:
+        orders: Orders n, shape (orders,).
+        c: Coefficients c_n, shape (orders,).
+        balanced: Whether each order is below rounding, shape (orders,).
+    """
     columns = (c.real, -c.imag, np.abs(c), peak_deg(c, orders), balanced)
     return list(map(Harmonic, *(column.tolist() for column in columns)))
 
 
 def size_or_mean(c: complex, order: float) -> float:
-    """Amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign."""
+    """Return the amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign.
+
+    Args:
+        c: Coefficient.
+        order: Order n.
+    """
     return abs(c) if order else c.real
 
 
 def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
-    """First crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest; nan if it
-    vanishes or is a mean; of one shape.
+    """Return the first crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest,
+    deg; nan if it vanishes or is a mean.
+
+    Args:
+        c: Coefficients, any shape.
+        orders: Orders n, of that shape.
     """
     there = np.not_equal(c, 0) & np.greater(orders, 0)
     n = np.where(there, orders, 1.0)
@@ -338,7 +346,8 @@ def phase_deg(c: complex | Complex) -> Array:
 def figure_rows(
     result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
 ) -> Iterator[FigureRow]:
-    """Every figure of the orders and the peaks, one a row; none of moments that are not known.
+    """Yield every figure of the orders and the peaks, one a row; none of moments that are not
+    known.
 
     Args:
         result: Analysis, or sum of two engines.
@@ -359,7 +368,13 @@ def figure_rows(
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:
-    """The largest value over a revolution, and its crank angle."""
+    """Yield the largest value over a revolution, and its crank angle.
+
+    Args:
+        quantity: Name of the quantity.
+        peak: Largest value (SI) and its crank angle.
+        unit: Unit of the value.
+    """
     found = Reached("peak", "peak_deg").split(peak)
     yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
     yield FigureRow(0, quantity, None, "peak_deg", found["peak_deg"], "deg")
@@ -368,7 +383,15 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
 def order_rows(
     quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: int = 0
 ) -> Iterator[FigureRow]:
-    """All figures of one order; the entry is SI as in JSON, the rows are in the unit."""
+    """Yield all figures of one order.
+
+    Args:
+        quantity: Name of the quantity.
+        order: Order.
+        entry: Figures in SI, as JSON has them.
+        unit: Unit of the rows.
+        cylinder: Number of the cylinder; 0: the engine.
+    """
     for figure in _flattened(entry, unit):
         yield FigureRow(cylinder, quantity, order_number(order), *figure)
 
@@ -376,7 +399,9 @@ def order_rows(
 def _flattened(
     entry: Node, unit: ShownUnit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
-    """Name, value and unit of every figure of an entry: `x_amplitude` from `x` and `amplitude`."""
+    """Yield name, value and unit of every figure of an entry: `x_amplitude` from `x` and
+    `amplitude`.
+    """
     for name, value in entry.items():
         if isinstance(value, dict):
             yield from _flattened(value, unit, f"{prefix}{name}_")

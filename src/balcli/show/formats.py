@@ -50,7 +50,7 @@ class Columnar(Generic[Shown]):
         columns: Makes the columns of DataFrames; None: those of the rows of CSV.
     """
 
-    document: Callable[[Shown], Any] = to_document
+    document: Callable[[Shown], object] = to_document
     columns: Callable[[Shown], Columns] | None = None
 
 
@@ -75,8 +75,8 @@ def render(
     *,
     seen: bool = False,
 ) -> str:
-    """Text of one or more results in one format: sheets one after the other, one JSON document a
-    line, all rows of CSV under one header.
+    """Return the text of one or more results in one format: sheets one after the other, one JSON
+    document a line, all rows of CSV under one header.
 
     Args:
         seen: whether a person will see it in a terminal, with colours and at its width.
@@ -94,7 +94,13 @@ def render(
 
 
 def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
-    """Sheets as tables or Markdown, one after the other; `seen` as of `render`."""
+    """Return sheets as tables or Markdown, one after the other.
+
+    Args:
+        sheets: Sheets to write.
+        form: Table or Markdown.
+        seen: Whether a terminal shows them, as for `render`.
+    """
     if form is Format.MARKDOWN:
         return markdown(sheets)
     if seen:

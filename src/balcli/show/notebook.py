@@ -15,13 +15,13 @@ ENDS = 5  # rows of a long table that are shown, at its head and at its foot
 
 
 def show_engine(engine: Engine) -> str:
-    """Return an engine as a person reads it, in SI units, and what is doubtful of it."""
+    """Return an engine as a person reads it, in SI units, and its doubtful figures."""
     facts = engine_facts(engine, SI, higher=False, whole=False)
     return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
 
 
 def outline(columns: Columns) -> Grid:
-    """The first and the last rows of columns."""
+    """Return the first and the last rows of columns."""
     heads = [
         f"{name}, {columns.units[name]}" if columns.units.get(name) else name
         for name in columns.values
@@ -35,8 +35,11 @@ def outline(columns: Columns) -> Grid:
 
 
 def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
-    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand
-    left.
+    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand left.
+
+    Args:
+        sheet: Sheet to write.
+        doubts: Doubts about the result, in words.
     """
     doubtful = (Text("Doubtful", doubts),) if doubts else ()
     blocks = "".join(map(_block, (*sheet.parts, *doubtful)))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.phasors import Array, Complex, Phasors
-from .plot_style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
+from .plot_style import BLUE, INK, PAPER, RED, SOFT, Look, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
 from .units import ShownUnit
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
 _ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vectors are seen apart
-_BOX: Any = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+_BOX: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
 def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str = "") -> float:
@@ -67,7 +67,7 @@ def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: flo
             abs(spot.real - other.real) > 0.07 * limit or abs(spot.imag - other.imag) > 0.16 * limit
             for other in written
         ):
-            where: Any = {"ha": "center", "va": "center", "bbox": _BOX, "zorder": 1.5}
+            where: Look = {"ha": "center", "va": "center", "bbox": _BOX, "zorder": 1.5}
             ax.text(spot.imag, spot.real, f"{mark:g}°", fontsize=7, **where)
             written.append(spot)
 
@@ -79,7 +79,15 @@ def draw_locus(
     unit: ShownUnit,
     before: Phasors | None = None,
 ) -> None:
-    """Draw where the tip of a vector goes in a revolution, dashed where it went `before`."""
+    """Draw the path of the tip of a vector over a revolution.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        what: Name of the quantity.
+        unit: Its unit.
+        before: Phasors whose path is drawn dashed; None: none.
+    """
     shown = [curve] if before is None else [curve, before]
     paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
     largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
@@ -136,7 +144,7 @@ def draw_order(
             continue
         ring, tip = start + vector * np.exp(1j * FINE), start + vector
         ax.plot(ring.imag, ring.real, color=colour, linewidth=0.7, linestyle=":")
-        look: Any = {"color": colour, "linestyle": style}
+        look: Look = {"color": colour, "linestyle": style}
         _draw_arrow(ax, start, tip, linewidth=1.5, mutation_scale=11, **look)
         label = f"{number(abs(vector), 3)} {s.name} {way}"
         ax.plot([], [], label=label, **look)

@@ -15,7 +15,7 @@ from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
 from threading import RLock
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from unicodedata import east_asian_width
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 Form = Literal["svg", "png", "pdf"]
+Look: TypeAlias = dict[str, Any]  # arguments of matplotlib
 
 # Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
 # hatches distinguish the curves in black and white.
@@ -38,7 +39,7 @@ _LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
 STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.
 _EASTERN = ("Noto Sans CJK SC", "Microsoft YaHei", "PingFang SC", "Arial Unicode MS")
-_UNDATED: Any = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
+_UNDATED: dict[Form, Look] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}
 _one_at_a_time = RLock()
 
 
@@ -48,7 +49,7 @@ def _find_figure_class() -> type[Figure]:
     from matplotlib.figure import Figure
 
     class Picture(Figure):
-        """A figure without a window; files and notebooks show what is changed in it."""
+        """A figure without a window; files and notebooks show its changes."""
 
         def savefig(self, fname: Any, **kwargs: Any) -> None:
             """Write the figure, as `matplotlib.figure.Figure.savefig` does."""
@@ -65,7 +66,12 @@ def _find_figure_class() -> type[Figure]:
 
 @contextmanager
 def open_figure(width: float, height: float) -> Iterator[Figure]:
-    """Open a figure of this size in inches; what is drawn within the context has our style."""
+    """Open a figure; drawings within the context have the style of this program.
+
+    Args:
+        width: Width, inches.
+        height: Height, inches.
+    """
     with in_our_style():
         yield _find_figure_class()(figsize=(width, height), layout="constrained")
 
@@ -95,7 +101,12 @@ def in_our_style() -> Iterator[None]:
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
-    """Return a figure as the content of a file; the same figure gives the same bytes."""
+    """Return a figure as the content of a file; the same figure gives the same bytes.
+
+    Args:
+        figure: Figure to save.
+        form: Format of the file.
+    """
     with in_our_style():
         buffer = BytesIO()
         figure.savefig(buffer, format=form, metadata=_UNDATED[form])
@@ -115,8 +126,12 @@ def save_pages(figures: Iterable[Figure]) -> bytes:
 
 
 def inline_svg(svg: bytes, name: str) -> str:
-    """Return an SVG that stands in an HTML page: its colours are those of the page (`--ink` ...),
-    its ids begin with `name`, and it grows with its column.
+    """Return an SVG for an HTML page: its colours are those of the page (`--ink` ...), and it grows
+    with its column.
+
+    Args:
+        svg: Content of an SVG file.
+        name: Start of its ids.
     """
     text = svg.decode()
     text = text[text.index("<svg") :]
@@ -132,13 +147,23 @@ def _adapt_tag(tag: str, name: str) -> str:
 
 
 def fit_name(name: str, most: int = 90) -> str:
-    """Return a name on one line that any format can hold, with at most this many letters."""
+    """Return a name on one line that any format can hold.
+
+    Args:
+        name: Any text.
+        most: Largest number of letters.
+    """
     text = " ".join("".join(c if c.isprintable() else " " for c in name).split())
     return text if len(text) <= most else text[: most - 1].rstrip() + "…"
 
 
 def put_title(fig: Figure, text: str) -> None:
-    """Put a title over a figure, on as many lines as it needs."""
+    """Put a title over a figure, on as many lines as it needs.
+
+    Args:
+        fig: Figure to change.
+        text: Title.
+    """
     wide = any(east_asian_width(letter) in "WF" for letter in text)
     letters = int(fig.get_figwidth() / (_WIDE_LETTER if wide else _LETTER))
     lines = [part for line in text.splitlines() for part in wrap(line, letters)]
@@ -146,6 +171,11 @@ def put_title(fig: Figure, text: str) -> None:
 
 
 def put_legend_above(ax: Axes, columns: int = 4) -> None:
-    """Put the legend between the axes and their title."""
+    """Put the legend between the axes and their title.
+
+    Args:
+        ax: Axes to change.
+        columns: Largest number of columns.
+    """
     legend = ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=columns)
     legend.set_in_layout(False)  # a long legend must not narrow the axes

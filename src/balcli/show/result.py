@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.records import Node
 from ..errors import BalcliError
 from ..files import replacing
 from ..names import RENDERERS, import_name
@@ -32,13 +33,13 @@ class Result:
 
     @property
     def summary(self) -> str:
-        """What it is, in a few words."""
+        """Summary of the result, in a few words."""
         return ""
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What it has that can be and yet is unlikely, in words, as the commands say it on standard
-        error; of what a file says, its engine tells.
+        """Figures of the result that are possible and yet unlikely, in the words that commands
+        print on standard error; an engine has those of its file.
         """
         return ()
 
@@ -46,25 +47,27 @@ class Result:
         return f"<{' '.join(filter(None, (type(self).__name__, self.summary)))}>"
 
     def _repr_html_(self) -> str:
-        """What the command prints, for a notebook."""
+        """Return the sheet of the result as HTML, for a notebook."""
         renderer = find_renderer(self)
         if isinstance(renderer, Renderer):
             return html_text(renderer.sheet(self, SI), self.doubts)
         return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The document that the command writes as JSON (docs/json.md): its keys name SI units."""
+    def to_dict(self) -> Node:
+        """Return the document that the command writes as JSON (docs/json.md): its keys name SI
+        units.
+        """
         return describe(self)
 
-    def rows(self) -> list[dict[str, Any]]:
-        """One dict a row, all with the same keys: a DataFrame of any library takes them as they
-        are. What has no value is None.
+    def rows(self) -> list[Node]:
+        """Return one dict a row, all with the same keys: a DataFrame of any library takes them as
+        they are. What has no value is None.
         """
         return list_rows(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The rows as a DataFrame; units of columns are its `attrs["units"]`, as far as neither
-        their names nor a column `unit` tell them.
+        """Return the rows as a DataFrame; units of columns are its `attrs["units"]`, as far as
+        neither their names nor a column `unit` tell them.
 
         Raises:
             BalcliError: pandas is not installed.
@@ -82,30 +85,28 @@ class Result:
 
 def find_renderer(result: Result) -> Columnar[Any]:
     """Return what shows an answer."""
-    renderer: Columnar[Any] = import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
-    return renderer
+    return import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
 
 
-def describe(result: Result) -> dict[str, Any]:
-    """The JSON document of an answer."""
-    found: dict[str, Any] = stamp(find_renderer(result).document(result))
-    return found
+def describe(result: Result) -> Node:
+    """Return the JSON document of an answer."""
+    return stamp(find_renderer(result).document(result))
 
 
-def list_rows(result: Result) -> list[dict[str, Any]]:
-    """One dict a row."""
+def list_rows(result: Result) -> list[Node]:
+    """Return one dict a row."""
     found = list_columns(result).values
     lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
     lines = zip(*lists, strict=True)
     return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
 
 
-def _none_for_nan(value: Any) -> Any:
+def _none_for_nan(value: object) -> object:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
 def list_columns(result: Result) -> Columns:
-    """The columns of an answer: those that its renderer names, or those of its CSV."""
+    """Return the columns of an answer: those that its renderer names, or those of its CSV."""
     renderer = find_renderer(result)
     if renderer.columns is None and isinstance(renderer, Renderer):
         found = _read_columns(renderer.rows(result, SI))
@@ -115,7 +116,7 @@ def list_columns(result: Result) -> Columns:
 
 
 def _fill_gaps(column: Column) -> Column:
-    """Numbers among which some are missing as an array with nan: of a list with None other
+    """Return numbers among which some are missing as an array with nan: of a list with None other
     libraries make objects, with which nothing can be computed.
     """
     if isinstance(column, np.ndarray) or None not in column:
@@ -124,8 +125,8 @@ def _fill_gaps(column: Column) -> Column:
 
 
 def _read_columns(rows: Rows) -> Columns:
-    """Rows of CSV as columns of one type each: words among numbers get a column of their own, with
-    `_text` after its name.
+    """Return rows of CSV as columns of one type each: words among numbers get a column of their
+    own, with `_text` after its name.
     """
     lines = list(rows.lines)
     values: dict[str, Column] = {}
@@ -143,21 +144,21 @@ def _read_columns(rows: Rows) -> Columns:
     return Columns(values)
 
 
-def _number(cell: Any) -> float | None:
-    """A cell as a number; None if it is none."""
+def _number(cell: object) -> float | None:
+    """Return a cell as a number; None if it is none."""
     return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
 
 
-def _word(cell: Any) -> str | None:
-    """A cell as text; None for a number, and where nothing is said."""
+def _word(cell: object) -> str | None:
+    """Return a cell as text; None for a number, and where nothing is said."""
     if isinstance(cell, bool):
         return str(cell).lower()
     return cell if isinstance(cell, str) and cell else None
 
 
 # ------------------------------------------------------------------ other libraries
-def make_frame(result: Result) -> Any:
-    """A DataFrame of pandas."""
+def make_frame(result: Result) -> pandas.DataFrame:
+    """Return a DataFrame of pandas."""
     try:
         import pandas
     except ImportError:
@@ -169,7 +170,12 @@ def make_frame(result: Result) -> Any:
 
 
 def write_parquet(result: Result, path: str | Path) -> None:
-    """A Parquet file, which takes its place when it is whole; errors as of `replacing`."""
+    """Write a Parquet file, which takes its place when it is whole; errors as for `replacing`.
+
+    Args:
+        result: Result to write.
+        path: File to write.
+    """
     try:
         import pyarrow
         from pyarrow import parquet

@@ -18,15 +18,17 @@ _digits: int | None = None  # significant ones, that were asked for
 
 
 def set_digits(digits: int | None) -> None:
-    """How many significant digits figures have, for the rest of this process; None: those that are
-    usual where they stand.
+    """Set how many significant digits figures have, for the rest of this process; None: those that
+    are usual where they stand.
     """
     global _digits
     _digits = digits
 
 
 def get_digits(usual: int = USUAL_DIGITS) -> int:
-    """How many significant digits a figure has: those that were asked for, else the usual ones."""
+    """Return how many significant digits a figure has: those that were asked for, else the usual
+    ones.
+    """
     return _digits or usual
 
 
@@ -51,7 +53,7 @@ class Grid(NamedTuple):
 
 
 class Facts(NamedTuple):
-    """Names and what they are."""
+    """Names and their values."""
 
     pairs: tuple[tuple[str, str], ...]
     title: str = ""
@@ -72,12 +74,12 @@ class Sheet(NamedTuple):
 
 
 def capitalized(text: str) -> str:
-    """Text with its first letter large, the others as they are."""
+    """Return a text with its first letter large, the others as they are."""
     return text[0].upper() + text[1:]
 
 
 def sentence(text: str) -> str:
-    """Text with its first letter large and a full stop at its end."""
+    """Return a text with its first letter large and a full stop at its end."""
     return f"{capitalized(text).removesuffix('.')}."
 
 
@@ -87,21 +89,28 @@ def count_name(count: float) -> str:
 
 
 def order_name(order: float) -> str:
-    """An order as a table shows it: 2, ½, 1½."""
+    """Return an order as a table shows it: 2, ½, 1½."""
     whole, half = divmod(order, 1)
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 
 def number(value: float, digits: int | None = None) -> str:
-    """A figure for people, with as many significant digits as were asked for; `digits` are usual
-    there. No exponent between 0.0001 and a million, a plain 0.
+    """Return a figure for people: no exponent between 0.0001 and a million, a plain 0.
+
+    Args:
+        value: Figure.
+        digits: Significant digits unless `--digits` asks for others; None: 5.
     """
     return _write(value, get_digits(digits or USUAL_DIGITS))
 
 
 def given(value: float, digits: int = 6) -> str:
-    """A number that somebody gave, such as a speed: like a figure (`number`), but with its own
-    digits, however few were asked for.
+    """Return a number that somebody gave, such as a speed: like a figure (`number`), but with its
+    own digits, however few were asked for.
+
+    Args:
+        value: Number.
+        digits: Largest number of significant digits.
     """
     return _write(value, digits)
 
@@ -123,21 +132,37 @@ def _write(value: float, digits: int) -> str:
 
 
 def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
-    """A value (SI) in the unit that fits it, with its name; digits as of `number`."""
+    """Return a value in the unit that fits it, with the unit's name.
+
+    Args:
+        value: Value, SI.
+        unit: Unit, of which a multiple may fit better.
+        digits: As for `number`.
+    """
     unit = unit.fit(value)
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
 def small_text(value: float, unit: ShownUnit) -> str:
-    """What is too small to count (SI), in words, and how small it is if it is anything."""
+    """Return the word for a negligible value, with its size if it is not 0.
+
+    Args:
+        value: Value, SI.
+        unit: Its unit.
+    """
     return f"negligible ({size_text(value, unit, 2)})" if value else NOTHING
 
 
 def size_cell(
     value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
 ) -> str:
-    """A force or moment (SI) in a column with this unit, or a word where there is none that counts;
-    digits as of `number`.
+    """Return a force or moment in a column, or a word where it is 0 or negligible.
+
+    Args:
+        value: Value, SI.
+        unit: Unit of the column.
+        negligible: Whether the value is too small to count.
+        digits: As for `number`.
     """
     if not value:
         return NOTHING
@@ -145,10 +170,14 @@ def size_cell(
 
 
 def degrees(value: float, turn: float = 360) -> str:
-    """An angle to a tenth of a degree, or a dash where there is none; of lines `turn` is 180.
+    """Return an angle to a tenth of a degree, or a dash for nan.
 
-    Half a turn backwards is half a turn, and a whole turn none: which of both an angle is, and to
-    which side a half is rounded, would else be for its last digits to say.
+    Half a turn backwards is half a turn, and a whole turn none: otherwise its last digits would
+    decide which of both an angle is, and to which side a half is rounded.
+
+    Args:
+        value: Angle, deg.
+        turn: 360, or 180 for lines.
     """
     if math.isnan(value):
         return UNKNOWN
@@ -165,13 +194,13 @@ R = TypeVar("R")
 
 
 class View(NamedTuple):
-    """What of an analysis a sheet shows.
+    """Parts of an analysis that a sheet shows.
 
     Attributes:
-        whole: every table and every order; else what most people want, orders that matter.
-        parts: words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
-        every_order: whether orders that are negligible are shown, too.
-        hints: whether commands and options that show more are named.
+        whole: Every table and every order; else what most people want, orders that matter.
+        parts: Words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
+        every_order: Whether negligible orders are shown as well.
+        hints: Whether commands and options that show more are named.
     """
 
     whole: bool = False
@@ -185,11 +214,12 @@ ON_A_PAGE = View(hints=False)
 
 
 class NamedResult(NamedTuple, Generic[R]):
-    """What was found of one of several engines.
+    """Result for one of several engines.
 
     Attributes:
-        name: of the engine, by which its rows are told from those of the others.
-        view: what of it a sheet shows.
+        result: Result.
+        name: Name of the engine, which distinguishes its rows from those of the others.
+        view: Parts that a sheet shows.
     """
 
     name: str

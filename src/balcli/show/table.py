@@ -20,7 +20,7 @@ _SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write 
 
 
 def plain_text(sheets: Sequence[Sheet]) -> str:
-    """All sheets one after the other, no line with blanks at its end."""
+    """Return all sheets one after the other, no line with blanks at its end."""
     text = "\n".join(line for sheet in sheets for line in _lines(sheet))
     return legible("\n".join(line.rstrip() for line in text.split("\n")))
 
@@ -44,7 +44,7 @@ def _lines(sheet: Sheet) -> Iterator[str]:
 
 
 def _grid_lines(grid: Grid) -> Iterator[str]:
-    """Headings, a rule, and the rows; words to the left, figures to the right."""
+    """Yield headings, a rule, and the rows; words to the left, figures to the right."""
     widths = [_measure(grid, k) for k in range(len(grid.columns))]
     yield from _row_lines(grid.columns, widths, grid.words)
     yield "─" * (sum(widths) + GAP * (len(widths) - 1))
@@ -53,18 +53,23 @@ def _grid_lines(grid: Grid) -> Iterator[str]:
 
 
 def _measure(grid: Grid, k: int) -> int:
-    """Width of a column."""
+    """Return the width of a column."""
     widest = max(map(count_places, column_texts(grid, k)))
     return min(widest, PROSE) if k and k in grid.words else widest
 
 
 def column_texts(grid: Grid, k: int) -> list[str]:
-    """Everything that stands in a column."""
+    """Return all texts in a column, its head first.
+
+    Args:
+        grid: Table.
+        k: Number of the column, from 0.
+    """
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
 def _row_lines(cells: Sequence[str], widths: list[int], words: Sequence[int]) -> Iterator[str]:
-    """One line, or as many as the longest of its cells takes when it is folded."""
+    """Yield one line, or as many as the longest of its cells takes when it is folded."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
     for pieces in zip_longest(*folded, fillvalue=""):
         columns = enumerate(zip(pieces, widths, strict=True))
@@ -77,7 +82,12 @@ def _justify(text: str, width: int, *, to_the_left: bool) -> str:
 
 
 def fold(text: str, width: int) -> list[str]:
-    """The text in lines of this width, broken between words, and in a word where it is longer."""
+    """Return a text in lines, broken between words, and within a word that is longer than a line.
+
+    Args:
+        text: Text on one line.
+        width: Largest width of a line.
+    """
     if count_places(text) <= width:
         return [text]
     lines = [""]
@@ -95,14 +105,16 @@ def fold(text: str, width: int) -> list[str]:
 
 
 def _fact_lines(facts: Facts) -> Iterator[str]:
-    """Names to the left, what they are beside them."""
+    """Yield names to the left, their values to the right."""
     width = max((count_places(name) for name, _ in facts.pairs), default=0)
     for name, value in facts.pairs:
         yield _justify(name, width, to_the_left=True) + " " * FACTS_GAP + value
 
 
 def count_places(text: str) -> int:
-    """How many places a text takes where every letter is as wide as another, or twice as wide."""
+    """Return how many places a text takes where every letter is as wide as another, or twice as
+    wide.
+    """
     if text.isascii() or all(letter < "\u0300" or letter in _SINGLE for letter in text):
         return len(text)
     from rich.cells import cell_len  # knows Unicode's wide and combining letters
@@ -114,17 +126,17 @@ _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
 
 def markdown(sheets: list[Sheet]) -> str:
-    """All sheets as Markdown, one after the other."""
+    """Return all sheets as Markdown, one after the other."""
     return "\n\n".join(chain.from_iterable(map(_blocks, sheets))) + "\n"
 
 
 def escape(text: str) -> str:
-    """Text that Markdown leaves as it is."""
+    """Return a text that Markdown leaves as it is."""
     return _SPECIAL.sub(r"\\\1", legible(text.replace("\n", " ")))
 
 
 def _blocks(sheet: Sheet) -> Iterator[str]:
-    """Title and parts, which blank lines separate."""
+    """Yield title and parts, which blank lines separate."""
     yield f"# {escape(sheet.title)}"
     yield from map(_part, sheet.parts)
 
@@ -147,7 +159,7 @@ def _part(part: Grid | Facts | Text) -> str:
 
 
 def _list_rows(grid: Grid) -> Iterator[str]:
-    """Heading, rule and rows of a table."""
+    """Yield heading, rule and rows of a table."""
     yield _line(map(escape, grid.columns))
     yield _line("---" if k in grid.words else "---:" for k in range(len(grid.columns)))
     for i, row in enumerate(grid.rows):

@@ -18,7 +18,7 @@ LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded
 
 
 def terminal(sheets: list[Sheet]) -> str:
-    """All sheets as text with escapes for the terminal in which they are seen."""
+    """Return all sheets as text with escapes for the terminal in which they are seen."""
     buffer = StringIO()
     console = Console(
         file=buffer,
@@ -40,7 +40,7 @@ def terminal(sheets: list[Sheet]) -> str:
 
 
 def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
-    """What is printed of a part under its title."""
+    """Yield the content of a part, which stands under its title."""
     match part:
         case Grid():
             yield from _fitting(part, width)
@@ -53,8 +53,8 @@ def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
 
 
 def _fitting(grid: Grid, width: int) -> Iterator[Table]:
-    """The table as wide as it likes to be, else narrowed; figures are never broken, so one that is
-    still too wide comes in pieces, each with the first column.
+    """Yield the table as wide as it likes to be, else narrowed; figures are never broken, so one
+    that is still too wide comes in pieces, each with the first column.
     """
     natural = [max(map(count_places, column_texts(grid, k))) for k in range(len(grid.columns))]
     for gap in (3, 2):
@@ -80,8 +80,8 @@ def _longest_word(texts: list[str]) -> int:
 def _share_out(
     width: int, columns: list[int], least: list[int], natural: list[int]
 ) -> dict[int, int]:
-    """Width of each column: the least, and what is left over to the one that lacks most, until
-    there is none.
+    """Return the width of each column: the least, and what is left over to the one that lacks most,
+    until there is none.
     """
     widths = {k: least[k] for k in columns}
     for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
@@ -108,7 +108,7 @@ def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
 
 
 def _fold(heading: str, width: int) -> str:
-    """A heading on lines of a width, broken between words or after an underscore of a name."""
+    """Return the lines of a heading, broken between words or after an underscore of a name."""
     lines = [""]
     for word in heading.split():
         gap = " " if lines[-1] else ""

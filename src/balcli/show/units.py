@@ -27,11 +27,11 @@ class ShownUnit(NamedTuple):
     most: float = math.inf
 
     def of(self, value: float) -> float:
-        """A value in SI units in this unit."""
+        """Return a value in SI units in this unit."""
         return value / self.size
 
     def fit(self, largest: float) -> ShownUnit:
-        """The unit for values up to this one (SI; nan: not known): this one, or a larger."""
+        """Return the unit for values up to this one (SI; nan: not known): this one, or a larger."""
         if self.larger is not None and abs(largest) >= self.most * self.size:
             return self.larger.fit(largest)
         return self
@@ -64,11 +64,13 @@ class System(NamedTuple):
         return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
 
     def unit(self, kind: Kind) -> ShownUnit:
-        """The unit of a kind of force or moment."""
+        """Return the unit of a kind of force or moment."""
         return self.force if kind.dimension == "force" else self.moment
 
     def instead_of(self, name: str) -> ShownUnit:
-        """The unit that stands for the SI unit of this name; for rpm or degrees they themselves."""
+        """Return the unit that stands for the SI unit of this name; for rpm or degrees they
+        themselves.
+        """
         pairs = zip(SI, self, strict=True)
         return next((ours for si, ours in pairs if si.name == name), ShownUnit(name, 1))
 
@@ -116,5 +118,10 @@ def unit_of_name(name: str) -> ShownUnit:
 
 
 def name_with_unit(name: str, unit: str) -> str:
-    """`operation.speed, rpm`: a column or an axis with its unit, if it has one."""
+    """Return the name of a column or axis with its unit, such as `operation.speed, rpm`.
+
+    Args:
+        name: Name.
+        unit: Unit; empty: none.
+    """
     return f"{name}, {unit}" if unit else name

@@ -74,12 +74,22 @@ SERIES = frozenset(
 
 
 def select_orders(harmonics: Harmonics, rows: slice) -> Harmonics:
-    """Return the orders in these rows."""
+    """Return some orders of the series.
+
+    Args:
+        harmonics: Series by name, shape (orders, mechanisms, *trailing).
+        rows: Rows of the orders.
+    """
     return {name: Series(series.c[rows], series.noise) for name, series in harmonics.items()}
 
 
 def select_cylinders(harmonics: Harmonics, which: Rows) -> Harmonics:
-    """Return the series of the mechanisms with these numbers."""
+    """Return the series of some mechanisms.
+
+    Args:
+        harmonics: Series by name, shape (orders, mechanisms, *trailing).
+        which: Number of the mechanism of each cylinder, from 0.
+    """
 
     def select(noise: Array | float) -> Array | float:
         return noise if np.ndim(noise) == 0 else np.asarray(noise)[which]
@@ -138,12 +148,22 @@ def _expand_cosine(count: int, x: Array) -> Array:
 
 
 def piston(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return the coefficients A_n of the piston acceleration, `-s''/r = sum A_n cos n psi`."""
+    """Return the coefficients A_n of the piston acceleration, `-s''/r = sum A_n cos n psi`, shape
+    (orders, *lam).
+
+    Args:
+        orders: Orders n.
+        lam: Crank radius / rod length, any shape.
+    """
     return np.asarray(find_harmonics(orders, lam, ["piston"])["piston"].c, float)
 
 
 def rod(orders: ArrayLike, lam: ArrayLike) -> Array:
-    """Return the coefficients D_n of the rod's angular acceleration, `-beta''` = sum D_n sin n
-    psi.
+    """Return the coefficients D_n of the rod's angular acceleration, `-beta'' = sum D_n sin n psi`,
+    shape (orders, *lam).
+
+    Args:
+        orders: Orders n.
+        lam: Crank radius / rod length, any shape.
     """
     return -find_harmonics(orders, lam, ["rod"])["rod"].c.imag

@@ -12,12 +12,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import EPS, Array, Complex, unit
+from ..phasors import EPS, Array, Complex, Numbers, unit
 from . import closed_form
 from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
@@ -34,11 +34,11 @@ class Distinct(NamedTuple):
         which: number of the mechanism that each cylinder has, shape (cylinders or 1, *trailing).
     """
 
-    figures: tuple[NDArray[Any], ...]
+    figures: tuple[Numbers, ...]
     which: Rows
 
 
-def find_distinct(*figures: NDArray[Any]) -> Distinct:
+def find_distinct(*figures: Numbers) -> Distinct:
     """Return the mechanisms that differ in some figure, in the order in which cylinders have them.
 
     A cylinder that does not vary along an axis has one mechanism there; cylinders with the same
@@ -49,7 +49,7 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
     """
     shape = np.broadcast_shapes(*(values.shape for values in figures))
     starts: dict[tuple[tuple[tuple[int, ...], bytes], ...], int] = {}
-    different: list[list[NDArray[Any]]] = []
+    different: list[list[Numbers]] = []
     which = np.empty(shape, np.intp)
     count = 0
     for row in range(shape[0]):
@@ -66,7 +66,7 @@ def find_distinct(*figures: NDArray[Any]) -> Distinct:
     return Distinct(joined, which)
 
 
-def narrow(values: NDArray[Any]) -> NDArray[Any]:
+def narrow(values: Numbers) -> Numbers:
     """Return the values without repetition: axes along which they are equal get length 1."""
     for axis, length in enumerate(values.shape):
         if length > 1 and (values == (first := values.take([0], axis))).all():
@@ -119,10 +119,15 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
 
 def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
     """Return the number of samples (a power of two) of each mechanism that leaves no alias above
-    rounding in orders up to the highest, nor an order beyond the samples.
+    rounding in orders up to the highest, and no order beyond the samples.
 
-    Coefficients decay like `x^n`, x = tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because
-    cos beta is analytic in a strip of the complex plane; order n of N samples is mixed with N - n.
+    Coefficients decay like `x^n`, x = tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos
+    beta is analytic in a strip of the complex plane; order n of N samples is mixed with N - n.
+
+    Args:
+        lam: Crank radius / rod length, any shape.
+        eps: Offset / rod length, of that shape.
+        highest: Highest order that is wanted.
     """
     steep = np.minimum(np.asarray(lam) / (1 - np.abs(eps)), 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
@@ -132,7 +137,12 @@ def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> ND
 
 
 def find_highest_order(lam: Array, eps: Array) -> int:
-    """Return the order beyond which nothing of these mechanisms exceeds rounding errors."""
+    """Return the order beyond which no coefficient of these mechanisms exceeds rounding.
+
+    Args:
+        lam: Crank radius / rod length, any shape.
+        eps: Offset / rod length, of that shape.
+    """
     return int(count_samples(lam, eps).max()) // 2
 
 
@@ -189,7 +199,7 @@ def sample_mechanisms(
     orders: ArrayLike,
     wanted: Collection[str],
     move: Move,
-    figures: Sequence[NDArray[Any]],
+    figures: Sequence[Numbers],
     counts: NDArray[np.intp],
     highest: float,
 ) -> Sampled:
@@ -238,7 +248,7 @@ def unit_circle(count: int) -> Complex:
     return unit(np.arange(count) * (360 / count))
 
 
-def _pick_orders(spectrum: Complex, orders: NDArray[Any]) -> Complex:
+def _pick_orders(spectrum: Complex, orders: Numbers) -> Complex:
     """Return the coefficients of these orders, shape (orders, mechanisms), 0 for orders that are
     not whole or beyond the samples.
 

@@ -28,12 +28,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..phasors import EPS, Array, Complex, Figure, compose, unit
+from ..phasors import EPS, Array, Complex, Figure, Numbers, compose, unit
 from .closed_form import Harmonics, Rows
 from .harmonics import Distinct, Sampled, count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
@@ -58,13 +58,17 @@ class Linkage(ABC):
 
     @abstractmethod
     def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
-        """What distinguishes the mechanisms of the cylinders, masses left out, each of shape
-        (cylinders or 1, *trailing); lam and eps as in `Cylinders`.
+        """Return the figures by which the cylinders' mechanisms differ, without masses, each of
+        shape (cylinders or 1, *trailing).
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
 
     @abstractmethod
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
-        """Mechanisms in motion.
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
+        """Return the mechanisms in motion.
 
         Args:
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
@@ -73,7 +77,7 @@ class Linkage(ABC):
         """
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
-        """The cylinders in motion.
+        """Return the cylinders in motion.
 
         Args:
             psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
@@ -84,7 +88,7 @@ class Linkage(ABC):
     def find_distinct_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Harmonics of the mechanisms that differ, and which of them each cylinder has.
+        """Return harmonics of the mechanisms that differ, and which of them each cylinder has.
 
         Args:
             orders: whole, shape (orders,).
@@ -98,8 +102,14 @@ class Linkage(ABC):
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
     ) -> Array:
-        """A figure of the motion at crank angles that all cylinders share, by so many at a time
-        that memory stays small.
+        """Return a figure of the motion at crank angles that all cylinders share, shape (cylinders,
+        *trailing, angles); angles are taken in steps that keep memory small.
+
+        Args:
+            figure: Figure of a motion.
+            psi: Crank angles, rad, shape (angles,).
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
         count = max(len(self.mass), lam.size, eps.size)
         step = max(_AT_ONCE // count, 1)
@@ -109,13 +119,24 @@ class Linkage(ABC):
         )
 
     def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
-        """How many mechanisms differ, and about how many samples of a revolution all take."""
+        """Return how many mechanisms differ, and about how many samples of a revolution all of them
+        take.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
+        """
         count = len(find_distinct(*self.figures(lam, eps)).figures[0])
         leans = self.sample(lambda motion: motion.lean, revolution(STEPS), lam, eps)
         return count, count * int(count_samples(float(np.abs(leans).max()), 0.0))
 
     def find_highest_order(self, lam: Array, eps: Array) -> int:
-        """The order beyond which nothing exceeds rounding errors."""
+        """Return the order beyond which no coefficient exceeds rounding.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
+        """
         found = self._sample(find_distinct(*self.figures(lam, eps)), [], _SHARPEST, np.inf)
         return int(found.counts.max()) // 2
 
@@ -127,7 +148,7 @@ class Linkage(ABC):
 
 
 def revolution(count: int) -> Array:
-    """Crank angles of so many samples."""
+    """Return crank angles of so many samples."""
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
@@ -151,12 +172,16 @@ class Articulated(Linkage):
         each = [np.broadcast_to(a, (len(self.master), *a.shape[1:])) for a in (lam, eps)]
         return *each, self.knuckle, self.lead_deg, *(a[self.master] for a in each)
 
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         return hang(psi, *figures)
 
     def bound_lean(self, lam: Array, eps: Array) -> Array:
-        """What the sine of each rod's angle to the cylinder's axis does not exceed, shape
-        (cylinders, *trailing): knuckle pins are at most a crank and a knuckle radius away.
+        """Return a bound of the sine of each rod's angle to the cylinder's axis, shape (cylinders,
+        *trailing): knuckle pins are at most a crank and a knuckle radius away.
+
+        Args:
+            lam: Crank radius / rod length, as in `Cylinders`.
+            eps: Offset / rod length, as in `Cylinders`.
         """
         return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
 
@@ -187,8 +212,14 @@ def hang(
 def follow_knuckle(
     crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
 ) -> PointMass:
-    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods;
-    `crank` is e^{i psi}, lam and eps are those of the masters.
+    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods.
+
+    Args:
+        crank: e^{i psi} of the cylinders.
+        knuckle: Knuckle pin from the crank pin, in crank radii, on the master rod.
+        lead_deg: Crank angle of the master less the cylinder's own, deg.
+        lam: Crank radius / rod length of the masters.
+        eps: Offset / rod length of the masters.
     """
     lead = unit(lead_deg)
     master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
@@ -217,7 +248,7 @@ class Rotary(Linkage):
             return lam, eps
         return *self.hung.figures(lam, eps), self.on_knuckle
 
-    def move(self, psi: Array | Complex, *figures: NDArray[Any]) -> Motion:
+    def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         lam, eps, *hung = figures
         if not hung:
             return TurningMotion(psi, SliderCrank(psi, lam, eps), eps / lam)

@@ -72,18 +72,18 @@ class Motion:
 
     @cached_property
     def velocity(self) -> Array:
-        """s'"""
+        """Derivative s' of the piston pin's distance by the crank angle, in crank radii."""
         return np.asarray(self.pin.z1.real - self._tangent * self.pin.z1.imag)
 
     @cached_property
     def acceleration(self) -> Array:
-        """s''"""
+        """Second derivative s'' of the piston pin's distance by the crank angle, in crank radii."""
         straight = self.pin.z2.real - self._tangent * self.pin.z2.imag
         return np.asarray(straight - self._rate * self.pin.z1.imag / self.cosine**2)
 
     @cached_property
     def _rate(self) -> Array:
-        """beta'"""
+        """Derivative beta' of the rod's angle by the crank angle."""
         return np.asarray(self._lam * self.pin.z1.imag / self.cosine)
 
     @property
@@ -93,7 +93,7 @@ class Motion:
 
     @property
     def spin_rate(self) -> Array:
-        """Derivative of `spin`."""
+        """Derivative of `spin` by the crank angle."""
         bend = self._lam * self.pin.z2.imag / self.cosine
         return np.asarray(-(bend + self._rate**2 * self._tangent))
 
@@ -105,17 +105,17 @@ class Motion:
 
     @cached_property
     def acceleration_of_mass(self) -> Complex:
-        """Derivative of `velocity_of_mass`."""
+        """Derivative of `velocity_of_mass` by the crank angle."""
         return sum((p.share * p.z2 for p in self.points), _NO_VECTOR)
 
     @property
     def swirl(self) -> Array:
-        """Moment of momentum."""
+        """Moment of momentum of the linkage's masses about the crank."""
         return sum((p.share * (np.conj(p.z) * p.z1).imag for p in self.points), _NONE)
 
     @property
     def swirl_rate(self) -> Array:
-        """Derivative of `swirl`."""
+        """Derivative of `swirl` by the crank angle."""
         return sum((p.share * (np.conj(p.z) * p.z2).imag for p in self.points), _NONE)
 
     @property

@@ -15,15 +15,15 @@ Series: TypeAlias = dict[int, Fraction]
 
 
 def cos_beta_in_sine(power: int) -> Series:
-    """cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1, -1/2,
-    -1/8, ...
+    """Return cos beta = sum over p of coefficient (lam sin psi)^p, p = 0, 2, ... up to `power`: 1,
+    -1/2, -1/8, ...
     """
     return {2 * j: Fraction(-comb(2 * j, j), 4**j * (2 * j - 1)) for j in range(power // 2 + 1)}
 
 
 def beta_in_sine(power: int) -> Series:
-    """beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6, 3/40,
-    ...
+    """Return beta = sum over p of coefficient (lam sin psi)^p, p = 1, 3, ... up to `power`: 1, 1/6,
+    3/40, ...
     """
     return {
         2 * j + 1: Fraction(comb(2 * j, j), 4**j * (2 * j + 1)) for j in range((power + 1) // 2)
@@ -31,30 +31,53 @@ def beta_in_sine(power: int) -> Series:
 
 
 def cos_beta(order: int, power: int) -> Series:
-    """C_n of cos beta = sum C_n cos n psi, n even."""
+    """Return C_n of cos beta = sum C_n cos n psi, n even.
+
+    Args:
+        order: Order n.
+        power: Highest power of lambda.
+    """
     return _in_harmonics(cos_beta_in_sine(power), order)
 
 
 def beta(order: int, power: int) -> Series:
-    """b_k of beta = sum b_k sin k psi, k odd."""
+    """Return b_k of beta = sum b_k sin k psi, k odd.
+
+    Args:
+        order: Order k.
+        power: Highest power of lambda.
+    """
     return _in_harmonics(beta_in_sine(power), order)
 
 
 def piston(order: int, power: int) -> Series:
-    """A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi; A_1 = 1, other odd orders
-    vanish.
+    """Return A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi; A_1 = 1, other odd
+    orders vanish.
+
+    Args:
+        order: Order n.
+        power: Highest power of lambda.
     """
     return _scaled(from_shaft(order, power), order**2)
 
 
 def rod(order: int, power: int) -> Series:
-    """D_k of the rod's angular acceleration beta'' = -sum D_k sin k psi, k odd."""
+    """Return D_k of the rod's angular acceleration beta'' = -sum D_k sin k psi, k odd.
+
+    Args:
+        order: Order k.
+        power: Highest power of lambda.
+    """
     return _scaled(beta(order, power), order**2)
 
 
 def from_shaft(order: int, power: int) -> Series:
-    """Coefficients of the piston pin's distance from the shaft, s/r = cos psi + cos beta/lam = sum
-    cos n psi.
+    """Return the coefficients of the piston pin's distance from the shaft, s/r = cos psi + cos
+    beta/lam = sum cos n psi.
+
+    Args:
+        order: Order n.
+        power: Highest power of lambda.
     """
     if order == 1:
         return {0: Fraction(1)}
@@ -62,13 +85,25 @@ def from_shaft(order: int, power: int) -> Series:
 
 
 def displacement(order: int, power: int) -> Series:
-    """Coefficients of the travel from top dead centre, x/r = 1 + 1/lam - s/r = sum cos n psi."""
+    """Return the coefficients of the travel from top dead centre, x/r = 1 + 1/lam - s/r = sum cos n
+    psi.
+
+    Args:
+        order: Order n.
+        power: Highest power of lambda.
+    """
     minus = _scaled(from_shaft(order, power), -1)
     return {0: Fraction(1)} | {p: c for p, c in minus.items() if p >= 0} if order == 0 else minus
 
 
 def velocity(order: int, power: int) -> Series:
-    """Coefficients of the velocity v/(r omega) = sum sin n psi, positive away from the top."""
+    """Return the coefficients of the velocity v/(r omega) = sum sin n psi, positive away from the
+    top.
+
+    Args:
+        order: Order n.
+        power: Highest power of lambda.
+    """
     return _scaled(from_shaft(order, power), order)
 
 
@@ -77,13 +112,13 @@ def _scaled(series: Series, factor: int) -> Series:
 
 
 def _in_harmonics(in_sine: Series, order: int) -> Series:
-    """What each power of the sine gives to one order."""
+    """Return what each power of the sine contributes to one order."""
     parts = {p: c * _sine_power(p, order) for p, c in in_sine.items()}
     return {p: c for p, c in parts.items() if c}
 
 
 def _sine_power(power: int, order: int) -> Fraction:
-    """Coefficient in sin^p psi of cos n psi (p even) or sin n psi (p odd)."""
+    """Return the coefficient in sin^p psi of cos n psi (p even) or sin n psi (p odd)."""
     if order > power or (power - order) % 2:
         return Fraction(0)
     sign = (-1) ** (order // 2)

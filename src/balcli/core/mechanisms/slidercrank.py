@@ -55,6 +55,11 @@ def on_circle(psi: ArrayLike) -> Complex:
 def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
     """Return (sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's
     axis, sin beta = lam sin psi - eps.
+
+    Args:
+        psi: Crank angles, rad.
+        lam: Crank radius / rod length.
+        eps: Offset / rod length.
     """
     motion = SliderCrank(psi, lam, eps)
     return motion.lean, motion.cosine
@@ -80,24 +85,47 @@ def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
 
 
 def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return the piston velocity v/(r omega), positive away from top dead centre."""
+    """Return the piston velocity v/(r omega), positive away from top dead centre.
+
+    Args:
+        psi: Crank angles, rad.
+        lam: Crank radius / rod length.
+        eps: Offset / rod length.
+    """
     return -SliderCrank(psi, lam, eps).velocity
 
 
 def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     """Return the piston acceleration j/(r omega^2), positive towards the crankshaft (as near the
     top).
+
+    Args:
+        psi: Crank angles, rad.
+        lam: Crank radius / rod length.
+        eps: Offset / rod length.
     """
     return -SliderCrank(psi, lam, eps).acceleration
 
 
 def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return beta' = lam cos psi/cos beta; the rod turns at -beta' omega."""
+    """Return beta' = lam cos psi/cos beta; the rod turns at -beta' omega.
+
+    Args:
+        psi: Crank angles, rad.
+        lam: Crank radius / rod length.
+        eps: Offset / rod length.
+    """
     return -SliderCrank(psi, lam, eps).spin
 
 
 def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return beta'', the derivative of `rod_rate`."""
+    """Return beta'', the derivative of `rod_rate` by the crank angle.
+
+    Args:
+        psi: Crank angles, rad.
+        lam: Crank radius / rod length.
+        eps: Offset / rod length.
+    """
     return -SliderCrank(psi, lam, eps).spin_rate
 
 
