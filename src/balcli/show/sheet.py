@@ -84,7 +84,7 @@ def sentence(text: str) -> str:
 
 
 def count_name(count: float) -> str:
-    """A whole number as people read it, 100 000, in groups from five digits on."""
+    """Return a whole number as people read it, 100 000, in groups from five digits on."""
     return f"{count:,.0f}".replace(",", " ") if abs(count) >= 10_000 else f"{count:.0f}"
 
 
@@ -228,12 +228,12 @@ class NamedResult(NamedTuple, Generic[R]):
 
 
 def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
-    """What is taken because the file leaves it out, for the head of a sheet."""
+    """Return the values taken because the file leaves them out, for the head of a sheet."""
     return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
 
 
 def tell_assumed(assumed: Iterable[str]) -> str:
-    """The same in words, the name of [gas] once before all its keys."""
+    """Return these values in words, the name of [gas] once before all its keys."""
     lines = list(assumed)
     later = [line for line in lines if line.startswith("gas.")][1:]
     return ", ".join(line.removeprefix("gas.") if line in later else line for line in lines)
