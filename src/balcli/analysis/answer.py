@@ -237,8 +237,8 @@ def _check_height(guide_height_m: float | None) -> None:
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """What is computed of an engine unless something is named: all but sizing and ladder; with gas,
-    all that it does, too.
+    """Return the quantities that are computed unless some are named: all but sizing and ladder;
+    those of gas if the engine has gas.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 

@@ -305,7 +305,13 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
 
 def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
-    """Return the curves at angles this far apart over a cycle; errors as of `curves`."""
+    """Return the curves at equal steps over a cycle; errors as for `curves`.
+
+    Args:
+        engine: Engine without trailing axes.
+        cylinder: Number of the cylinder whose motion is wanted; None: the whole engine.
+        step_deg: Step of the crank angle, deg.
+    """
     crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, crank_deg)

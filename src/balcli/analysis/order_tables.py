@@ -78,8 +78,13 @@ def order_tables(
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield vectors along x and y, or vertical and horizontal where the file says which way is up,
-    as builders list them, if there are any; `every` as of `order_tables`.
+    """Yield tables of vectors along x and y, or vertical and horizontal where the file says which
+    way is up, as builders list them, if the spectra have vectors.
+
+    Args:
+        spectra: Spectra to show.
+        system: System of units.
+        every: As for `order_tables`.
     """
     up = spectra.up_deg
     vectors = [

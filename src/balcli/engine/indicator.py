@@ -43,7 +43,7 @@ def build_diagram(
     """Return the absolute pressure (Pa) at cycle angles, and warnings of the rows that it leaves.
 
     Args:
-        gas: The table of the file.
+        gas: Table of the engine file that describes the diagram.
         path, name: Key and name of the diagram's file.
         columns: Columns of this file.
         strokes: 4 or 2.
@@ -142,8 +142,13 @@ def draw_diagram(
 def find_diagram_mistakes(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
 ) -> Iterator[tuple[int | None, str]]:
-    """Yield what is wrong with the rows of a diagram: the row (from 0; None: the diagram) and the
-    mistake; arguments as of `draw_diagram`.
+    """Yield the mistakes in the rows of a diagram: the row (from 0; None: the whole diagram) and
+    the mistake.
+
+    Args:
+        angle_deg: Cycle angles, deg, shape (rows,).
+        pressure: Absolute pressures, Pa, shape (rows,).
+        strokes: 2 or 4.
     """
     angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
     period = 180.0 * strokes

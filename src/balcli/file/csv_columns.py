@@ -1,4 +1,4 @@
-"""Tables of numbers beside an engine file: columns with a heading, such as a measured diagram."""
+"""Tables of numbers next to an engine file: columns with a heading, such as a measured diagram."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
 class Head(NamedTuple):
-    """A wanted column: `usual` is its head as documents write it, `name` what others begin with.
+    """A wanted column.
 
     Attributes:
-        usual: such as torque_Nm.
-        dimension: of what stands below it; PLAIN: the head is `usual` alone.
-        others: heads that are named to a reader, too.
+        usual: its head as documents write it, such as torque_Nm; other heads begin with its name.
+        dimension: dimension of its numbers; PLAIN: the head is `usual` alone.
+        others: further heads that messages name.
     """
 
     usual: str
@@ -51,14 +51,14 @@ class Head(NamedTuple):
 
 
 class NumberColumns(NamedTuple):
-    """Numbers of a file.
+    """Columns of numbers in a file.
 
     Attributes:
-        heads: as the file has them, in the order in which they were asked for.
-        rows: a number for each head.
-        lines: of the file, from 1, one for each row.
-        units: of each head, as the file has it; empty where the head has none.
-        scales: size of that unit in the unit of the column's quantity.
+        heads: Heads as the file has them, in the wanted order.
+        rows: A number for each head.
+        lines: Line of each row in the file, from 1.
+        units: Unit of each head, as the file has it; empty where the head has none.
+        scales: Size of that unit in the unit of the column's dimension.
     """
 
     heads: tuple[str, ...]
@@ -77,14 +77,14 @@ class NumberColumns(NamedTuple):
 
 
 def locate_beside(folder: Path, name: str) -> Path:
-    """Return the path of a file beside an engine file.
+    """Return the path of a file that an engine file names.
 
     Args:
-        folder: of the engine file, which the path may not leave.
-        name: as the engine file has it.
+        folder: Folder of the engine file, which the path may not leave.
+        name: Name in the engine file.
 
     Raises:
-        BalcliError: it would, or no file can have that name.
+        BalcliError: The path leaves the folder, or no file can have that name.
     """
     try:
         home, place = folder.resolve(), (folder / name).resolve()
@@ -92,8 +92,8 @@ def locate_beside(folder: Path, name: str) -> Path:
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(
-            f"{shorten(name)} lies outside the folder of the engine file; put it beside that file, "
-            "or into a folder below it"
+            f"{shorten(name)} lies outside the folder of the engine file; put it next to that "
+            "file, or in a folder below it"
         )
     return folder / name
 
@@ -101,16 +101,16 @@ def locate_beside(folder: Path, name: str) -> Path:
 def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     """Return some columns of a CSV file.
 
-    Other columns, empty lines and lines that begin with # count for nothing. Where semicolons,
+    Other columns, empty lines and lines that begin with # are ignored. Where semicolons,
     tabs or blanks part the heading, they part the lines, and decimals may have commas; elsewhere a
     number to the right of the heading is refused: "0,5,1,3" might be two.
 
     Args:
-        path: of the file.
-        wanted: the columns.
+        path: Path of the file.
+        wanted: Heads of the columns.
 
     Raises:
-        BalcliError: it cannot be read, a column is missing, or a line has no such numbers.
+        BalcliError: The file cannot be read, a column is missing, or a line has no such numbers.
     """
     content = read_bytes(path)
     if len(content) > LARGEST_FILE_BYTES:
@@ -183,7 +183,9 @@ def _find_head(
 
 
 def _find_cells(row: list[str], places: list[int], width: int | None, line: int) -> list[str]:
-    """`width`: of the heading, beyond which no number may stand; None: one may."""
+    """Return the cells at these places of a line. No number may stand beyond `width`, the number of
+    columns in the heading; None: it may.
+    """
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
     if width is not None and any(re.match(r"\s*[+-]?\.?\d", cell) for cell in row[width:]):

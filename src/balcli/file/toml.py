@@ -1,5 +1,5 @@
-"""A file of TOML, as it is read before anyone knows what it says: within limits, and whatever is
-wrong becomes an error with the name of the file.
+"""Read a file of TOML of any kind, within limits; every mistake becomes an error with the name of
+the file.
 """
 
 from __future__ import annotations
@@ -8,8 +8,8 @@ import re
 import sys
 import tomllib
 from pathlib import Path
-from typing import Any
 
+from ..core.records import Node
 from ..errors import BalcliError, InputError, Problem
 from ..limits import DEEPEST_KEY, LARGEST_FILE_BYTES, MOST_TOML_MARKS
 from .examples import is_example
@@ -21,10 +21,11 @@ ENGINE_FILE = (
 )
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
+_TOO_DEEP = "lists or tables are nested too deeply; an engine file needs no more than four levels"
 _LONGEST_LINE = 80  # that is shown
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
-# A key, =, and a value without quotes that may be ... The first that fits tells what is meant.
+# Patterns of a value without quotes, and the remedy; the first that fits counts.
 _HINTS = (
     (rf"{_NUMBER},\d+", "write a decimal point, not a comma"),
     (
@@ -43,7 +44,7 @@ def read_bytes(source: str | Path) -> bytes:
     may have.
 
     Raises:
-        BalcliError: it cannot be read.
+        BalcliError: The file cannot be read.
     """
     if not str(source):
         raise BalcliError('no file is named: ""')
@@ -69,8 +70,8 @@ def find_near_file(source: str | Path) -> str:
         return f"; {with_ending} is there: did you mean it?"
     if asked.suffix in ("", ".toml") and is_example(asked.stem):
         return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
-    beside = [file.name for file in asked.parent.glob("*.toml") if file.is_file()]
-    near = nearest(asked.name, sorted(beside), cutoff=0.8)
+    there = sorted(file.name for file in asked.parent.glob("*.toml") if file.is_file())
+    near = nearest(asked.name, there, cutoff=0.8)
     if near and nearest(asked.suffix, [".toml"]):  # not the .csv beside an engine file
         return f"; {asked.with_name(near)} is there: did you mean it?"
     return ""
@@ -81,39 +82,53 @@ def name_file(source: str | Path) -> str:
     return "standard input" if str(source) == "-" else str(source)
 
 
-def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> dict[str, Any]:
+def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
     """Return TOML as nested dicts.
 
     Args:
-        text: of the file.
-        file: its name, for messages.
-        right: what a text of another format is not, and what would be right.
+        text: Text of the file.
+        file: Name of the file, for messages.
+        right: What a text of another format is not, and what would be right.
 
     Raises:
-        InputError: it is no TOML, or larger than any file is.
+        InputError: It is no TOML, or larger than any file is.
     """
+    decoded, message = _decode(text, right)
+    if not message:
+        try:
+            return tomllib.loads(decoded)
+        except tomllib.TOMLDecodeError as error:
+            message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
+        except RecursionError:
+            decoded, message = "", _TOO_DEEP
+        except ValueError:  # Python reads no more digits
+            decoded, message = "", "has a number of thousands of digits"
+    kind = _find_format(decoded)
+    raise InputError([Problem("", f"is {kind}, {right}" if kind else message)], file)
+
+
+def _decode(text: str | bytes, right: str) -> tuple[str, str]:
+    """Return the text of a file, and why tomllib should not read it; empty if it should. A text
+    whose format does not matter is left out.
+    """
+    if len(text) > LARGEST_FILE_BYTES:
+        decoded = text if isinstance(text, str) else text.decode("utf-8-sig", "replace")
+        most = f"{LARGEST_FILE_BYTES // 1_000_000} MB"
+        return decoded, f"has more than {most}; no engine file needs that"
     try:
-        return _load_toml(text)
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        message = f"is not UTF-8 text (line {line}); save it as UTF-8"
-        if b"\0" in error.object[:1000] and error.object[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-            message = f"is no text, and {right}"
-    except tomllib.TOMLDecodeError as error:
         decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
-        message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
-        if kind := _find_format(decoded):
-            message = f"is {kind}, {right}"
-    except RecursionError:
-        message = (
-            "lists or tables are nested too deeply; an engine file needs no more than four levels"
-        )
-    except OverflowError as error:
-        kind = _find_format(text if isinstance(text, str) else text.decode("utf-8-sig", "replace"))
-        message = f"is {kind}, {right}" if kind else str(error)
-    except ValueError:  # Python reads no more digits
-        message = "has a number of thousands of digits"
-    raise InputError([Problem("", message)], file)
+    except UnicodeDecodeError as error:
+        start = error.object[:1000]
+        if b"\0" in start and start[:2] not in (b"\xff\xfe", b"\xfe\xff"):
+            return "", f"is no text, and {right}"
+        line = error.object[: error.start].count(b"\n") + 1
+        return "", f"is not UTF-8 text (line {line}); save it as UTF-8"
+    if _DEEP_KEY.search(decoded):
+        return "", _TOO_DEEP
+    if sum(map(decoded.count, "[{.,=")) > MOST_TOML_MARKS:
+        most = f"{MOST_TOML_MARKS} keys, lists and values"
+        return decoded, f"has more than {most}; no engine file needs that"
+    return decoded, ""
 
 
 def _find_format(text: str) -> str:
@@ -130,31 +145,9 @@ def _find_format(text: str) -> str:
     return "a table of columns (CSV)" if parted else "a file of another program"
 
 
-def _load_toml(text: str | bytes) -> dict[str, Any]:
-    """Return the text as nested dicts, unless tomllib would take too much memory for it.
-
-    Raises:
-        RecursionError: a key has too many parts.
-        OverflowError: there are too many values.
-        ValueError: it is no TOML.
-    """
-    if len(text) > LARGEST_FILE_BYTES:
-        most = f"{LARGEST_FILE_BYTES // 1_000_000} MB"
-        raise OverflowError(f"has more than {most}; no engine file needs that")
-    decoded = text.decode("utf-8-sig") if isinstance(text, bytes) else text
-    if _DEEP_KEY.search(decoded):
-        raise RecursionError
-    if sum(map(decoded.count, "[{.,=")) > MOST_TOML_MARKS:
-        raise OverflowError(
-            f"has more than {MOST_TOML_MARKS} keys, lists and values; no engine file needs that"
-        )
-    return tomllib.loads(decoded)
-
-
 def _explain(text: str, error: str) -> str:
-    """Return the line that an error of tomllib names, or else the last, and what would be right
-    where one of three slips is recognized: units without quotes, lists without brackets, a decimal
-    comma.
+    """Return the line that an error of tomllib names, or else the last, and the remedy for one of
+    three slips: units without quotes, lists without brackets, a decimal comma.
     """
     place = re.search(r"\(at line (\d+), ", error)
     lines = text.rstrip("\n").split("\n")
@@ -166,7 +159,7 @@ def _explain(text: str, error: str) -> str:
         return f": {shown}"
     key, value = assigned.groups()
     hint = next((f": {hint}" for pattern, hint in _HINTS if re.fullmatch(pattern, value)), "")
-    unit = value.replace("''", " in").replace('"', " in").replace("″", " in")
+    in_inches = re.sub("''|[\"″]", " in", value)
     listed = value.replace("-", " ") if re.fullmatch(_DASHED, value) else value
     numbers = ", ".join(re.findall(_NUMBER, listed))
-    return f": {key} = {value}{hint.format(key=key, value=unit, numbers=numbers)}"
+    return f": {key} = {value}{hint.format(key=key, value=in_inches, numbers=numbers)}"

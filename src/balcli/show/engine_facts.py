@@ -90,8 +90,11 @@ def _tell_inferred(engine: Engine) -> str:
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:
-    """Its mean speed, and whether that is uneven; `steady`: of figures in which an uneven speed
-    does not count.
+    """Return the mean speed, and whether it is uneven.
+
+    Args:
+        engine: Engine at this speed.
+        steady: Whether the figures are those in which an uneven speed does not count.
     """
     counts = "uneven: figures are those of the uneven speed"
     counts = "the file's uneven one does not count" if steady else counts

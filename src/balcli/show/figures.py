@@ -241,8 +241,13 @@ def describe_state(engine: Engine) -> EngineState:
 def list_assumed(
     names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
 ) -> tuple[str, ...] | None:
-    """Return what is taken of several engines because their files leave it out: what holds for all,
-    then that of single ones, after their names; None: nothing.
+    """Return values taken of several engines because their files leave them out: first those common
+    to all, then those of single ones, after their names; None: no value.
+
+    Args:
+        names: Names of the engines.
+        engines: Engines to compare.
+        chapters: Chapters of the file that count.
     """
     each = [engine.list_assumed(*chapters) or () for engine in engines]
     common = [line for line in each[0] if all(line in lines for lines in each)]

@@ -84,8 +84,8 @@ def draw_locus(
     Args:
         ax: Axes to draw on.
         curve: Phasors of the vector, shape (orders,).
-        what: Name of the quantity.
-        unit: Its unit.
+        names: Names of the axes.
+        unit: Unit of the vector.
         before: Phasors whose path is drawn dashed; None: none.
     """
     shown = [curve] if before is None else [curve, before]
@@ -127,7 +127,16 @@ def find_period_deg(curve: Phasors) -> int:
 def draw_order(
     ax: Axes, curve: Phasors, k: int, what: str, names: Sequence[str], unit: ShownUnit
 ) -> None:
-    """Draw the k-th order: its ellipse, and the two rotating vectors whose sum it is."""
+    """Draw one order: its ellipse, and the two rotating vectors whose sum it is.
+
+    Args:
+        ax: Axes to draw on.
+        curve: Phasors of the vector, shape (orders,).
+        k: Row of the order.
+        what: Name of the quantity.
+        names: Names of the axes.
+        unit: Unit of the vector.
+    """
     order, phase = float(curve.orders[k]), np.exp(1j * np.radians(_ORDER_ANGLE))
     s = unit.fit(float(curve.major[k]))
     forward, backward = curve.forward[k] / s.size, curve.backward[k] / s.size

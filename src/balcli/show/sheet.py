@@ -84,7 +84,7 @@ def sentence(text: str) -> str:
 
 
 def count_name(count: float) -> str:
-    """A whole number as people read it, 100 000, in groups from five digits on."""
+    """Return a whole number as people read it, 100 000, in groups from five digits on."""
     return f"{count:,.0f}".replace(",", " ") if abs(count) >= 10_000 else f"{count:.0f}"
 
 
@@ -228,13 +228,13 @@ class NamedResult(NamedTuple, Generic[R]):
 
 
 def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
-    """What is taken because the file leaves it out, for the head of a sheet."""
+    """Return the values taken because the file leaves them out, for the head of a sheet."""
     return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
 
 
 def tell_assumed(assumed: Iterable[str]) -> str:
-    """The same in words, the name of [gas] once before all its keys; then that of single engines,
-    after their names.
+    """Return these values in words, the name of [gas] once before all its keys; then those of
+    single engines, after their names.
     """
     lines = list(assumed)
     single = [line for line in lines if ": " in line]
