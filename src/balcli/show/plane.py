@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors
 from .plot_style import BLUE, INK, PAPER, RED, SOFT, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
@@ -122,12 +123,12 @@ def draw_loci(ax: Axes, curves: Mapping[str, Phasors], what: str, unit: ShownUni
     """Draw where the tips of several vectors, by name, go in a revolution; vectors that agree are
     all seen.
     """
-    every = [values_over_period(curve) for curve in curves.values()]
-    largest = [float(np.abs(path).max()) for path in every]
+    largest = [float(find_largest(curve)) for curve in curves.values()]
     s = unit.fit(max(largest))
     sizes = (size_text(size, unit, 4) if size else NOTHING for size in largest)
     labels = [f"{name}: {size}" for name, size in zip(curves, sizes, strict=True)]
-    paths = dict(zip(labels, (path / s.size for path in every), strict=True))
+    every = (values_over_period(curve) / s.size for curve in curves.values())
+    paths = dict(zip(labels, every, strict=True))
     draw_paths(ax, paths, what, s.name, taper=0.7)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
 
