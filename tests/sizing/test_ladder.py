@@ -17,7 +17,6 @@ from balcli.balancing.answer import balance_engine, insert_remedy
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
-from balcli.limits import WORTH_A_SHAFT
 from balcli.sizing.ladder import AS_DRAWN, SHAFT, SHAFTS, WEIGHTS_AT_THROWS, Ladder, Step, find_ladder
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.planes import find_unbalance
@@ -83,7 +82,7 @@ def test_figures_are_those_of_rigid_bodies(name, auto, scale, steps, left_out):
     ladder = find_ladder(build_text(ENGINES[name]))
     assert ladder.auto == auto
     assert ladder.scale.force_N == pytest.approx(scale["force_N"], rel=1e-9)
-    assert ladder.scale.moment_Nm == (scale and pytest.approx(scale.get("moment_Nm"), rel=1e-9))
+    assert ladder.scale.moment_Nm == (pytest.approx(scale["moment_Nm"], rel=1e-9) if len(scale) > 1 else None)
     assert [step.step for step in ladder.steps] == [step["step"] for step in steps]
     assert [out.step for out in ladder.left_out] == [out["step"] for out in left_out]
     for step, wanted in zip(ladder.steps, steps, strict=True):
@@ -103,7 +102,7 @@ def test_devices_and_loads_of_a_balance(name, scheme, options, step, devices, be
     text = ENGINES[name]
     result = balance_engine(build_text(text), scheme, SchemeOptions(**options))
     remedy = result.remedy
-    assert remedy.step == (f"counterweights{' at every throw' * (step == '2')}" if scheme == "step" else step)
+    assert remedy.step == step
     found = [
         (getattr(d, "ratio", 0), d.position, find_unbalance(d) * np.exp(1j * np.radians(d.angle)))
         for d in remedy.devices
@@ -119,7 +118,7 @@ def test_devices_and_loads_of_a_balance(name, scheme, options, step, devices, be
         assert loads.inner_moment_Nm == pytest.approx(figure["inner_moment_Nm"], rel=1e-9)
         assert state.peak.force.value == pytest.approx(figure["force_N"], rel=1e-9, abs=1e-5)
         assert state.peak.moment.value == pytest.approx(figure["moment_Nm"], rel=1e-9, abs=1e-5)
-    row = figures(find_ladder(build_text(insert_remedy(text, remedy, name))).steps[0])
+    row = figures(find_ladder(build_text(insert_remedy(text.encode(), remedy, name))).steps[0])
     assert {key: row[key] for key in first_row} == pytest.approx(first_row, rel=1e-9, abs=1e-5)
 
 
@@ -131,7 +130,7 @@ def test_a_step_is_what_the_written_engine_does_as_drawn(seed):
     for k, step in enumerate(find_ladder(engine).steps[1:], 1):
         remedy = balance_engine(engine, "step", SchemeOptions(step=str(k))).remedy
         assert remedy.step == step.step
-        written = find_ladder(build_text(insert_remedy(text, remedy, "random"))).steps[0]
+        written = find_ladder(build_text(insert_remedy(text.encode(), remedy, "random"))).steps[0]
         agree(
             {key: getattr(written, key) or 0.0 for key in FIGURES},
             {key: getattr(step, key) or 0.0 for key in FIGURES},
@@ -140,16 +139,17 @@ def test_a_step_is_what_the_written_engine_does_as_drawn(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_ladder_does_not_depend_on_the_order_or_the_side_of_throws(seed):
-    """Throws listed from the other end; the engine turned end for end; its picture in a mirror along the crank."""
+    """Throws listed from the other end; its picture in a mirror along the crank; the engine turned end for end, in which
+    the moments that bend the crankshaft are those of the other side of a cut.
+    """
     text, places, angles = random_engine(seed, devices=False)
     layout = "".join(re.findall("bank_angle.*\n", text))
     expected = describe(find_ladder(build_text(text)))
-    for one in (
-        write_engine(places[::-1], angles[::-1], layout),
-        write_engine([-z for z in places], angles, layout),
-        write_engine(places, [-angle % 360 for angle in angles], layout),
-    ):
-        agree(describe(find_ladder(build_text(one))), expected)
+    agree(describe(find_ladder(build_text(write_engine(places[::-1], angles[::-1], layout)))), expected)
+    agree(describe(find_ladder(build_text(write_engine(places, [-a % 360 for a in angles], layout)))), expected)
+    found = describe(find_ladder(build_text(write_engine([-z for z in places], angles, layout))))
+    outside, expected = ({k: v for k, v in d.items() if "inner" not in k} for d in (found, expected))
+    agree(outside, expected)
 
 
 @pytest.mark.parametrize("text", [*ENGINES.values(), *(random_engine(seed)[0] for seed in SEEDS)])
@@ -159,7 +159,7 @@ def test_auto_is_the_last_step_with_weights_or_a_part_worth_a_shaft(text):
     expected, state = AS_DRAWN, engine
     for step in ladder.steps[1:]:
         parts = {SHAFT: (1, ["backward"]), SHAFTS: (2, ["forward", "backward"])}.get(step.step)
-        if parts is None or max(measure(engine, state, *parts)) >= WORTH_A_SHAFT:
+        if parts is None or max(measure(engine, state, *parts)) >= 0.3:
             expected = step.step
         state = fit_devices(engine, step.remedy)
     assert ladder.auto == expected
@@ -201,8 +201,8 @@ def test_a_step_that_cannot_be_fitted(name, step, told):
 
 def test_small_lists_a_step_that_is_left_out(tmp_path):
     path = write(tmp_path / "radial.toml", ENGINES["radial7"])
-    assert "--small 1% lists it" in refusal("balance", path, "--step", "shaft at -1")
-    remedy = balance_engine(build_text(ENGINES["radial7"]), "step", SchemeOptions(step=SHAFT, small=0.01)).remedy
+    assert "--small 2% lists it" in refusal("balance", path, "--step", "shaft at -1")
+    remedy = balance_engine(build_text(ENGINES["radial7"]), "step", SchemeOptions(step=SHAFT, small=0.02)).remedy
     assert {shaft.ratio for shaft in remedy.shafts} == {-1}
-    for command in ("analyze", "balance", "compare", "plot", "report"):
-        assert "from 0 to 50%" in refusal(command, path, "--small", "60%")
+    for command in ("analyze", "balance", f"compare {path}", "plot -o x.svg", "report -o x.html"):
+        assert "from 0 to 50%" in refusal(*command.split(), path, "--small", "60%")
