@@ -221,7 +221,7 @@ def test_orders_are_switched(show):
 @live
 def test_the_fitted_engine_shakes_less(show):
     page = show()
-    page.run("document.querySelectorAll('[name=variant]')[1].click()")
+    page.run("document.querySelectorAll('[name=variant]')[2].click()")
     after = balance(build_text(GOOD)).after
     assert float(page.run("document.getElementById('force-now').textContent").split()[0]) == pytest.approx(
         float(abs(after.spectra.force.values(0.0))), rel=1e-3
@@ -302,3 +302,20 @@ def test_torque_and_pressure_run_with_the_crank():
     assert max(pressure["total"]) == pytest.approx(61.3, abs=0.2)
     assert torque["mean"] == pytest.approx(206.7, abs=0.1)
     assert torque["total"][0] == pytest.approx(torque["total"][-1], abs=1e-3)
+
+
+def test_the_page_switches_between_the_steps_of_the_ladder():
+    """And shows their table; with another scheme also the engine with its devices."""
+    engine, ladder = build_text(GOOD), balance(build_text(GOOD)).ladder
+    names = [f"{k} {step.step}" for k, step in enumerate(ladder.steps)]
+    assert "What balances it, step by step" in report(GOOD)
+    for scheme, more in (("auto", []), ("two-shaft", ["scheme two-shaft"])):
+        balanced = balance(engine, scheme)
+        with without_pictures():
+            text = page(analyze(engine), balanced, SI)
+        variants = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])["variants"]
+        assert [variant["label"] for variant in variants] == names + more
+        for variant, step in zip(variants, ladder.steps, strict=False):
+            assert len(variant["devices"]) == len(step.remedy.devices)
+        second = [next(row for row in variant["force"] if row[0] == 2)[1] for variant in variants]
+        assert second[0] == second[1] > 100 > 1e-6 > abs(second[2])

@@ -14,8 +14,12 @@ from support.pictures import draw_page
 
 from balcli.core.mechanisms import harmonics
 from balcli.errors import BalcliError
+from balcli.limits import SMALL
 from balcli.report.pages import PageSubject
 from balcli.report.study import compute_study, swing_banks
+from balcli.show.sheet import size_text
+from balcli.show.units import SI
+from balcli.sizing.ladder import find_ladder
 from balcli.sizing.options import SchemeOptions
 
 pytestmark = pytest.mark.slow
@@ -186,3 +190,17 @@ def test_the_study_of_factors_takes_planes_alone():
     ):
         with pytest.raises(BalcliError, match=reason):
             compute_study(engine(CROSS), "factor", **asked)
+
+
+def test_the_page_of_the_ladder_has_the_loci_of_all_steps():
+    """Each with its name and its largest value; `small` says which steps there are."""
+    three = changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", ""))
+    for small, last in ((None, "4 shafts at +2 and -2"), (0.3, "3 shaft at -1")):
+        subject = PageSubject(compute_study(engine(three), "ladder", options=SchemeOptions(small=small)))
+        *_, step = find_ladder(engine(three), small or SMALL).steps
+        assert list(subject.study.steps)[-1] == last
+        page = draw_page(subject, "ladder", "svg").decode()
+        assert [name in page for name in subject.study.steps] == [True] * len(subject.study.steps)
+        assert f"{last}: {size_text(step.peak_moment_Nm, SI.moment, 4)}" in page
+    with pytest.raises(BalcliError, match="--what ladder shows the engine as it is"):
+        compute_study(engine(three), "ladder", scheme="auto")

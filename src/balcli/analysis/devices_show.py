@@ -18,7 +18,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from ..sizing.ladder import Ladder, LeftOut
+from ..sizing.ladder import SHAFT, Ladder, LeftOut
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import KEYS, find_value
@@ -100,7 +100,7 @@ def ladder_grid(ladder: Ladder, engine: Engine, system: System) -> Grid:
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     """Return a sentence on a step that is left out, with the larger of what it would take."""
     share = f"{ladder.measure(out):.1f} % of one cylinder's first order"
-    what = out.step if out.step.endswith("s") or "every" in out.step else f"a {out.step}"
+    what = f"a {out.step}" if out.step == SHAFT else out.step
     if (fall := out.main_bearing_N) is not None:
         does = "lower" if fall >= 0 else "raise"
         size = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))

@@ -25,7 +25,6 @@ from ..shell.options import (
     Speed,
     UnitsOption,
     parse_orders,
-    parse_small,
     parse_speed,
 )
 from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show, write_file
@@ -248,9 +247,10 @@ def balance(
     from ..sizing.workshop import HolesDoNotFitError
     from . import answer
 
-    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
-    share = None if small is None else parse_small(small)
-    options = options._replace(small=share, step=step)
+    options = parse_scheme_options(
+        order, at, position, planes, factor, measured, roll, units, small
+    )
+    options = options._replace(step=step)
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     grade_mm_s = parse_grade(grade)

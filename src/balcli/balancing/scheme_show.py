@@ -79,9 +79,28 @@ def tell_change(result: Balance, system: System) -> str:
     return f"It has the factor {has}; you want {wanted}: {', '.join(dict.fromkeys(what))}."
 
 
+def tell_best_factors(result: Balance, system: System) -> str:
+    """Return a sentence on which factors are best, and for what; empty where none is."""
+    remedy, told = result.remedy, []
+    for name, one in remedy.details.get("best", {}).items():
+        key, what = next(key for key in one if key != "factor"), name.replace("_", " ")
+        size = size_text(one[key], system.force if find_unit(key) == "N" else system.moment)
+        goal = f"peak {what}" if key.startswith("peak") else f"{what} load"
+        told.append((percent(one["factor"]), f"the smallest {goal} ({size})"))
+    if not told:
+        return ""
+    factors = [row.factor for row in remedy.sweep] or [0.0, 1.0]
+    (first, least), *more = told
+    others = "".join(f", and {'also' if factor == first else factor} {x}" for factor, x in more)
+    between = f"Between {percent(min(factors))} and {percent(max(factors))}"
+    return f"{between} the factor {first} leaves {least}{others}."
+
+
 def _list_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures of the details one by one; tables among them are left out."""
     for key, value in result.remedy.details.items():
+        if key == "best":
+            continue
         if isinstance(value, dict):
             yield from (_Figure(key, name, figure) for name, figure in value.items())
         elif key not in ("optima", "change"):

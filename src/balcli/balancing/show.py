@@ -50,7 +50,13 @@ from ..sizing.ladder import Ladder
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
-from .scheme_show import details_document, details_parts, tell_change, tell_growing_rolls
+from .scheme_show import (
+    details_document,
+    details_parts,
+    tell_best_factors,
+    tell_change,
+    tell_growing_rolls,
+)
 
 _TURNING_WEIGHTS = (
     "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
@@ -84,6 +90,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     notes = (
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
+        tell_best_factors(result, system),
         _tell_negligible(result),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),

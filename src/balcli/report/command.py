@@ -14,6 +14,7 @@ from ..shell.inputs import read_engine
 from ..shell.options import (
     EnginePath,
     Orders,
+    Small,
     Speed,
     Target,
     UnitsOption,
@@ -46,6 +47,7 @@ def report(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
+    small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
     units: UnitsOption = Units.SI,
@@ -62,7 +64,9 @@ def report(
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
     from . import page as pages
 
-    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    options = parse_scheme_options(
+        order, at, position, planes, factor, measured, roll, units, small
+    )
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
     _, model, engine = read_engine(path, parse_speed(speed))
@@ -90,6 +94,7 @@ Pages = Annotated[
         help="overview: locus of the force, or of the moment where no force is left, and spectrum; "
         "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
         "crank angle; all: loci, bars and curves on one page; "
+        "ladder: loci with what balances the engine, step by step; "
         "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
         "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
         "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
@@ -111,6 +116,7 @@ def plot(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
+    small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
     speeds: Annotated[
@@ -137,7 +143,9 @@ def plot(
     readings = len({page in OF_TORSION for page in pages})
     writes = dict(zip(map("--what {}".format, pages), files, strict=False))
     refuse_overwriting(reads=[path] * readings, writes=writes)
-    options = parse_scheme_options(order, at, position, planes, factor, measured, roll, units)
+    options = parse_scheme_options(
+        order, at, position, planes, factor, measured, roll, units, small
+    )
     from .plot import Asked, make_figures, write_pages
 
     asked = Asked(speed, orders, speeds, scheme, options, units)

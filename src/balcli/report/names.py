@@ -10,7 +10,8 @@ from ..file.fields import nearest
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
-    *("overview", "all", "polar", "orders", "spectrum", "curves", "factor", "bank", "inner"),
+    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # those of a balance
+    *("ladder", "factor", "bank", "inner"),
     *OF_GAS,
     *OF_TORSION,
 )

@@ -5,7 +5,7 @@ deg), the body on its mounts (mm, rad), torque and pressure over the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -43,7 +43,7 @@ from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
-from .study import Study
+from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
     from markupsafe import Markup
@@ -53,14 +53,13 @@ _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
 ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
 
 
-def scene(now: Analysis, after: Analysis | None, system: System) -> dict[str, Any]:
-    """The mechanism, and what shakes as the engine is and with devices fitted; turned so that up is
-    up where the file says which way that is.
+def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> dict[str, Any]:
+    """Return the mechanism, and what shakes in each of the engines shown, by their labels; turned
+    so that up is up where the file says which way that is.
     """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
     bore = bore or ASSUMED_BORE * stroke
-    shown = {"as in the file": now} | ({} if after is None else {"with the devices fitted": after})
     return {
         "stroke": stroke,
         "bore": bore,
@@ -288,13 +287,26 @@ def page(
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
         fitted=fitted,
-        scene=scene(result, balanced.after if fitted else None, system),
+        scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
         compared=pictures[len(alone) :],
         style=_read("report.css"),
         script=_read("report.js"),
         **_gather_chapters(mounted, twisted, turning, system),
     )
+
+
+def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
+    """Return the engine with the devices of each step of its ladder, and with those of a scheme
+    that is no step, by their labels.
+    """
+    remedy, ladder = balanced.remedy, balanced.ladder
+    shown = {"as in the file": result}
+    if ladder is not None:
+        shown = analyze_steps(balanced.before.engine, ladder, result.orders)
+    if remedy.reasons and not remedy.step:
+        shown[f"scheme {remedy.scheme}"] = balanced.after
+    return shown
 
 
 def _gather_chapters(

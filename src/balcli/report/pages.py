@@ -29,7 +29,7 @@ from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
 from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
 from ..show.engine_facts import tell_pivot
-from ..show.plane import FINE, draw_locus, draw_order, set_up_plane
+from ..show.plane import FINE, draw_loci, draw_locus, draw_order, draw_paths
 from ..show.plot_style import (
     BLUE,
     INK,
@@ -66,19 +66,13 @@ _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     """Draw the path of the force's tip for several bank angles."""
-    from matplotlib import colormaps
-
     shown = [int(np.argmin(np.abs(banks.angles_deg - angle))) for angle in _BANKS_DEG]
     s = unit.fit(float(banks.force.major.max(initial=0)))
     ahead, against = banks.force.forward[0, shown], banks.force.backward[0, shown]
     turn = np.exp(1j * FINE)
     paths = (ahead[:, None] * turn + against[:, None] / turn) / s.size
-    set_up_plane(ax, float(np.abs(paths).max()), FORCE.name_components(None), s.name)
-    for path, angle, shade in zip(paths, _BANKS_DEG, np.linspace(0, 0.9, 7), strict=True):
-        colour = colormaps["viridis"](shade)
-        ax.plot(
-            path.imag, path.real, "o-", color=colour, markevery=360, markersize=3, label=f"{angle}°"
-        )
+    labels = (f"{angle}°" for angle in _BANKS_DEG)
+    draw_paths(ax, dict(zip(labels, paths, strict=True)), FORCE.name_components(None), s.name)
     ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
     put_legend_above(ax, len(_BANKS_DEG))
 
@@ -229,6 +223,11 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
     ax.set_title(subject.title(what, quantity))
     if what == "polar":
         draw_locus(ax, curve, subject.name_components(quantity), unit, before)
+    elif what == "ladder":
+        turn = -(subject.now.engine.up_deg or 0.0)
+        steps = subject.study.steps.items()
+        paths = {name: one.spectra[quantity].turn(turn) for name, one in steps}
+        draw_loci(ax, paths, subject.name_components(quantity), unit)
     elif what == "spectrum" and scalars:
         draw_scalar_bars(ax, scalars, unit)
     elif what == "spectrum":
@@ -270,11 +269,11 @@ def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], he
     return words
 
 
-def _lay_out_polar(fig: Figure, subject: PageSubject) -> str:
+def _lay_out_loci(fig: Figure, subject: PageSubject, *, what: str, height: float) -> str:
     shown, words = subject.find_pictured(_VECTORS)
-    fig.set_size_inches(max(4.8 * len(shown), 5.2), 5.6)
+    fig.set_size_inches(max(4.8 * len(shown), 5.2), height)
     for k, quantity in enumerate(shown, 1):
-        _draw(fig.add_subplot(1, len(shown), k), subject, "polar", quantity)
+        _draw(fig.add_subplot(1, len(shown), k), subject, what, quantity)
     return words
 
 
@@ -364,7 +363,8 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, over_volume: bool = False
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
     "all": (11.7, 8, partial(_lay_out_rows, whats=("polar", "spectrum", "curves"), height=3.6)),
-    "polar": (9.6, 5.6, _lay_out_polar),
+    "polar": (9.6, 5.6, partial(_lay_out_loci, what="polar", height=5.6)),
+    "ladder": (9.6, 6.4, partial(_lay_out_loci, what="ladder", height=6.4)),
     "orders": (11.7, 7.4, _lay_out_orders),
     "spectrum": (6.5, 8.0, partial(_lay_out_rows, whats=("spectrum",), height=2.5)),
     "curves": (7.5, 8.6, partial(_lay_out_rows, whats=("curves",), height=2.7)),

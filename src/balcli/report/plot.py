@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike
 from ..analysis.answer import Analysis
 from ..balancing.answer import Balance
 from ..engine.engine import Engine, take_model
-from ..errors import check_type, warn, wrong_type
+from ..errors import check_number, check_type, warn, wrong_type
 from ..field.answer import FieldBalance
 from ..field.show import make_field
 from ..forces.spectrum import check_orders
+from ..limits import SMALL
 from ..mounts.plot import make_mounts
 from ..mounts.records import MountReport
 from ..shell.arguments import check_speeds, check_torsion_orders, tell_arguments
@@ -27,7 +28,7 @@ from ..shell.scheme_options import choose_beside
 from ..show.formats import Units
 from ..show.plot_style import save_figure, save_pages
 from ..show.units import SI, SYSTEMS
-from ..sizing.options import SchemeOptions
+from ..sizing.options import SchemeOptions, check_small
 from ..studies.sweep import Swept
 from ..studies.sweep_show import check_drawable, make_sweep
 from ..torque.records import TorqueAnalysis
@@ -63,6 +64,7 @@ def plot(
     orders: Iterable[float] | None = None,
     scheme: str | None = None,
     speeds_rpm: ArrayLike | None = None,
+    small: float = SMALL,
 ) -> Figure:
     """Draw an engine or an answer, as `balcli plot` does, as a figure of matplotlib.
 
@@ -74,12 +76,14 @@ def plot(
         what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
             spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "bank" (a vee over its bank angle), "factor" (over the balance factor); with gas
-            "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes", "campbell",
-            "response", "waterfall". Other answers have one picture.
+            "ladder" (loci, step by step), "bank" (a vee over its bank angle), "factor" (over the
+            balance factor); with gas "pressure", "p-v", "torque", "pin", "main"; of torsion "all",
+            "modes", "campbell", "response", "waterfall". Other answers have one picture.
         orders: of an engine, which are drawn; default: all that are not negligible.
         scheme: of an engine, a balance scheme to compare with.
         speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.
+        small: of an engine, the share of one cylinder's first order below which the ladder leaves a
+            part.
 
     Raises:
         BalcliError: there is no such picture of it, with those that there are.
@@ -89,12 +93,14 @@ def plot(
         >>> plot(load("v8.toml"), "polar").savefig("v8.png")
     """
     check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
+    options = SchemeOptions(small=check_small(check_number("small", small, "give a share")))
     match shown:
         case Engine():
-            return _plot_engine(shown, what or "overview", orders, scheme, speeds_rpm)
+            return _plot_engine(shown, what or "overview", orders, scheme, options, speeds_rpm)
         case Analysis():
             asked = shown.orders if orders is None else orders
-            return _plot_engine(shown.engine, what or "overview", asked, scheme, speeds_rpm)
+            page = what or "overview"
+            return _plot_engine(shown.engine, page, asked, scheme, options, speeds_rpm)
         case Balance():
             study = Study(shown.after, shown.before, shown.remedy)
             return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
@@ -119,11 +125,12 @@ def _plot_engine(
     what: str,
     orders: Iterable[float] | None = None,
     scheme: str | None = None,
+    options: SchemeOptions | None = None,
     speeds_rpm: ArrayLike | None = None,
 ) -> Figure:
     if check_page(what) not in OF_TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
-        return make_page(PageSubject(compute_study(engine, what, asked, scheme)), what)
+        return make_page(PageSubject(compute_study(engine, what, asked, scheme, options)), what)
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
@@ -137,7 +144,11 @@ def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     return make_torsion(result, check_page(what, known))
 
 
-_SHOWN = {"inner": "inner", "bank": "force"}  # the only results that these pages need
+_SHOWN = {
+    "inner": "inner",
+    "bank": "force",
+    "ladder": "ladder",
+}  # the only results that these pages need
 
 
 class Asked(NamedTuple):

@@ -4,7 +4,7 @@ over the bank angle.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -16,16 +16,18 @@ from ..core.phasors import Array, Phasors
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
+from ..forces.kinds import VECTORS
 from ..forces.spectrum import compute_spectra
 from ..sizing.bobweights import FactorPeaks
-from ..sizing.factor import find_best_factor
+from ..sizing.factor import find_best_peaks
+from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
-from ..sizing.remedy import Remedy
+from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..torque.plot import PAGES, GasPicture, compute_picture
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("bank", *PAGES)  # studies of the engine as it is
+_ALONE = ("ladder", "bank", *PAGES)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
@@ -52,6 +54,7 @@ class Study(NamedTuple):
         factors: rows of peaks over the balance factor, ascending; the best of all among them.
         banks: an order over the bank angle.
         bent: what bends the crankshaft now, and before.
+        steps: the engine with the devices of each step of the ladder, by name.
         gas: pressures, torque or loads of an engine with gas.
     """
 
@@ -61,7 +64,22 @@ class Study(NamedTuple):
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
+    steps: Mapping[str, Analysis] = {}
     gas: GasPicture | None = None
+
+
+def analyze_steps(
+    engine: Engine, ladder: Ladder, orders: Iterable[float] | None
+) -> dict[str, Analysis]:
+    """Return free forces and moments of an engine with the devices of each listed step, by number
+    and name of the step.
+    """
+    return {
+        f"{k} {step.step}": analyze(
+            fit_devices(engine, step.remedy), orders, [kind.name for kind in VECTORS]
+        )
+        for k, step in enumerate(ladder.steps)
+    }
 
 
 def compute_study(
@@ -77,7 +95,7 @@ def compute_study(
         engine: without trailing axes.
         orders: orders to show; "bank" shows the first one.
         scheme: the balance scheme to compare with, if any.
-        options: of the scheme; "factor" takes planes alone.
+        options: of the scheme; "factor" takes planes alone, "ladder" small.
 
     Raises:
         BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page; the engine
@@ -93,6 +111,9 @@ def compute_study(
         bent = tuple(map(find_inner_loads, engines))
         return Study(found.after, found.before, found.remedy, bent=bent)
     now = analyze(engine, orders)
+    if what == "ladder":
+        ladder = find_ladder(engine, (options or SchemeOptions()).read_small())
+        return Study(now, steps=analyze_steps(engine, ladder, orders))
     if what in PAGES:
         return Study(now, gas=compute_picture(engine, what))
     if what == "inner":
@@ -122,8 +143,8 @@ def _sweep_factors(
     if asked.factor is not None or asked.measured is not None:
         raise BalcliError("--what factor shows all factors: leave --factor and --measured out")
     asked = asked._replace(factor=FACTORS)
-    sweep = size(engine, "factor", asked).sweep
-    return tuple(sorted({*sweep, find_best_factor(engine, asked, sweep)}))
+    found = size(engine, "factor", asked)
+    return tuple(sorted({*found.sweep, find_best_peaks(engine, asked, found)}))
 
 
 def swing_banks(engine: Engine, order: float) -> Banks:

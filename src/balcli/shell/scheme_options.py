@@ -12,6 +12,7 @@ from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..show.formats import Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import NAMES
+from .options import parse_small
 from .values import optional, read_lengths, read_mass_on_scales, read_share
 
 
@@ -64,6 +65,7 @@ def parse_scheme_options(
     measured: str | None,
     roll: str | None,
     units: Units,
+    small: str | None = None,
 ) -> SchemeOptions:
     """Return the options of a balancing scheme, in SI; each argument is an option as typed, or
     None.
@@ -92,6 +94,7 @@ def parse_scheme_options(
         factor=None if factor is None else _parse_factors(factor),
         measured=None if measured is None else _parse_measured(measured, units),
         roll=roll,
+        small=None if small is None else parse_small(small),
     )
 
 
@@ -116,7 +119,7 @@ def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
         asked: Value of `--scheme`; None: not given.
         options: Options of the scheme.
     """
-    if asked is None and options == SchemeOptions():
+    if asked is None and options._replace(small=None) == SchemeOptions():
         return None
     return choose_scheme(asked, options)
 

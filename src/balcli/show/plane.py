@@ -6,11 +6,12 @@ the file says which way is up, that is up in the pictures.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors
 from .plot_style import BLUE, INK, PAPER, RED, SOFT, Look, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
@@ -89,7 +90,7 @@ def draw_locus(
         before: Phasors whose path is drawn dashed; None: none.
     """
     shown = [curve] if before is None else [curve, before]
-    paths = [each.values(np.radians(np.arange(find_period_deg(each) + 1))) for each in shown]
+    paths = [values_over_period(each) for each in shown]
     largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
     s = unit.fit(float(most))
     limit = set_up_plane(ax, float(most) / s.size, names, s.name)
@@ -111,10 +112,57 @@ def draw_locus(
     ax.text(0, float(largest) / s.size + 0.06 * limit, size, ha="center", va="bottom", bbox=_BOX)
 
 
+def draw_paths(
+    ax: Axes,
+    paths: Mapping[str, Complex],
+    names: Sequence[str],
+    unit: str,
+    *,
+    taper: float = 0.0,
+) -> None:
+    """Draw several paths of a vector's tip.
+
+    Args:
+        ax: Axes of the picture.
+        paths: Paths by label, in the unit of the axes, real upwards, each of shape (angles,).
+        names, unit: Names of the axes and their unit.
+        taper: By how much each path is thinner than the one below it.
+    """
+    from matplotlib import colormaps
+
+    set_up_plane(ax, max(float(np.abs(path).max()) for path in paths.values()), names, unit)
+    shades = np.linspace(0, 0.9, len(paths))
+    widths = 1.5 + taper * np.arange(len(paths))[::-1]
+    for (label, path), shade, width in zip(paths.items(), shades, widths, strict=True):
+        look: Look = {"color": colormaps["viridis"](shade), "linewidth": width, "label": label}
+        ax.plot(path.imag, path.real, "o-", markevery=360, markersize=3, **look)
+
+
+def draw_loci(
+    ax: Axes, curves: Mapping[str, Phasors], names: Sequence[str], unit: ShownUnit
+) -> None:
+    """Draw where the tips of several vectors, by name, go in a revolution; vectors that agree are
+    all seen.
+    """
+    largest = [float(find_largest(curve)) for curve in curves.values()]
+    s = unit.fit(max(largest))
+    sizes = (size_text(size, unit, 4) if size else NOTHING for size in largest)
+    labels = [f"{name}: {size}" for name, size in zip(curves, sizes, strict=True)]
+    every = (values_over_period(curve) / s.size for curve in curves.values())
+    paths = dict(zip(labels, every, strict=True))
+    draw_paths(ax, paths, names, s.name, taper=0.7)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
+
+
 def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: Any) -> None:
     """Draw an arrow between two places of the plane."""
     ends = (tip.imag, tip.real), (start.imag, start.real)
     ax.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **look})
+
+
+def values_over_period(curve: Phasors) -> Complex:
+    """Return the values of a curve at every degree until its visible orders repeat."""
+    return curve.values(np.radians(np.arange(find_period_deg(curve) + 1)))
 
 
 def find_period_deg(curve: Phasors) -> int:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,11 +14,12 @@ import numpy as np
 from ..core.cylinders import DeviceKind
 from ..core.extrema import find_least
 from ..core.levers import share_by_lever
-from ..core.peaks import find_peak
+from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.engine import Engine
 from ..engine.rods import CylinderMasses
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
+from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
 from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
@@ -27,6 +29,8 @@ from .planes import SAME_PLACE, find_unbalance, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
 _NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
+_FLAT = 1e-9  # of the largest value: factors that differ by less are equally good
+_ROUNDS = 32  # to 2e-7 of the range of factors
 COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
 IN_SUM = (
     "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
@@ -71,7 +75,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     or opposite each pin if they stand in fewer than two places (of pins in one plane in sum).
 
     Of several factors all peaks are listed, and the one that leaves the smallest peak force is
-    fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`).
+    fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`). The best of all
+    factors between the first and the last, or of one between 0 and 1, are details.
 
     Raises:
         BalcliError: a factor that is no share, planes where moments are not known, or a crankshaft
@@ -90,6 +95,9 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     best = min(sweep, key=lambda peaks: peaks.cost).factor
     fitting, found = _fit_factor(engine, best, planes)
     fitting = fitting.add_details(**_describe(engine, options, best))
+    span = (min(factors), max(factors)) if len(sweep) > 1 else (0.0, 1.0)
+    if bests := _find_best_factors(engine, planes, *span):
+        fitting = fitting.add_details(best=bests)
     own = bool(_find_counterweights(engine)[1].any())
     from_pin = (complex(unit(-float(engine.first_axis_deg))) * found.needs).T.tolist()
     needs = [
@@ -105,19 +113,63 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     )
 
 
-def find_best_factor(
-    engine: Engine, options: SchemeOptions, sweep: Sequence[FactorPeaks]
-) -> FactorPeaks:
-    """Return the peaks at the best factor of all between those of a sweep, to 1e-4 of its step.
+def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> FactorPeaks:
+    """Return the peaks at the best factor of all between those of a sweep.
 
-    The peak of a force that grows evenly with the factor at each crank angle is a convex function
-    of it, and so is that of the moment: the best of all stands next to the best of the sweep.
+    Args:
+        engine: Engine.
+        options: Options of the scheme.
+        remedy: Remedy by several factors.
     """
-    planes = _choose_planes(engine, options)
-    k = min(range(len(sweep)), key=lambda k: sweep[k].cost)
-    low, high = sweep[max(k - 1, 0)].factor, sweep[min(k + 1, len(sweep) - 1)].factor
-    found = find_least(lambda f: find_factor_peaks(engine, f, planes).cost, low, high)
-    return min(sweep[k], find_factor_peaks(engine, found, planes), key=lambda peaks: peaks.cost)
+    planes, best = _choose_planes(engine, options), remedy.details.get("best", {})
+    found = [find_factor_peaks(engine, one["factor"], planes) for one in best.values()]
+    return min(*remedy.sweep, *found, key=lambda peaks: peaks.cost)
+
+
+def _find_best_factors(
+    engine: Engine, planes: tuple[float, ...] | None, low: float, high: float
+) -> dict[str, dict[str, float]]:
+    """Return the factors of all between two that leave the smallest peak force, or moment where the
+    pins balance each other, and the smallest main bearing load; none for what no factor changes.
+
+    At each crank angle a force grows evenly with the factor, so that its peak is a convex function.
+    """
+    first, last = (_list_curves(engine, factor, planes) for factor in (low, high))
+    best: dict[str, dict[str, float]] = {}
+    for key, curve in first.items():
+        change = last[key] - curve
+
+        def judge(share: float, curve: Phasors = curve, change: Phasors = change) -> float:
+            return float(find_largest((curve + share * change).drop_noise()).max())
+
+        share = find_least(judge, 0.0, 1.0, _ROUNDS)
+        tried = [*(one["factor"] for one in best.values()), round(low + share * (high - low), 6)]
+        sizes = [judge((factor - low) / (high - low)) for factor in tried]
+        least, most = min(sizes), max(judge(0.0), judge(1.0))
+        factor = tried[next(k for k, size in enumerate(sizes) if size - least <= _FLAT * most)]
+        if most - least > _FLAT * most:
+            name = key.removeprefix("peak_").rpartition("_")[0]
+            best[name] = {"factor": factor, key: least}
+    return best
+
+
+def _list_curves(
+    engine: Engine, factor: float, planes: tuple[float, ...] | None
+) -> dict[str, Phasors]:
+    """Return what is left with a factor, by the names of its peaks: free force or moment, and loads
+    of main bearings if they are known.
+    """
+    fitting, _ = _fit_factor(engine, factor, planes)
+    new = fit_devices(fitting.engine, fitting.remedy)
+    by_moment = engine.places_known and _do_pins_balance(engine)
+    key, kind = ("peak_moment_Nm", "moment") if by_moment else ("peak_force_N", "force")
+    curves = {key: find_curve(new, kind)}
+    bearings = place_bearings(new.joined_throws_m) if new.places_known else None
+    if bearings is not None:
+        with suppress(BalcliError):  # too many to keep apart
+            loads, z = compute_loads(new, find_relevant_orders(new))
+            curves["main_bearing_N"] = compute_bearing_forces(loads, z, bearings)
+    return curves
 
 
 def _note(fitting: Fitting, factor: float, z: Array, *, own: bool, unasked: bool) -> str:

@@ -133,7 +133,7 @@ def test_even_knuckles_are_not_for_rotary_engines():
 def test_the_page_has_the_knuckle_pins_of_turning_cylinders():
     """As seen from the cylinder, in the mirror."""
     subject = rotary_engine(more=ARTICULATED.format(radius=48, length=184, cg=60))
-    third = next(c for c in scene(analyze(subject), None, SYSTEMS["si"])["cylinders"] if c["number"] == 3)
+    third = next(c for c in scene(analyze(subject), {}, SYSTEMS["si"])["cylinders"] if c["number"] == 3)
     assert third["lead"] == pytest.approx(-720 / 7)
     assert third["knuckle"] == pytest.approx([48 * np.cos(4 * np.pi / 7), -48 * np.sin(4 * np.pi / 7)])
 
