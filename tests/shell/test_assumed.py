@@ -110,12 +110,18 @@ def test_what_varies_is_not_assumed(file: str) -> None:
 
 def test_two_engines_have_what_holds_for_one_after_its_name(file: str, tmp_path: Path) -> None:
     other = tmp_path / "other.toml"
-    other.write_text(
-        FILE.replace("[layout]", 'name = "x"\n[layout]\nstrokes = 4').replace('name = "x"\n', ""), encoding="utf-8"
-    )
+    other.write_text(FILE.replace("[layout]", "[layout]\nstrokes = 4"), encoding="utf-8")
     assumed = ask("sum", file, str(other))["assumed"]
     assert CRANK[1] in assumed
     assert "first: layout.strokes = 4" in assumed
+
+
+def test_on_mounts_other_engines_have_theirs_after_their_names(file: str, tmp_path: Path) -> None:
+    other = tmp_path / "other.toml"
+    other.write_text('name = "other four"\n' + FILE.partition("[gas]")[0], encoding="utf-8")
+    assumed = ask("mounts", file, str(other))["assumed"]
+    assert {*CRANK, GRAVITY, FACTOR} <= {*assumed}
+    assert [line for line in assumed if line.startswith("other four: crank.throws = [0, 180, 180, 0]")]
 
 
 def test_a_chain_names_the_steel_of_its_shafts() -> None:

@@ -23,6 +23,7 @@ from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_mapping, check_speeds, tell_arguments
+from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
@@ -34,6 +35,7 @@ from .rigid_body import AXES, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
+_OF_BODY = ("body", "mount")  # tables of the file that count
 
 
 def choose_mount_speeds(engine: Engine) -> Real:
@@ -100,13 +102,15 @@ def report_mounts(
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
     of_engine = (engine and engine.list_assumed("gas", without=idle)) or ()
+    of_others = ((label, each.list_assumed("gas", without=idle)) for label, each in others)
+    told = (f"{label}: {tell_assumed(lines)}" for label, lines in of_others if lines)
     response = found.pop(0) if found else None
     settled = settle(mounted, response.loads.mean if response else 0.0)
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
     return MountReport(
         name=title,
-        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), ("body", "mount")))
+        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
         or None,
         modes=tuple(
             BodyMode(

@@ -233,7 +233,12 @@ def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
 
 
 def tell_assumed(assumed: Iterable[str]) -> str:
-    """The same in words, the name of [gas] once before all its keys."""
+    """The same in words, the name of [gas] once before all its keys; then that of single engines,
+    after their names.
+    """
     lines = list(assumed)
-    later = [line for line in lines if line.startswith("gas.")][1:]
-    return ", ".join(line.removeprefix("gas.") if line in later else line for line in lines)
+    single = [line for line in lines if ": " in line]
+    common = [line for line in lines if line not in single]
+    later = [line for line in common if line.startswith("gas.")][1:]
+    words = ", ".join(line.removeprefix("gas.") if line in later else line for line in common)
+    return "; ".join(filter(None, [words, *single]))
