@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.levers import bound_arms, find_ahead, find_arms, share_by_lever
+from ..core.loads import bound_arms, find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature

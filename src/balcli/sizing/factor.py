@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.extrema import find_least
-from ..core.levers import share_by_lever
+from ..core.loads import share_by_lever
 from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..engine.engine import Engine
