@@ -174,12 +174,13 @@ def test_a_text_is_no_direction(tmp_path):
 
 def test_the_page_of_a_report_stands_upright():
     """All that is drawn of an engine that is turned as a whole is drawn as before."""
-    upright, turned = (scene(analyze(build_text(leaning(turn, turn))), None, SI) for turn in (0.0, 30.0))
+    each = [analyze(build_text(leaning(turn, turn))) for turn in (0.0, 30.0)]
+    upright, turned = (scene(one, {"as drawn": one}, SI) for one in each)
     assert turned["axes"] == ("vertical", "horizontal")
     for key in ("cylinders", "variants"):
         for a, b in zip(upright[key], turned[key], strict=True):
             assert _numbers(b) == pytest.approx(_numbers(a), abs=1e-9)
-    assert scene(analyze(build_text(leaning(0))), None, SI)["axes"] == ("x", "y")
+    assert scene(analyze(build_text(leaning(0))), {}, SI)["axes"] == ("x", "y")
 
 
 def _numbers(entry: object) -> list[float]:

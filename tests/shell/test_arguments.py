@@ -52,7 +52,7 @@ def test_iterables_are_read_no_farther_than_a_limit(ask):
 
 
 def test_a_sweep_of_one_value_is_no_picture():
-    told = "a picture shows one or two parameters with several values each, not 0"
+    told = "0 parameters have several values; a picture shows one or two of them"
     assert refused(balcli.plot, balcli.sweep(V8, {"rod.ratio": [0.25]}, "force.1.major"))[1] == told
 
 

@@ -56,7 +56,7 @@ def test_digits_of_what_is_told_in_brief(digits):
     assert cells[2:] == [f"{size:.{digits}g}" for size in (moment["major"], *parts)]
     assert f"moment of up to {moment['major']:.{digits}g} N·m" in brief
     peak = result["peak"]["moment_Nm"]
-    assert f"moment      {peak:.{digits}g} N·m" in brief or digits == 3  # no fewer than before the point
+    assert f"moment       {peak:.{digits}g} N·m" in brief or digits == 3  # no fewer than before the point
     assert "4321.5 rpm" in brief
 
 

@@ -158,9 +158,9 @@ def test_a_picture_that_cannot_be_is_refused_before_the_sweep(monkeypatch):
     large = ("--vary", "piston.mass=0:2:0.001", "--vary", "crank.stroke=80:100:0.01")
     options = ("-o", "x.csv", "--plot", "x.svg")
     message = refusal("sweep", "good.toml", *large, *options)
-    assert message.startswith("4004001 variants are too many for one picture")
+    assert message.startswith("4 004 001 variants are too many for a picture")
     message = refusal("sweep", "good.toml", "--vary", "crank.stroke=80", *options)
-    assert message.startswith("a picture shows one or two parameters")
+    assert message.startswith("0 parameters have several values; a picture shows one or two")
     assert os.listdir() == ["good.toml"]
 
 

@@ -49,11 +49,12 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert UNKNOWN[1:] in told
     assert "moment balanced" not in told
     assert "no moment" not in told
-    assert "no free force of orders 1 and 2 (moments are not known)" in told
     brief = balcli("analyze", twin)[1]
     assert "moment – N" not in brief
     assert re.search(r"^1 +balanced +– +– +–$", brief, re.MULTILINE)
-    assert "leave no free force (moments are not known) of orders 1 and 2" in brief
+    ladder = brief.partition("What balances it, step by step")[2]
+    assert "force, " in ladder
+    assert "moment" not in ladder
 
 
 def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
@@ -74,6 +75,12 @@ def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path)
         assert (status, err) == (0, "")
         known, found = json.loads(out), json.loads(balcli(command, twin, "--format", "json")[1])
         assert "assumed" not in known
+        assert "moment_Nm" in known["ladder"]["scale"]
+        assert "moment_Nm" not in found["ladder"]["scale"]
+        assert "bearings" not in found.get("after", {})
+        for one in (found, known):  # of what moments decide nothing is told
+            for key in ("ladder", "sizing", "step"):
+                one.pop(key, None)
         assert found == known | {"assumed": ["crank.spacing = 0"]}
 
 

@@ -110,8 +110,8 @@ def test_json_is_one_document_a_line_without_what_json_has_no_word_for(show, nam
 def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objective(balcli):
     throws = ("search", ENGINES / "i5.toml", "--over", "throws", "--minimise")
     one = balcli(*throws, "moment.1.major").out.splitlines()
-    assert one[3].split() == ["throws", "moment.1.major,", "N·m"]
-    assert re.fullmatch(r"0-144-216-288-72 +973[.]12", one[5])
+    assert one[3].split() == ["throws", "moment.1.major,", "kN·m"]
+    assert re.fullmatch(r"0-144-216-288-72 +0[.]97312", one[5])
     two = balcli(*throws, "moment.1.major,moment.2.major").out.splitlines()
     assert two[3].split()[:2] == ["throws", "objective"]
     assert max(map(len, two[:-2])) <= 80
