@@ -46,7 +46,7 @@ from ..show.sheet import (
     size_text,
 )
 from ..show.units import SI, ShownUnit, System
-from ..sizing.ladder import Ladder
+from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
@@ -90,6 +90,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     notes = (
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
+        _tell_bearings(result, system),
         tell_best_factors(result, system),
         _tell_negligible(result),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
@@ -121,6 +122,22 @@ def _tell_left(result: Balance, system: System) -> str:
         return f"Leaves {'; '.join(left)}."
     what = "force or moment" if result.after.moments_known else "force"
     return f"Leaves no {what} of orders 1 and 2."
+
+
+def _tell_bearings(result: Balance, system: System) -> str:
+    """Return what weights at every throw would do for the main bearings where counterweights do
+    nothing else.
+    """
+    remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
+    loads = {step.step: step.main_bearing_N for step in steps}
+    before, after = loads.get(AS_DRAWN), loads.get(WEIGHTS_AT_THROWS)
+    if remedy.scheme != "counterweights" or remedy.devices or not (before and after):
+        return ""
+    unit = system.unit(FORCE).fit(before)
+    return (
+        "At every throw (--planes throws) they lower the largest main bearing load from "
+        f"{number(unit.of(before), 4)} to {number(unit.of(after), 4)} {unit.name}."
+    )
 
 
 def _tell_negligible(result: Balance) -> str:

@@ -12,7 +12,6 @@ from collections.abc import Callable
 from ..core.phasors import wrap_degrees
 from ..engine.engine import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import find_crank_loads
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
@@ -32,7 +31,7 @@ from .planes import (
     measure_direction,
     read_planes,
 )
-from .remedy import Remedy, fit_devices
+from .remedy import Remedy
 from .residual import (
     BACKWARD_FORCE,
     BACKWARD_MOMENT,
@@ -100,15 +99,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
-    told = f"Order 1 is balanced already: counterweights change no free {what}."
-    with_weights = fit_devices(engine, add_at_throws(Fitting.start(engine, "")).remedy)
-    before, after = (find_crank_loads(one) for one in (engine, with_weights))
-    if before and after and after.main_N < before.main_N:
-        told += (
-            " At every throw (--planes throws) they lower the largest main bearing load from "
-            f"{before.main_N / 1e3:.4g} to {after.main_N / 1e3:.4g} kN."
-        )
-    return told
+    return f"Order 1 is balanced already: counterweights change no free {what}"
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:

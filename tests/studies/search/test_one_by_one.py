@@ -270,7 +270,7 @@ def test_no_more_designs_than_can_be_waited_for(monkeypatch):
     monkeypatch.setattr(evaluate, "MOST_DESIGNS_ONE_BY_ONE", 3)
     model, goal = parse(SIX), parse_objective("torque.3.amplitude", with_gas=True)
     designs = ({"rod.length": 200.0 + k} for k in range(9))
-    with pytest.raises(Exception, match="there are more than 3 arrangements"):
+    with pytest.raises(Exception, match=r"^more than 3 arrangements, too many"):
         evaluate.rank_one_by_one(model, designs, goal, tell_nobody)
 
 
@@ -300,7 +300,8 @@ def test_a_number_stays_as_it_is_typed():
 def test_heads_of_a_table_have_the_units_of_numbers_and_figures():
     path = ENGINES / "i4_wiebe.toml"
     asked = ("--over", "gas.imep=8:12", "--minimise", "fluctuation")
-    head = run_here("search", path, *asked).out.splitlines()[3]
+    lines = run_here("search", path, *asked).out.splitlines()
+    head = next(line for line in lines if line.startswith("gas.imep"))
     assert re.split(r" {2,}", head) == ["gas.imep, bar", "fluctuation"]
 
 
@@ -405,4 +406,4 @@ def test_a_line_of_equally_good_points_is_one_result():
     other = found.results[0].line
     assert other != found.results[0].design
     assert other["cylinder.1.piston_mass"] == pytest.approx(other["cylinder.2.piston_mass"], abs=1e-6)
-    assert "Row 1 stands for a straight line of equally good points" in " ".join(str(found).split())
+    assert "Row 1 stands for a straight line of equally good points" in " ".join(found._repr_html_().split())
