@@ -149,14 +149,14 @@ def test_csv_names_components_like_json(tmp_path):
 @pytest.mark.parametrize(
     ("kind", "axis_deg", "up", "words"),
     [
-        ("force", 0, 0, "4 N vertical (along x) ("),
-        ("force", 0, -90, "4 N horizontal (along x) ("),
-        ("force", 30, 210, "4 N vertical (along an axis at 30.0 deg) ("),
-        ("moment", 0, 0, "4 N·m yawing (about x) ("),
-        ("moment", 90, 0, "4 N·m pitching (about y) ("),
-        ("moment", 90, 89.96, "4 N·m yawing (about y) ("),
-        ("force", 30, 0, "4 N along an axis at 30.0 deg, 3.464 vertical and 2 horizontal ("),
-        ("moment", 90, None, "4 N·m about y ("),
+        ("force", 0, 0, "4 N vertical (along x);"),
+        ("force", 0, -90, "4 N horizontal (along x);"),
+        ("force", 30, 210, "4 N vertical (along an axis at 30.0 deg);"),
+        ("moment", 0, 0, "4 N·m yawing (about x);"),
+        ("moment", 90, 0, "4 N·m pitching (about y);"),
+        ("moment", 90, 89.96, "4 N·m yawing (about y);"),
+        ("force", 30, 0, "4 N along an axis at 30.0 deg, 3.464 vertical and 2 horizontal;"),
+        ("moment", 90, None, "4 N·m about y;"),
     ],
 )
 def test_the_verdict_names_the_direction(kind, axis_deg, up, words):

@@ -43,7 +43,8 @@ def document(*arguments: object, text: str | None = None) -> dict:
 @pytest.mark.stress
 def test_every_scheme_and_format(scheme):
     for form in ("table", "csv", "markdown", "json"):
-        result = run("-", "--scheme", scheme, "--format", form, text=SINGLE)
+        step = ("--step", "1") if scheme == "step" else ()
+        result = run("-", "--scheme", scheme, *step, "--format", form, text=SINGLE)
         assert result.status == 0, result.err
         assert result.out.strip()
 
@@ -83,9 +84,16 @@ def test_csv_has_one_figure_a_line(file):
         *(f"counterweight {k}" for k in (1, 2, 3, 4)),
         "shaft 1",
         "shaft 2",
+        "step",
+        "ladder",
         "before",
         "after",
     }
+    ladder = {(r["quantity"], r["figure"]): r["value"] for r in rows if r["part"] == "ladder"}
+    assert ladder["as drawn", "counterweights"] == "0"
+    after = {r["figure"]: r["value"] for r in rows if r["quantity"] == "bearings" and r["part"] == "after"}
+    (step,) = (r["value"] for r in rows if r["part"] == "step")
+    assert after["main_N"] == ladder[step, "main_bearing"]
     assert devices["shaft 2", "speed_rpm"] == "6000.0"
 
 

@@ -88,5 +88,5 @@ def test_the_verdict_names_the_roll_couple_that_remains():
         operation={"speed": 6500},
     )
     first, *_ = verdict(compute_spectra(single, [1, 2]), SI)
-    assert "Roll couple of 35.3" in first
-    assert "No moment" not in first
+    assert "roll couple of 35.34 N·m" in first
+    assert "o moment" not in first

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from random import Random
@@ -9,11 +10,12 @@ from random import Random
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import refusal
+from support.commands import ask, refusal, run_here
 from support.engines import build_text
 from support.paths import ROOT, write
 
-from balcli.balancing.answer import balance_engine, insert_remedy
+from balcli.balancing.answer import balance, balance_engine, insert_remedy
+from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
@@ -206,3 +208,77 @@ def test_small_lists_a_step_that_is_left_out(tmp_path):
     assert {shaft.ratio for shaft in remedy.shafts} == {-1}
     for command in ("analyze", "balance", f"compare {path}", "plot -o x.svg", "report -o x.html"):
         assert "from 0 to 50%" in refusal(*command.split(), path, "--small", "60%")
+
+
+# ------------------------------------------------------------------ what people ask for otherwise
+ROTATING = (
+    write_engine([0, 100, 200, 300], [0, 180, 180, 0])
+    .replace("mass = 0.6", "mass = 0")
+    .replace("mass = 0.5", "mass = 0")
+)
+
+
+@pytest.mark.parametrize("command", ["analyze", "balance"])
+def test_an_engine_of_rotating_masses_alone_has_a_ladder(command, tmp_path):
+    """One cylinder makes nothing beside which a part is small."""
+    path = write(tmp_path / "rotating.toml", ROTATING)
+    found = json.loads(run_here(command, path, "-f", "json").out)["ladder"]
+    assert found["scale"] == {"force_N": 0.0, "moment_Nm": 0.0}
+    assert [step["step"] for step in found["steps"]] == [AS_DRAWN, WEIGHTS_AT_THROWS]
+    assert "What balances it" in run_here(command, path).out
+
+
+def test_a_fall_by_rounding_lists_no_step():
+    """Engines with weights at every throw already: nothing falls, whatever is called small."""
+    engine = build_text(ROTATING)
+    fitted = fit_devices(engine, find_ladder(engine).fit())
+    assert [step.step for step in find_ladder(fitted, small=0.0).steps] == [AS_DRAWN]
+
+
+def test_what_a_step_leaves_is_told_whatever_orders_are_shown():
+    told = ask("balance", ROOT / "engines" / "i3.toml", "--orders", "4")
+    assert "Leaves order 2: moment 282.9 N·m." in told
+
+
+@pytest.mark.parametrize(
+    ("step", "right"), [(1, "counterweights"), ("1", "counterweights"), ("shaft at -1", "shaft at -1")]
+)
+def test_a_step_is_named_or_numbered(step, right):
+    found = balance(load(ROOT / "engines" / "i3.toml"), "step", SchemeOptions(step=step))
+    assert (found.remedy.scheme, found.remedy.step) == ("step", right)
+
+
+def test_scheme_step_without_a_step_is_refused():
+    assert "scheme step: name one" in refusal("balance", ROOT / "engines" / "i3.toml", "--scheme", "step")
+    with pytest.raises(TypeError, match="step"):
+        balance(load(ROOT / "engines" / "i3.toml"), "step", SchemeOptions(step=1.5))
+
+
+@pytest.mark.parametrize("engine", ["v5.toml", "car/ford_ecoboost_1_0.toml"])
+def test_the_third_step_that_is_left_out_says_what_it_would_do(engine):
+    ladder = find_ladder(load(ROOT / "engines" / engine), small=0.5)
+    (out,) = (one for one in ladder.left_out if one.step == WEIGHTS_AT_THROWS)
+    with pytest.raises(BalcliError) as refused:
+        ladder.fit(WEIGHTS_AT_THROWS)
+    told = str(refused.value)
+    assert ("would lower" if out.main_bearing_N > 0 else "would raise") in told
+    assert ("--small" in told) == (out.main_bearing_N > 0)
+
+
+@pytest.mark.parametrize("small", [-0.01, 0.51, float("nan")])
+def test_what_counts_as_small_is_checked_by_every_function(small):
+    with pytest.raises(BalcliError, match="give a share of one cylinder from 0 to 50"):
+        find_ladder(load(ROOT / "engines" / "i3.toml"), small=small)
+
+
+def test_the_command_that_fits_the_same_is_named():
+    told = ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder", "--small", "2%")
+    assert "balcli balance --small 2% fits step" in told
+    assert "balcli balance" not in ask("balance", ROOT / "engines" / "i3.toml", "--step", "1").partition("What is")[0]
+
+
+def test_a_scheme_is_not_told_to_take_what_is_small():
+    """With --small 50% most is: then no other scheme is named for it."""
+    told = refusal("balance", ROOT / "engines" / "i5.toml", "--scheme", "couple-shaft", "--small", "50%")
+    assert "small beside one cylinder" in told
+    assert " takes the " not in told

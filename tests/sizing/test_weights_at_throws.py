@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.commands import ask, ask_json
+from support.engines import build_text
 from support.paths import ENGINES
 
 from balcli.analysis.answer import analyze
 from balcli.engine.build import build
 from balcli.engine.load import load
 from balcli.engine.parse import parse
+from balcli.errors import BalcliError
 from balcli.forces.crankshaft import find_crank_loads
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
@@ -95,4 +97,17 @@ def test_loads_before_and_after_are_printed(tmp_path):
     assert "they lower the largest main bearing load from 48.23 to 12.53 kN." in " ".join(told.split())
     assert "largest inner moment, kN·m" in told
     (tmp_path / "single.toml").write_text(FOUR.replace("[0, 180, 180, 0]", "[0]").replace("[1, 3, 4, 2]", "[1]"))
-    assert "bearings" not in ask_json("balance", tmp_path / "single.toml")["before"]
+    assert set(ask_json("balance", tmp_path / "single.toml")["before"]["bearings"]) == {"inner_moment_Nm", "inner_mm"}
+
+
+def test_weights_at_throws_need_known_positions():
+    unknown = build_text(FOUR.replace("spacing = 94\n", ""))
+    with pytest.raises(BalcliError, match="--planes throws: moments are not known"):
+        size(unknown, "counterweights", AT_THROWS)
+
+
+def test_no_weight_at_a_throw_where_none_is_needed():
+    engine = build_text(FOUR)
+    fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
+    again = size(fitted, "counterweights", AT_THROWS)
+    assert (again.devices, again.note) == ((), "At every throw, what turns with the crank is balanced already")

@@ -6,12 +6,10 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Annotated, Literal, TypedDict
 
-import numpy as np
-
 from ..core.cylinders import find_travel
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array
-from ..core.records import INLINE, WrittenAs
+from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
@@ -39,6 +37,7 @@ from ..show.result import Result
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
+from ..sizing.residual import Scales, find_scales
 from .records import (
     CylinderShare,
     PeaksAndOrders,
@@ -74,6 +73,7 @@ class Analysis(Result):
         travel: Strokes and dead centers of articulated cylinders and of the masters; left out where
             all cylinders are plain slider-cranks.
         why: Whether the orders shown are balanced by symmetry.
+        small: Share of what one cylinder makes below which a part is small.
     """
 
     format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
@@ -89,6 +89,7 @@ class Analysis(Result):
     guide: Annotated[GuideMoments | None, WrittenAs(describe_guide)] = None
     travel: tuple[Stroke, ...] | None = None
     why: Symmetry | None = None
+    small: Annotated[float, HIDDEN] = SMALL
 
     @property
     def summary(self) -> str:
@@ -125,23 +126,18 @@ class Analysis(Result):
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Force of cylinder 1's piston and rod end, `m r omega^2` (N), its moment over the length
-        of the crank and its torque at the radius of the crank (N m), by kind, against which a value
-        is judged to be small. The length is that between the outermost throws; of throws in one
-        plane, between the outermost cylinders (stagger), or else the stroke.
-        """
-        engine = self.engine
-        masses = engine.weighed[engine.numbers.index(1)]
-        force = float(
-            (masses.piston + masses.small_end) * engine.cylinders.radius * engine.omega**2
-        )
-        radius = float(engine.cylinders.radius)
-        length = float(np.ptp(engine.throws_m)) or float(np.ptp(engine.cylinders.z)) or 2 * radius
+        """What one cylinder makes at most, by kind, beside which a value is judged to be small."""
+        scales = self.scales
         return {
-            "force": force,
-            "moment": force * length,
-            **{kind.name: force * radius for kind in SCALARS},
+            "force": scales.force,
+            "moment": scales.moment,
+            **{kind.name: scales.roll for kind in SCALARS},
         }
+
+    @property
+    def scales(self) -> Scales:
+        """What one cylinder makes at most."""
+        return find_scales(self.engine)
 
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
@@ -222,6 +218,7 @@ def analyze(
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         **_compute_chapters(engine, asked, wanted, guide_height_m, small),
         why=_explain(engine, visible.orders, shown) if reasons else None,
+        small=small,
     )
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ..core.records import list_figures, remove_unit, to_document
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import FORCE, MOMENT, Kind
+from ..limits import SMALL
 from ..show.sheet import (
     UNKNOWN,
     Grid,
@@ -65,8 +68,17 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
     return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
 
 
-def ladder_grid(ladder: Ladder, engine: Engine, system: System) -> Grid:
-    """Return one row a step of the ladder, with sentences on what is fitted and what left out."""
+def ladder_grid(
+    ladder: Ladder, engine: Engine, system: System, *, tell_fitted: bool = True
+) -> Grid:
+    """Return one row a step of the ladder, with sentences on what is left out.
+
+    Args:
+        ladder: Ladder to show.
+        engine: Engine as drawn.
+        system: System of units.
+        tell_fitted: Whether a sentence says what `balcli balance` fits.
+    """
     steps, scale = ladder.steps, ladder.scale
 
     def column(kind: Kind, key: str, least: float) -> tuple[str, list[str]]:
@@ -91,26 +103,30 @@ def ladder_grid(ladder: Ladder, engine: Engine, system: System) -> Grid:
     at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
     heads = tuple(head for head, _ in columns)
     fitted = [step.step for step in steps].index(ladder.auto)
-    fits = f"balcli balance fits step {fitted}." if fitted else "balcli balance fits nothing."
-    left = (_tell_left_out(one, ladder, system) for one in ladder.left_out)
+    option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
+    what = f"step {fitted}" if fitted else "nothing"
+    notes = [f"balcli balance{option} fits {what}."] * tell_fitted
+    notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
     rows = tuple(zip(*(cells for _, cells in columns), strict=True))
-    return Grid(f"What balances it, step by step ({at})", heads, rows, " ".join([fits, *left]))
+    return Grid(f"What balances it, step by step ({at})", heads, rows, " ".join(notes))
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     """Return a sentence on a step that is left out, with the larger of what it would take."""
-    share = f"{ladder.measure(out):.1f} % of one cylinder's first order"
+    size = abs(ladder.measure(out))
+    digits = f"{size:.1f}" if round(size, 1) < 100 * ladder.small else f"{size:.3g}"
+    share = "" if math.isnan(size) else f" ({digits} % of one cylinder's first order)"
     what = f"a {out.step}" if out.step == SHAFT else out.step
     if (fall := out.main_bearing_N) is not None:
         does = "lower" if fall >= 0 else "raise"
-        size = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))
-        takes = f"{does} the largest main bearing load by {size}"
-        return f"{capitalized(what)} would {takes} ({share}): left out."
-    force, moment = out.force_N, out.moment_Nm or 0.0
-    by_moment = moment / (ladder.scale.moment_Nm or 1) > force / ladder.scale.force_N
+        change = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))
+        takes = f"{does} the largest main bearing load by {change}"
+        return f"{capitalized(what)} would {takes}{share}: left out."
+    force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
+    by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
     kind, value = (MOMENT, moment) if by_moment else (FORCE, force)
-    size = size_text(value, system.unit(kind).fit(value))
-    return f"{capitalized(what)} would remove {size} ({share}): left out."
+    part = size_text(value, system.unit(kind).fit(value))
+    return f"{capitalized(what)} would remove {part}{share}: left out."
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
@@ -239,6 +255,13 @@ def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit)
 
 
 # ------------------------------------------------------------------ for programs
+def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:
+    """Yield step, name, value and SI unit of every figure of a ladder."""
+    for step in ladder.steps:
+        for name, value, unit in list_figures(to_document(step), ("step",)):
+            yield step.step, remove_unit(name), value, unit
+
+
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
     """Yield each device with its name among those of its kind: `shaft 2`."""
     numbers: Counter[str] = Counter()

@@ -6,17 +6,18 @@ which part needs shafts.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.phasors import Phasors, wrap_degrees
+from ..file.fields import join_words
 from ..file.messages import ordinal
 from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
+from ..limits import SMALL
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import (
     NEGLIGIBLE,
@@ -24,14 +25,15 @@ from ..show.sheet import (
     UNKNOWN,
     Facts,
     Grid,
-    capitalized,
     degrees,
     number,
     order_name,
+    sentence,
     size_text,
     small_text,
 )
 from ..show.units import ShownUnit, System
+from ..sizing.residual import Scales
 from .order_tables import fit_largest, peak_facts
 
 if TYPE_CHECKING:
@@ -159,16 +161,24 @@ def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, 
     return (largest, ahead, against) if phasors.orders[k] else (largest, UNKNOWN, UNKNOWN)
 
 
-_NAMES = dict(
-    enumerate(["First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"], 1)
-)
-_MOST_HIGH_ORDERS = 8  # near the lock dozens matter: these one by one, the others together
+_NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
+_MOST_WORDS = 25  # of a sentence
+_MOST_TOLD = 8  # near the lock dozens of orders matter: these one by one, the others together
+_MOST_NAMED = 5  # orders in a row
 _AXES = {"0.0": "x", "90.0": "y"}
-_Row = tuple[int, float]  # index of an order, and the order
-_UNKNOWN: Mapping[str, float] = MappingProxyType({})
+_WEIGHTS = "counterweights"
 _UNEVEN = (
     "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
     "order there also cancels what that order adds to others."
+)
+_Wording: TypeAlias = Literal["components", "axis", "angle", ""]  # of a direction
+_WORDINGS: tuple[tuple[_Wording, bool], ...] = (  # the longest first; whether parts have sizes
+    ("components", True),
+    ("components", False),
+    ("axis", True),
+    ("axis", False),
+    ("angle", False),
+    ("", False),
 )
 
 
@@ -178,190 +188,230 @@ class _Vector(NamedTuple):
     kind: Kind
     phasors: Phasors
     unit: ShownUnit
-    single: float
+    scale: float
     up_deg: float | None
 
+    def part(self, k: int, sense: int) -> float:
+        """Return the size of what turns with the crank (1), or against it (-1)."""
+        turning = self.phasors.forward if sense > 0 else self.phasors.backward
+        return float(abs(turning[k]))
+
+    def find_large(self, k: int, small: float) -> list[int]:
+        """Return the senses in which something turns that is not small."""
+        sizes = {sense: self.part(k, sense) for sense in (1, -1)}
+        return [sense for sense, size in sizes.items() if size and size >= small * self.scale]
+
+    def tell_size(self, k: int, sense: int = 0) -> str:
+        """Return the largest value of an order, or of its part in one sense."""
+        size = self.part(k, sense) if sense else float(self.phasors.major[k])
+        return size_text(size, self.unit)
+
+    def describe(self, k: int, wording: _Wording) -> str:
+        """Return size and direction: `force of 4 N along x`."""
+        told = f"{self.kind.name} of {self.tell_size(k)}"
+        if not wording:
+            return told
+        sense = next((sense for sense in (1, -1) if not self.part(k, -sense)), 0)
+        return f"{told} {f'turning {_SENSES[sense]}' if sense else self._tell_axis(k, wording)}"
+
+    def _tell_axis(self, k: int, wording: _Wording) -> str:
+        """Return the axis along which a force acts, or about which a moment does; and what that is
+        called where the file says which way is up.
+        """
+        axis_deg, up = float(self.phasors.axis_deg[k]), self.up_deg
+        angle = degrees(axis_deg, 180)
+        axis = self.kind.tell_axis(_AXES.get(angle) or f"an axis at {angle} deg")
+        if wording == "angle" and angle not in _AXES:
+            return f"at {angle} deg"
+        if up is None:
+            return axis
+        names = dict(zip(_AXES, self.kind.upright, strict=True))
+        if name := names.get(degrees(float(wrap_degrees(axis_deg - up, 180)), 180)):
+            return f"{name} ({axis})"
+        if wording != "components":
+            return axis
+        turned, unit = self.phasors.turn(-up), self.unit.fit(float(self.phasors.major[k]))
+        parts = zip((turned.x[k], turned.y[k]), self.kind.upright, strict=True)
+        sizes = " and ".join(f"{number(unit.of(abs(c)), 4)} {name}" for c, name in parts)
+        return f"{axis}, {sizes}"
+
+
+_SENSES = {1: "with the crank", -1: "against the crank"}
+
+
+class _Order(NamedTuple):
+    """An order, and what is to be said of it.
+
+    Attributes:
+        k, order: Its index, and the order.
+        large: Those of force and moment that are not small.
+        rest: The others.
+        couple: Its roll couple in words, where the moment is balanced and the couple is not.
+        cures: What would cancel the parts that are not small, by sense of rotation.
+    """
+
+    k: int
+    order: float
+    large: list[_Vector]
+    rest: list[_Vector]
+    couple: str
+    cures: Mapping[int, str]
+
     @property
-    def what(self) -> str:
-        return self.kind.name
+    def name(self) -> str:
+        """`Second order`."""
+        if self.order % 1:
+            return f"Order {order_name(self.order)}"
+        n = int(self.order)
+        return f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
 
-    def size(self, k: int) -> str:
-        unit, value = self.unit_at(k), float(self.phasors.major[k])
-        return f"{number(unit.of(value), 4)} {unit.name}"
+    @property
+    def balanced(self) -> bool:
+        """Whether force and moment are."""
+        return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
-    def unit_at(self, k: int) -> ShownUnit:
-        return self.unit.fit(float(self.phasors.major[k]))
+    def tell(self) -> str:
+        """Return the longest sentence on the order that is not too long."""
+        if not self.large:
+            names = " and ".join(vector.kind.name for vector in self.rest)
+            how = "balanced" if self.balanced else "small"
+            return f"{self.name}: {self.couple}; {names} {how}."
+        told = ""
+        for wording, sizes in _WORDINGS:
+            there = " and ".join(vector.describe(self.k, wording) for vector in self.large)
+            there = ", ".join(filter(None, (there, self.couple)))
+            told = f"{self.name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
+            if len(told.split()) <= _MOST_WORDS:
+                break
+        return told
 
-    def matters(self, k: int) -> bool:
-        return bool(self.phasors.major[k] > NEGLIGIBLE * self.single)
+    def _tell_cure(self, sizes: bool) -> str:
+        """Return what cancels the order; with the sizes of its parts, if there is one vector."""
+        if not self.cures:
+            return ""
+        if self.order > 2:
+            return f"usually left: its shafts would turn at {self.order:g} times crank speed"
+        one = self.large[0] if len(self.large) == 1 else None
+        everything = one.kind.name if one else ""
+        everything = f"the {everything}" if self.couple and one else "it" if one else "both"
+        if len(self.cures) == 1:
+            ((sense, device),) = self.cures.items()
+            cancel = "cancel" if device == _WEIGHTS else "cancels"
+            if not any(vector.part(self.k, -sense) for vector in self.large):
+                return f"{device} {cancel} {everything}"
+            what = (
+                f"{one.tell_size(self.k, sense)} of it" if one else f"what turns {_SENSES[sense]}"
+            )
+            return f"{device} {cancel} {what}"
+        if self.order == 2:
+            return f"shafts at +2 and -2 cancel {everything}"
+        if one and sizes:
+            ahead, against = (one.tell_size(self.k, sense) for sense in (1, -1))
+            return f"{self.cures[1]} cancel {ahead} of it, {self.cures[-1]} the other {against}"
+        return f"{self.cures[1]} and {self.cures[-1]} cancel {everything}"
 
 
 def verdict(
     spectra: Spectra,
     system: System,
-    single: Mapping[str, float] = _UNKNOWN,
+    scales: Scales | None = None,
     *,
+    small: float = SMALL,
     steady: bool = True,
     devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
-    """Return a sentence for every order that matters; none without forces and moments.
+    """Return a sentence for every order that is not small, and one on the others, each of at most
+    25 words; none without forces and moments.
 
     Args:
-        single: force (N) and moment (N m) of one cylinder's reciprocating mass, against which an
-            order may be negligible.
-        steady: whether the speed is. If not, no cure is named: most of an order may come
-            from another one through the unevenness, and vanishes with that one.
+        spectra: Spectra to judge.
+        system: System of units.
+        scales: What one cylinder makes; None: not known, and nothing is small.
+        small: Share of it below which a part is small.
+        steady: Whether the speed is. If not, no cure is named: most of an order may come from
+            another one through the unevenness, and vanishes with that one.
         devices: Devices of the file, which are not named as what would cancel an order.
     """
+    of_one = {} if scales is None else scales._asdict()
     vectors = [
-        _Vector(kind, phasors, system.unit(kind), single.get(kind.name, 0.0), spectra.up_deg)
+        _Vector(kind, phasors, system.unit(kind), of_one.get(kind.name, 0.0), spectra.up_deg)
         for kind, phasors in spectra.vectors()
     ]
     if not vectors:
         return ()
-    rows = [(k, order) for k, order in enumerate(spectra.orders) if order > 0]
-    higher = [(k, order) for k, order in rows if order not in (1, 2)]
-    told = [
-        _tell_low_order(k, int(order), vectors, spectra.couple, steady, devices)
-        for k, order in rows
-        if order in (1, 2)
-    ]
-    if any(vector.matters(k) for k, _ in rows for vector in vectors):
-        told += _tell_high_orders(higher, vectors, steady)
-        told += [] if steady else [_UNEVEN]
-    elif largest := _tell_largest(higher, vectors):
-        told.append(f"Higher orders: negligible, at most {largest}.")
-    if higher and not told:
-        names, couple = [vector.what for vector in vectors], spectra.couple
-        sizes = [] if couple is None else [couple.major[k] for k, _ in higher]
-        told.append(f"The orders shown: {_tell_balanced(names, max(sizes, default=0.0), vectors)}")
-    return tuple(told)
+
+    def judge(k: int, order: float) -> _Order:
+        senses = {vector.kind.name: vector.find_large(k, small) for vector in vectors}
+        due = {sense for found in senses.values() for sense in found} if steady else set()
+        couple, moment_balanced = 0.0, all(v.phasors.balanced[k] for v in vectors[1:])
+        if spectra.couple and order <= 2 and moment_balanced:
+            couple = float(spectra.couple.major[k])
+        told = couple > NEGLIGIBLE * of_one.get("roll", 0.0)
+        return _Order(
+            k=k,
+            order=order,
+            large=[vector for vector in vectors if senses[vector.kind.name]],
+            rest=[vector for vector in vectors if not senses[vector.kind.name]],
+            couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
+            cures=dict(_list_cures(int(order), due, devices)),
+        )
+
+    every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
+    matter = [one for one in every if one.large or one.couple]
+    alone = matter if len(matter) <= _MOST_TOLD + 1 else matter[:_MOST_TOLD]
+    told = [one.tell() for one in alone]
+    if more := matter[len(alone) :]:
+        span = f"{order_name(more[0].order)} to {order_name(more[-1].order)}"
+        largest = _tell_largest([(one, v) for one in more for v in one.large])
+        told.append(f"Orders {span}, {len(more)} more: at most {largest}.")
+    if not steady and any(one.large for one in every):
+        told.append(_UNEVEN)
+    names = " and ".join(vector.kind.name for vector in vectors)
+    balanced = [one.order for one in every if one.balanced and one not in matter]
+    small_ones = _tell_largest([(one, vector) for one in every for vector in one.rest])
+    if told or small_ones or min(balanced, default=3) <= 2:  # odd ones are of no interest then
+        balanced = [order for order in balanced if order <= 2]
+    rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
+    last = "; ".join(filter(None, rest))
+    return (*told, sentence(last)) if last else tuple(told)
 
 
-def _order_name(order: float) -> str:
-    if order % 1:
-        return f"Order {order_name(order)}"
-    return f"{_NAMES[int(order)] if order < len(_NAMES) else ordinal(int(order))} order"
+def _list_cures(
+    order: int, due: Collection[int], devices: Sequence[Device]
+) -> Iterator[tuple[int, str]]:
+    """Yield what would cancel an order, by sense of rotation, as far as the file has none.
 
-
-def _tell_low_order(
-    k: int,
-    order: int,
-    vectors: list[_Vector],
-    couple: Phasors | None,
-    steady: bool,
-    devices: Sequence[Device],
-) -> str:
-    """Return for order 1 or 2 its forces, the way they turn, and at steady speed the cure; the
-    roll couple where the moment is balanced.
+    Args:
+        order: Order.
+        due: Senses in which something turns that is not small.
+        devices: Devices of the file.
     """
-    there, balanced = [], []
-    for vector in vectors:
-        if vector.phasors.balanced[k]:
-            balanced.append(vector.what)
-            continue
-        told, cure = _tell_vector(k, order, vector, devices)
-        there.append(f"{told}: {cure}." if cure and steady else f"{told}.")
-    left = 0.0 if couple is None else float(couple.major[k])
-    if not there:
-        return f"{_order_name(order)}: {_tell_balanced(balanced, left, vectors)}"
-    rest = there[1:]
-    if "moment" in balanced and left:
-        rest.append(f"roll couple of {size_text(left, vectors[-1].unit)}.")
-    elif balanced:
-        rest.append(f"no {balanced[0]}.")
-    return f"{_order_name(order)}: {' '.join([there[0], *map(capitalized, rest)])}"
+    for sense in (1, -1):
+        fitted = any(
+            np.any(device.forward if sense > 0 else device.backward)
+            for device in devices
+            if device.order == order
+        )
+        if sense in due and not fitted:
+            yield sense, _WEIGHTS if order * sense == 1 else f"a shaft at {order * sense:+d}"
 
 
-def _tell_balanced(names: list[str], couple: float, vectors: list[_Vector]) -> str:
-    """Return the balanced quantities, and the roll couple (N m) that remains."""
-    remains = f"; roll couple of {size_text(couple, vectors[-1].unit)}" if couple else ""
-    return f"{' and '.join(names)} balanced{remains if 'moment' in names else ''}."
+def _tell_balanced(orders: Sequence[float], names: str) -> str:
+    """Return which orders are balanced."""
+    if not orders:
+        return ""
+    which = f"{len(orders)} orders"
+    if len(orders) <= _MOST_NAMED:
+        which = f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
+    return f"{names} of {which} {'are' if ' ' in names else 'is'} balanced"
 
 
-def _tell_high_orders(higher: list[_Row], vectors: list[_Vector], steady: bool) -> Iterator[str]:
-    """Yield sentences on the higher orders that are small neither next to one cylinder nor next to
-    other orders: the lowest one by one, the others together.
-    """
-    least = [NEGLIGIBLE * vector.phasors.major.max() for vector in vectors]
-    worth: list[tuple[int, float, list[str]]] = []
-    for k, order in higher:
-        sizes = [
-            f"{vector.what} up to {vector.size(k)}"
-            for vector, small in zip(vectors, least, strict=True)
-            if vector.matters(k) and vector.phasors.major[k] > small
-        ]
-        worth += [(k, order, sizes)] if sizes else []
-    alone = len(worth) if len(worth) == _MOST_HIGH_ORDERS + 1 else _MOST_HIGH_ORDERS
-    for _, order, sizes in worth[:alone]:
-        shafts = f"it would need shafts at {order:g} times crank speed"
-        cure = f"; usually left unbalanced ({shafts})" * steady
-        yield f"{_order_name(order)}: {', '.join(sizes)}{cure}."
-    if others := [(k, order) for k, order, _ in worth[alone:]]:
-        first, last = others[0][1], others[-1][1]
-        largest = _tell_largest(others, vectors)
-        span = f"{order_name(first)} to {order_name(last)}"
-        yield f"Orders {span}, {len(others)} more: at most {largest}."
-
-
-def _tell_largest(rows: list[_Row], vectors: list[_Vector]) -> str:
-    """Return the largest force and moment of some orders; empty if all are balanced."""
-    told = []
-    for vector in vectors if rows else ():
-        k, order = max(rows, key=lambda row: vector.phasors.major[row[0]])
-        if vector.phasors.major[k]:
-            told.append(f"a {vector.what} of {vector.size(k)} in order {order_name(order)}")
-    return " and ".join(told)
-
-
-def _tell_vector(k: int, order: int, vector: _Vector, devices: Sequence[Device]) -> tuple[str, str]:
-    """Return one vector of order 1 or 2: its size and how it turns; and what cancels it, nothing
-    where it is negligible, or where the file has such devices already.
-    """
-    own = [device for device in devices if device.order == order]
-    ahead_fitted = any(np.any(device.forward) for device in own)
-    against_fitted = any(np.any(device.backward) for device in own)
-    what, phasors, unit, size = vector.what, vector.phasors, vector.unit_at(k), vector.size(k)
-    if not vector.matters(k):
-        return f"{what} of up to {size}, negligible", ""
-    forward, backward = abs(phasors.forward[k]), abs(phasors.backward[k])
-    shafts = "counterweights cannot cancel it; use {} times crank speed"
-    if backward == 0:
-        cure = shafts.format(f"a balancer shaft at +{order}")
-        by_weights = "counterweights on the crankshaft cancel it"
-        cure = by_weights if order == 1 else cure
-        return f"{what} of {size}, turning with the crank", "" if ahead_fitted else cure
-    if forward == 0:
-        cure = shafts.format(f"a balancer shaft at -{order}")
-        return f"{what} of {size}, turning against the crank", "" if against_fitted else cure
-    cure = shafts.format(f"two balancer shafts, at +{order} and -{order}")
-    if order == 1:
-        weights = "" if ahead_fitted else "counterweights cancel the first, "
-        shaft = "a balancer shaft at -1 times crank speed"
-        cure = f"{weights}{shaft}{' cancels' if ahead_fitted else ''} the second"
-    if against_fitted:
-        cure = "counterweights cancel the first" * (order == 1 and not ahead_fitted)
-    elif ahead_fitted and order > 1:
-        cure = ""
-    ahead, against = number(unit.of(forward), 4), number(unit.of(backward), 4)
-    parts = f"{ahead} {unit.name} rotates with the crank, {against} {unit.name} against it"
-    direction = _tell_direction(k, vector)
-    return f"{what} of up to {size} {direction} ({parts})", cure
-
-
-def _tell_direction(k: int, vector: _Vector) -> str:
-    """Return the axis along which a force acts, or about which a moment does; and what that is
-    called where the file says which way is up.
-    """
-    kind, axis_deg, up = vector.kind, float(vector.phasors.axis_deg[k]), vector.up_deg
-    angle = degrees(axis_deg, 180)
-    axis = kind.tell_axis(_AXES.get(angle) or f"an axis at {angle} deg")
-    if up is None:
-        return axis
-    names = dict(zip(_AXES, kind.upright, strict=True))
-    if name := names.get(degrees(float(wrap_degrees(axis_deg - up, 180)), 180)):
-        return f"{name} ({axis})"
-    turned, unit = vector.phasors.turn(-up), vector.unit_at(k)
-    parts = zip((turned.x[k], turned.y[k]), kind.upright, strict=True)
-    sizes = " and ".join(f"{number(unit.of(abs(c)), 4)} {name}" for c, name in parts)
-    return f"{axis}, {sizes}"
+def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:
+    """Return the largest force and the largest moment of some orders; empty if all are balanced."""
+    largest: dict[str, tuple[float, str]] = {}
+    for one, vector in found:
+        size, name = float(vector.phasors.major[one.k]), vector.kind.name
+        if size > largest.get(name, (0.0, ""))[0]:
+            text = f"{name} of {vector.tell_size(one.k)} (order {order_name(one.order)})"
+            largest[name] = size, text
+    return ", ".join(text for _, text in largest.values())

@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import list_figures, remove_unit, to_document
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
@@ -18,10 +17,9 @@ from ..show.figures import FigureRow, figure_rows
 from ..show.formats import Renderer
 from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
 from ..show.units import System
-from ..sizing.ladder import Ladder
 from . import sections
 from .answer import Analysis, Sizing
-from .devices_show import device_grid, device_rows, ladder_grid, number_devices
+from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
     cylinder_table,
     direction_tables,
@@ -149,9 +147,14 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         return
     spectra, known = result.spectra, result.moments_known
     spectra = spectra if known else replace(spectra, moment=None)
-    steady = not result.engine.ripple
-    devices = result.engine.devices
-    told = verdict(spectra, system, result.of_one_cylinder, steady=steady, devices=devices)
+    told = verdict(
+        spectra,
+        system,
+        result.scales,
+        small=result.small,
+        steady=not result.engine.ripple,
+        devices=result.engine.devices,
+    )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
     if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing
@@ -208,7 +211,8 @@ def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Itera
     shares = {share.cylinder: share.spectra for share in result.cylinders or ()}
     yield from figure_rows(result, system, shares)
     if "ladder" in named and result.ladder is not None:
-        yield from _list_ladder(result.ladder)
+        for step, name, value, unit in list_ladder(result.ladder):
+            yield FigureRow(0, step, None, name, value, unit)
     if "sizing" in named and result.sizing is not None:
         for part, device in number_devices(result.sizing.remedy.devices):
             for figure, value, unit in device_rows(device, system):
@@ -221,12 +225,6 @@ def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Itera
         yield from sections.list_guide(result.guide, system)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
-
-
-def _list_ladder(ladder: Ladder) -> Iterator[FigureRow]:
-    for step in ladder.steps:
-        for name, value, unit in list_figures(to_document(step), ("step",)):
-            yield FigureRow(0, step.step, None, remove_unit(name), value, unit)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)

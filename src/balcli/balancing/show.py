@@ -14,6 +14,7 @@ from ..analysis.devices_show import (
     device_rows,
     holes_grid,
     ladder_grid,
+    list_ladder,
     number_devices,
     practical_grid,
 )
@@ -25,6 +26,7 @@ from ..core.records import INLINE, Node, list_figures, remove_unit, to_document,
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
+from ..forces.spectrum import compute_spectra
 from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows
 from ..show.formats import Renderer
@@ -71,7 +73,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
-        parts.append(ladder_grid(result.ladder, engine, system))
+        other = bool(remedy.step) and remedy.scheme != "auto"
+        parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=not other))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -108,19 +111,19 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 def _tell_left(result: Balance, system: System) -> str:
     """Return what a step leaves of orders 1 and 2, and the couple."""
-    left = []
-    for order in (1, 2):
-        found = []
-        for kind in (FORCE, MOMENT, COUPLE):
-            phasors = result.after.spectra[kind.name]
-            size = float(phasors.major[result.after.orders.tolist().index(order)])
-            if size and (kind is FORCE or result.after.moments_known):
-                found.append(f"{kind.name} {size_text(size, system.unit(kind).fit(size))}")
+    known, left = result.after.moments_known, []
+    kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
+    spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
+    for k, order in enumerate((1, 2)):
+        sizes = [(kind, float(spectra[kind.name].major[k])) for kind in kinds]
+        found = [
+            f"{kind.name} {size_text(size, system.unit(kind))}" for kind, size in sizes if size
+        ]
         if found:
             left.append(f"order {order}: {', '.join(found)}")
     if left:
         return f"Leaves {'; '.join(left)}."
-    what = "force or moment" if result.after.moments_known else "force"
+    what = "force or moment" if known else "force"
     return f"Leaves no {what} of orders 1 and 2."
 
 
@@ -255,6 +258,8 @@ def _crank_loads(result: Balance, system: System) -> Iterator[Grid]:
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
         sizes = [getattr(state, key) for state in states]
+        if None in sizes:
+            continue
         unit = system.unit(kind).fit(max(sizes))
         places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
         cells = [(number(unit.of(size)), at) for size, at in zip(sizes, places, strict=True)]
@@ -362,11 +367,18 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
             yield part, "", "", *figure
         yield from _rows_of(part, practical)
     yield from _rows_of("details", details_document(result))
+    if result.remedy.step:
+        yield "step", "", "", "name", result.remedy.step, ""
+    for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
+        yield "ladder", step, "", name, value, unit
     if result.permitted is not None:
         yield from _rows_of("permitted", result.permitted)
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
+        if loads := find_crank_loads(analysis.engine):
+            for name, value in write_each(loads).items():
+                yield state, "bearings", "", name, value, ""
 
 
 def _rows_of(part: str, record: Any) -> Iterator[tuple[Any, ...]]:

@@ -15,13 +15,14 @@ shaft and block is that of inertia alone, with the block's own devices.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.loads import bound_arms, find_ahead, find_arms, share_by_lever
-from ..core.peaks import Peak, find_peak
+from ..core.peaks import Peak, find_largest, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature
 from ..core.vectors_over_cycle import Vectors, find_panels
@@ -91,18 +92,19 @@ class InnerLoads(NamedTuple):
     obstacle: str = ""
 
 
-class CrankLoads(NamedTuple):
-    """Largest inertia loads within a crankshaft with throws in several planes.
+@dataclass(frozen=True, kw_only=True)
+class CrankLoads:
+    """Largest inertia loads within a crankshaft.
 
     Attributes:
-        main_N: Largest load of a main bearing.
-        main_mm: Axial place of this bearing.
+        main_N: Largest load of a main bearing; left out where all throws stand in one plane.
+        main_mm: Axial place of this bearing, likewise.
         inner_moment_Nm: Largest bending moment.
         inner_mm: Axial place of this moment.
     """
 
-    main_N: float
-    main_mm: float
+    main_N: float | None = None
+    main_mm: float | None = None
     inner_moment_Nm: float
     inner_mm: float
 
@@ -136,20 +138,28 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 def find_crank_loads(engine: Engine) -> CrankLoads | None:
     """Return the largest inertia loads within the crankshaft of an engine with its counterweights;
-    None where all throws stand in one plane, where positions are not known, and where there are too
-    many loads to keep apart.
+    None where positions are not known, of rotary engines, and where there are too many loads to
+    keep apart.
     """
-    if not engine.places_known or len(set(engine.joined_throws_m.tolist())) < 2:
+    if not engine.places_known or engine.rotary:
         return None
     try:
-        inner = compute_inner_loads(engine)
+        loads, z = compute_loads(engine, merge_orders(find_relevant_orders(engine), [1, 2]))
     except BalcliError:
         return None
-    if inner.bearings is None:
-        return None
-    each = ((along, along.largest) for along in (inner.bearings, inner.bending))
-    figures = [(along.peaks[most].value, 1e3 * float(along.z_m[most])) for along, most in each]
-    return CrankLoads(*figures[0], *figures[1])
+    main_N = main_mm = None
+    if (bearings := place_bearings(engine.joined_throws_m)) is not None:
+        forces = compute_bearing_forces(loads, z, bearings)
+        main_N, main_mm = _find_largest_along(bearings, forces)
+    moment, inner_mm = _find_largest_along(np.unique(z), compute_bending(loads, z))
+    return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
+
+
+def _find_largest_along(places: Array, phasors: Phasors) -> tuple[float, float]:
+    """Return the largest peak over a revolution, and its place, mm; of equal ones the first."""
+    peaks = find_largest(phasors)
+    most = int(find_first_largest(peaks))
+    return float(peaks[most]), 1e3 * float(places[most])
 
 
 def _refuse_too_many_results(orders: int, loads: int) -> None:

@@ -40,10 +40,11 @@ from ..forces.spectrum import (
     merge_orders,
 )
 from ..limits import SMALL, WORTH_A_SHAFT
-from .fitting import Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
+from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
+from .options import check_small
 from .planes import find_ends, find_planes, find_unbalance
 from .remedy import Remedy
-from .residual import BACKWARD, FORWARD, Residual, ResidualPart, find_scales, find_size
+from .residual import BACKWARD, FORWARD, Residual, ResidualPart, Scales, find_scales, find_size
 
 AS_DRAWN = "as drawn"
 WEIGHTS = "counterweights"
@@ -125,23 +126,25 @@ class Ladder:
         auto: Step that is fitted unless another one is asked for.
         steps: Steps that are worth listing.
         left_out: Other steps that would take something.
+        small: Share of one cylinder below which a part is left.
     """
 
     scale: Scale
     auto: str
     steps: tuple[Step, ...]
     left_out: tuple[LeftOut, ...]
+    small: Annotated[float, HIDDEN] = SMALL
 
-    def fit(self, step: str | None = None) -> Remedy:
+    def fit(self, step: str | int | None = None) -> Remedy:
         """Return the devices of a listed step.
 
         Args:
-            step: Its name, or its number as text; None: `auto`.
+            step: Its name or number; None: `auto`.
 
         Raises:
             BalcliError: Nothing is fitted in this step, or it is not listed.
         """
-        name = self.auto if step is None else self._find_name(step)
+        name = self.auto if step is None else self._find_name(str(step))
         remedy = next(one.remedy for one in self.steps if one.step == name)
         return remedy._replace(scheme="auto" if step is None else "step", step=name)
 
@@ -154,21 +157,29 @@ class Ladder:
         rows = ", ".join(f"{k} {name}" for k, name in enumerate(names))
         for out in self.left_out:
             if out.step == name:
-                moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
-                share = self.measure(out)
-                raise BalcliError(
-                    f'step "{name}" is left out: it would take {out.force_N:.4g} N{moment}, '
-                    f"{share:.2g} % of one cylinder; --small {max(math.floor(share), 0)}% lists it"
-                )
+                raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
         why = "nothing is fitted as drawn" if name == AS_DRAWN else "there is no such step"
         raise BalcliError(f'step "{step[:60]}": {why}; this engine has {rows}')
 
+    def _explain(self, out: LeftOut) -> str:
+        """Return what a step would do, and the option that lists it, if one does."""
+        share, fall = self.measure(out), out.main_bearing_N
+        moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
+        does = f"it would take {out.force_N:.4g} N{moment}"
+        if fall is not None:
+            change = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load"
+            does = f"it would {change} by {abs(fall):.4g} N"
+        hint = f"; --small {math.floor(share)}% lists it" if fall is None or fall > 0 else ""
+        return f"{does}, {abs(share):.2g} % of one cylinder{hint}"
+
     def measure(self, out: LeftOut) -> float:
-        """Return the size of what a step would take or relieve, % of one cylinder."""
+        """Return the size of what a step would take, or by how much it would lower the load of a
+        main bearing, % of one cylinder; nan where a cylinder makes nothing.
+        """
+        sizes = [(out.force_N, self.scale.force_N), (out.moment_Nm or 0.0, self.scale.moment_Nm)]
         if out.main_bearing_N is not None:
-            return 100 * out.main_bearing_N / self.scale.force_N
-        moment = (out.moment_Nm or 0) / (self.scale.moment_Nm or 1)
-        return 100 * max(out.force_N / self.scale.force_N, moment)
+            sizes = [(out.main_bearing_N, self.scale.force_N)]
+        return max((100 * size / scale for size, scale in sizes if scale), default=math.nan)
 
 
 # ------------------------------------------------------------------ devices
@@ -231,11 +242,15 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     Args:
         engine: Engine without trailing axes.
         small: Share of one cylinder below which a part is left.
+
+    Raises:
+        BalcliError: `small` is not a share from 0 to 50 %.
     """
+    check_small(small)
     drawn, scales = Fitting.start(engine, ""), find_scales(engine)
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     meter = _Meter.start(engine)
-    listed, left_out, fitting = _list_weights(drawn, first, meter, small * scales.force, small)
+    listed, left_out, fitting = _list_weights(drawn, first, meter, scales, small)
     auto, shafts = listed[-1].step, {}
     for name, residual, senses in ((SHAFT, first, (-1,)), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
@@ -248,11 +263,11 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     steps = (*listed, *meter.measure(shafts, within=listed[-1]).values())
     moment = scales.moment if engine.places_known else None
     scale = Scale(force_N=scales.force, moment_Nm=moment)
-    return Ladder(scale=scale, auto=auto, steps=steps, left_out=tuple(left_out))
+    return Ladder(scale=scale, auto=auto, steps=steps, left_out=tuple(left_out), small=small)
 
 
 def _list_weights(
-    drawn: Fitting, first: Residual, meter: _Meter, least_fall: float, small: float
+    drawn: Fitting, first: Residual, meter: _Meter, scales: Scales, small: float
 ) -> tuple[list[Step], list[LeftOut], Fitting]:
     """Return the listed steps as drawn and with counterweights, those that are left out, and the
     fitting of the last one listed.
@@ -261,11 +276,11 @@ def _list_weights(
         drawn: Nothing fitted.
         first: What is left of order 1.
         meter: Measures steps.
-        least_fall: Of the main bearing load for which weights at every throw are listed, N.
+        scales: What one cylinder makes.
         small: Share of one cylinder below which a part is left.
     """
     engine = drawn.engine
-    turning = find_size(first, 1, find_scales(engine))
+    turning = find_size(first, 1, scales)
     fitted = {AS_DRAWN: drawn}
     if turning:
         fitted[WEIGHTS] = add_at_ends(drawn, first)
@@ -276,8 +291,9 @@ def _list_weights(
     if _counts(turning, small):
         names.append(WEIGHTS)
     if step := found.get(WEIGHTS_AT_THROWS):
-        fall = (found[names[-1]].main_bearing_N or 0.0) - (step.main_bearing_N or 0.0)
-        if _counts(fall, least_fall):
+        load = found[names[-1]].main_bearing_N or 0.0
+        fall = load - (step.main_bearing_N or 0.0)
+        if fall > LEFT * load and fall >= small * scales.force:
             names.append(WEIGHTS_AT_THROWS)
         elif step.counterweights:
             left_out.append(_leave_out(WEIGHTS_AT_THROWS, engine, first, [1], fall))

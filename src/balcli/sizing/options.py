@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from numbers import Complex, Integral, Real
+from types import NoneType
 from typing import Any, NamedTuple, cast
 
 from ..errors import BalcliError, wrong_type
@@ -41,7 +42,7 @@ class SchemeOptions(NamedTuple):
             vanishes, too.
         orders: orders of the force whose largest value is made smallest; default: all.
         small: share of one cylinder below which what turns one way in an order is left.
-        step: name or number of a step of the ladder.
+        step: name or number of a step of the ladder (scheme step).
     """
 
     order: int | None = None
@@ -53,7 +54,7 @@ class SchemeOptions(NamedTuple):
     roll: str | None = None
     orders: tuple[float, ...] | None = None
     small: float | None = None
-    step: str | None = None
+    step: str | int | None = None
 
     def read_small(self) -> float:
         """Return the share below which a part is small."""
@@ -84,6 +85,10 @@ class SchemeOptions(NamedTuple):
                 f"{HIGHEST_SHAFT_ORDER}"
             )
         check_small(self.read_small())
+        if scheme == "step" and self.step is None:
+            raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
+        if not isinstance(self.step, (str, int, NoneType)):
+            raise wrong_type("SchemeOptions: step", self.step, "give a name or number, such as 1")
         if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
@@ -126,7 +131,7 @@ def check_small(share: float) -> float:
     """
     if not 0 <= share <= MOST_SMALL:
         raise BalcliError(
-            f"small {share:.0%}: give a share of one cylinder from 0 to {MOST_SMALL:.0%}"
+            f"small {100 * share:g} %: give a share of one cylinder from 0 to {MOST_SMALL:.0%}"
         )
     return share
 

@@ -29,7 +29,7 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """Return z of the end planes, m: first and last throw; of throws in one plane, half a bore to
     either side of it, or without a bore the crank radius.
     """
-    low, high = _find_reach(engine.throws_m)
+    low, high = _find_reach(engine.joined_throws_m)
     if low < high:
         return low, high
     bore = float(engine.bore_m)

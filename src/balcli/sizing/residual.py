@@ -13,7 +13,7 @@ from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
-from ..limits import HIGHEST_ORDER_SOUGHT, SMALL
+from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
 
 PartKind = Literal["force", "moment", "roll"]  # names of kinds
@@ -223,7 +223,7 @@ def _find_lowest(
         found.append(residual)
     if small:
         largest = max(small, key=lambda one: one[0])[1]
-        raise OnlySmallError(tell_small(largest, sought, found, scales))
+        raise OnlySmallError(tell_small(largest, sought, found, scales, least))
     left_alone = _tell_left_alone(rests)
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
@@ -232,7 +232,11 @@ def _find_lowest(
 
 
 def tell_small(
-    largest: Residual, sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales
+    largest: Residual,
+    sought: Sequence[ResidualPart],
+    found: Sequence[Residual],
+    scales: Scales,
+    least: float,
 ) -> str:
     """Return why nothing is fitted: all that a scheme takes is small; and which scheme takes the
     largest of what there is.
@@ -242,6 +246,7 @@ def tell_small(
         sought: Parts that it takes.
         found: What is left of all orders.
         scales: What one cylinder makes.
+        least: Share of it below which a part is small.
     """
     part = max(sought, key=lambda one: find_share(largest, one, scales))
     told = (
@@ -252,7 +257,7 @@ def tell_small(
     parts = [part for part in (*FORWARD, *BACKWARD) if part.sense in senses]
     every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
     share, one, part = max(every, key=lambda each: each[0])
-    if share < SMALL:
+    if share < least:
         return told
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes

@@ -187,7 +187,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     forces = [one for one, size in zip(residuals, sizes, strict=True) if size and size >= least]
     if not forces and any(sizes):
         largest = max(zip(sizes, residuals, strict=True), key=lambda each: each[0])[1]
-        raise OnlySmallError(tell_small(largest, sought, residuals, scales))
+        raise OnlySmallError(tell_small(largest, sought, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError(
             "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "

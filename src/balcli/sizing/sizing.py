@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from ..core.phasors import wrap_degrees
 from ..engine.engine import Engine
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from .factor import size_by_factor
 from .fitting import (
     Fitting,
@@ -58,10 +58,8 @@ def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
     """Return the devices of the step asked for.
 
     Raises:
-        BalcliError: no step, or one that is not listed.
+        BalcliError: It is not listed.
     """
-    if options.step is None:
-        raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
     return find_ladder(engine, options.read_small()).fit(options.step)
 
 
@@ -82,7 +80,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if options.planes == "throws":
-        return add_at_throws(fitting).remedy
+        return _size_at_throws(fitting)
     if not any(residual.parts[part] for part in FORWARD):
         raise NothingToBalanceError(_tell_not_needed(engine))
     planes = find_ends(engine) if options.planes is None else read_planes(engine, options)
@@ -94,6 +92,22 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
         remedy = _compromise(fitting, slots, residual)
     if not remedy.devices and not remedy.note:  # dust was left
         raise NothingToBalanceError(_tell_not_needed(engine))
+    return remedy
+
+
+def _size_at_throws(fitting: Fitting) -> Remedy:
+    """Return weights at every throw.
+
+    Raises:
+        BalcliError: Positions of several throws are not known.
+        NothingToBalanceError: No throw needs one.
+    """
+    engine = fitting.engine
+    if not engine.places_known and len(engine.throws_m) > 1:
+        raise BalcliError(f"--planes throws: {MOMENTS_UNKNOWN}")
+    remedy = add_at_throws(fitting).remedy
+    if not remedy.devices:
+        raise NothingToBalanceError("At every throw, what turns with the crank is balanced already")
     return remedy
 
 
