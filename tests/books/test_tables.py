@@ -166,7 +166,7 @@ def test_words_are_folded_in_a_pipe_and_figures_are_not():
     assert words <= set(listed.split())
     figures = run("layouts", "--digits", "4").out.splitlines()
     assert len([line for line in figures if line.startswith("i4 ")]) == 1
-    assert max(map(len, figures)) > 200
+    assert max(map(len, figures)) > 150
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -14,12 +14,11 @@ from rich.text import Text as Line
 from support.cases import cases
 from support.paths import ENGINE_FILES, ENGINES
 
-from balcli import analyze, balance, load
+from balcli import analyze, load
 from balcli.analysis import comparison, show as analysis
 from balcli.analysis.comparison import compare_engines
-from balcli.balancing import show as balance_renderer
 from balcli.show.sheet import Facts, Grid, Sheet, Text, View
-from balcli.show.table import PROSE, count_places, fold, plain_text
+from balcli.show.table import PROSE, WIDTH, count_places, fold, plain_text
 from balcli.show.units import SYSTEMS
 
 WIDE = 100_000
@@ -36,7 +35,8 @@ def print_by_rich(sheets: list[Sheet]) -> str:
             if part.title:
                 console.print(Line(part.title))
             for piece in pieces_for_rich(part):
-                console.print(piece)
+                whole = isinstance(piece, Table) and isinstance(part, Grid)
+                console.print(piece, width=None if whole else WIDTH, soft_wrap=whole)
         console.print()
     return "\n".join(line.rstrip() for line in buffer.getvalue().splitlines())
 
@@ -74,11 +74,11 @@ def test_analyses_are_as_rich_prints_them():
         assert plain_text(sheets) == print_by_rich(sheets)
 
 
-def test_a_scheme_and_a_comparison_are_as_rich_prints_them():
+def test_an_analysis_and_a_comparison_are_as_rich_prints_them():
     si = SYSTEMS["si"]
     engines = [load(ENGINES / f"{name}.toml") for name in ("single", "i4", "vr6")]
     sheets = [
-        balance_renderer.sheet(balance(engines[0], "factor"), si),
+        analysis.sheet(analyze(engines[0]), si, View(whole=True)),
         comparison.sheet(compare_engines(engines, ["single", "i4", "vr6"]), si),
     ]
     assert plain_text(sheets) == print_by_rich(sheets)
@@ -115,3 +115,15 @@ def test_letters_take_the_places_they_have_in_a_terminal():
 def test_control_characters_command_nobody():
     sheet = Sheet("a\x1b[31m", (Text("", ("b\u202e", "c\x9b")),))
     assert plain_text([sheet]) == "a?[31m\n\nb?\nc?\n"
+
+
+def test_a_wide_table_is_narrowed_to_80_columns_but_no_figure_is_folded():
+    heads = ("step", *(f"a head of several words, unit {k}" for k in range(6)))
+    cells = ("2 counterweights at every throw", *("12345.6 ≠ 7",) * 6)
+    lines = plain_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    assert max(map(len, lines[2:])) > 80  # six figures of 11 places do not fit
+    assert any(line.count("12345.6 ≠ 7") == 6 for line in lines)
+    cells = ("2 counterweights at every throw", *("12345",) * 6)
+    lines = plain_text([Sheet("s", (Grid("", heads, (cells,)),))]).splitlines()
+    assert max(map(len, lines)) == 80
+    assert " ".join(" ".join(lines).split()).count("12345") == 6

@@ -138,7 +138,7 @@ def test_a_force_has_no_free_place():
     """The shafts of a four at +2 and -2 add a roll wherever they stand but on the crank axis, and
     there, too, about a point of reference elsewhere.
     """
-    table = run_here("analyze", I4, "--only", "sizing").out
+    table = " ".join(run_here("analyze", I4, "--only", "sizing").out.split())
     assert "free: " not in table
     assert "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere" in table
 

@@ -13,8 +13,10 @@ from itertools import chain, zip_longest
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
 
+WIDTH = 80  # of prose, and of tables as far as they can be folded
 GAP = 3  # blanks between the columns of a grid
 FACTS_GAP = 2  # between names and what they are
+LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded
 PROSE = 50  # width at which columns of words are folded; figures never are
 _SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write ourselves takes one place each
 
@@ -35,27 +37,39 @@ def _lines(sheet: Sheet) -> Iterator[str]:
             case Grid():
                 yield from _grid_lines(part)
                 if part.note:
-                    yield part.note
+                    yield from fold(part.note, WIDTH)
             case Facts():
                 yield from _fact_lines(part)
             case Text():
-                yield from part.paragraphs
+                yield from chain.from_iterable(fold(p, WIDTH) for p in part.paragraphs)
     yield ""
 
 
 def _grid_lines(grid: Grid) -> Iterator[str]:
     """Yield headings, a rule, and the rows; words to the left, figures to the right."""
-    widths = [_measure(grid, k) for k in range(len(grid.columns))]
-    yield from _row_lines(grid.columns, widths, grid.words)
-    yield "─" * (sum(widths) + GAP * (len(widths) - 1))
+    natural = [_measure(grid, k) for k in range(len(grid.columns))]
+    widths, gap = natural, GAP
+    if sum(natural) + GAP * (len(natural) - 1) > WIDTH:
+        least, gap = [_narrow(grid, k) for k in range(len(natural))], 2
+        widths = list(share_out(WIDTH, range(len(natural)), least, natural).values())
+    yield from _row_lines(grid.columns, widths, grid.words, gap)
+    yield "─" * (sum(widths) + gap * (len(widths) - 1))
     for row in grid.rows:
-        yield from _row_lines(row, widths, grid.words)
+        yield from _row_lines(row, widths, grid.words, gap)
 
 
 def _measure(grid: Grid, k: int) -> int:
     """Return the width of a column."""
     widest = max(map(count_places, column_texts(grid, k)))
     return min(widest, PROSE) if k and k in grid.words else widest
+
+
+def _narrow(grid: Grid, k: int) -> int:
+    """Return the least width of a column; figures are never folded."""
+    head, *cells = column_texts(grid, k)
+    if k in grid.words:
+        return max(longest_word([head, *cells]), min(_measure(grid, k), LABEL) if not k else 0)
+    return max([longest_word([head]), *map(count_places, cells)])
 
 
 def column_texts(grid: Grid, k: int) -> list[str]:
@@ -68,12 +82,38 @@ def column_texts(grid: Grid, k: int) -> list[str]:
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
-def _row_lines(cells: Sequence[str], widths: list[int], words: Sequence[int]) -> Iterator[str]:
+def longest_word(texts: Iterable[str]) -> int:
+    """Return how many places the longest word takes."""
+    return max((count_places(word) for text in texts for word in text.split()), default=1)
+
+
+def share_out(
+    width: int, columns: Sequence[int], least: Sequence[int], natural: Sequence[int]
+) -> dict[int, int]:
+    """Return the width of each column: the least, and what is left over to the one that lacks most,
+    until there is none.
+
+    Args:
+        width: Width of the table, with gaps of 2.
+        columns: Columns in it.
+        least: Least width of every column.
+        natural: Width that every column likes to have.
+    """
+    widths = {k: least[k] for k in columns}
+    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
+        needy = max(columns, key=lambda k: natural[k] - widths[k])
+        widths[needy] += natural[needy] > widths[needy]
+    return widths
+
+
+def _row_lines(
+    cells: Sequence[str], widths: Sequence[int], words: Sequence[int], gap: int
+) -> Iterator[str]:
     """Yield one line, or as many as the longest of its cells takes when it is folded."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
     for pieces in zip_longest(*folded, fillvalue=""):
         columns = enumerate(zip(pieces, widths, strict=True))
-        yield (" " * GAP).join(_justify(*cell, to_the_left=k in words) for k, cell in columns)
+        yield (" " * gap).join(_justify(*cell, to_the_left=k in words) for k, cell in columns)
 
 
 def _justify(text: str, width: int, *, to_the_left: bool) -> str:
@@ -107,8 +147,10 @@ def fold(text: str, width: int) -> list[str]:
 def _fact_lines(facts: Facts) -> Iterator[str]:
     """Yield names to the left, their values to the right."""
     width = max((count_places(name) for name, _ in facts.pairs), default=0)
+    room = max(WIDTH - width - FACTS_GAP, PROSE)
     for name, value in facts.pairs:
-        yield _justify(name, width, to_the_left=True) + " " * FACTS_GAP + value
+        for k, line in enumerate(fold(value, room)):
+            yield _justify("" if k else name, width, to_the_left=True) + " " * FACTS_GAP + line
 
 
 def count_places(text: str) -> int:

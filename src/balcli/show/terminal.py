@@ -12,9 +12,7 @@ from rich.text import Text as Line
 
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
-from .table import column_texts, count_places
-
-LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded
+from .table import LABEL, column_texts, count_places, longest_word, share_out
 
 
 def terminal(sheets: list[Sheet]) -> str:
@@ -62,32 +60,15 @@ def _fitting(grid: Grid, width: int) -> Iterator[Table]:
             yield _grid_table(grid, dict(enumerate(natural)), gap)
             return
     broken = grid._replace(columns=tuple(name.replace("_", "_ ") for name in grid.columns))
-    least = [_longest_word(column_texts(broken, k)) for k in range(len(grid.columns))]
+    least = [longest_word(column_texts(broken, k)) for k in range(len(grid.columns))]
     least[0] = max(least[0], min(natural[0], LABEL))
     piece = [0]
     for k in range(1, len(least)):
         if len(piece) > 1 and sum(least[j] for j in [*piece, k]) + 2 * len(piece) > width:
-            yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
+            yield _grid_table(grid, share_out(width, piece, least, natural), 2)
             piece = [0]
         piece.append(k)
-    yield _grid_table(grid, _share_out(width, piece, least, natural), 2)
-
-
-def _longest_word(texts: list[str]) -> int:
-    return max((count_places(word) for text in texts for word in text.split()), default=1)
-
-
-def _share_out(
-    width: int, columns: list[int], least: list[int], natural: list[int]
-) -> dict[int, int]:
-    """Return the width of each column: the least, and what is left over to the one that lacks most,
-    until there is none.
-    """
-    widths = {k: least[k] for k in columns}
-    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
-        needy = max(columns, key=lambda k: natural[k] - widths[k])
-        widths[needy] += natural[needy] > widths[needy]
-    return widths
+    yield _grid_table(grid, share_out(width, piece, least, natural), 2)
 
 
 def _grid_table(grid: Grid, widths: dict[int, int], gap: int) -> Table:
