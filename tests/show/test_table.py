@@ -78,7 +78,7 @@ def test_an_analysis_and_a_comparison_are_as_rich_prints_them():
     si = SYSTEMS["si"]
     engines = [load(ENGINES / f"{name}.toml") for name in ("single", "i4", "vr6")]
     sheets = [
-        analysis.sheet(analyze(engines[0]), si, View(whole=True)),
+        analysis.sheet(analyze(engines[0]), si, View()),
         comparison.sheet(compare_engines(engines, ["single", "i4", "vr6"]), si),
     ]
     assert plain_text(sheets) == print_by_rich(sheets)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..core.records import list_figures, remove_unit, to_document
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import FORCE, MOMENT, Kind
-from ..limits import SMALL
+from ..limits import SMALL, WORTH_A_SHAFT
 from ..show.sheet import (
     UNKNOWN,
     Grid,
@@ -21,7 +21,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from ..sizing.ladder import SHAFT, Ladder, LeftOut
+from ..sizing.ladder import SHAFT, Ladder, LeftOut, Scale
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import KEYS, find_value
@@ -106,9 +106,20 @@ def ladder_grid(
     option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
     what = f"step {fitted}" if fitted else "nothing"
     notes = [f"balcli balance{option} fits {what}."] * tell_fitted
+    if fitted < len(steps) - 1 and tell_fitted:
+        notes.append(_tell_later(scale, system))
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
     rows = tuple(zip(*(cells for _, cells in columns), strict=True))
     return Grid(f"What balances it, step by step ({at})", heads, rows, " ".join(notes))
+
+
+def _tell_later(scale: Scale, system: System) -> str:
+    """Return why the steps after the fitted one are not: what they take, beside one cylinder."""
+    force, moment = scale.force_N, scale.moment_Nm
+    sizes = [size_text(force, system.unit(FORCE))]
+    sizes += [] if moment is None else [size_text(moment, system.unit(MOMENT))]
+    of_one = f"one cylinder's first order ({', '.join(sizes)})"
+    return f"Later steps take less than {100 * WORTH_A_SHAFT:.0f} % of {of_one}."
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
