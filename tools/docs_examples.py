@@ -22,6 +22,7 @@ from collections.abc import Iterator
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from difflib import SequenceMatcher
 from io import StringIO
+from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
@@ -212,18 +213,30 @@ def renewed(text: str, folder: Path) -> str:
 
 
 def _alike(expected: list[str], found: list[str]) -> list[str]:
-    """For every line the most similar one of those that follow the last; all lines where none is
-    left out.
+    """For every run of lines the printed ones from that most like its first to that most like its
+    last, with the rest of a paragraph; all lines where none is left out.
     """
-    if not any(line.strip() == LEFT_OUT for line in expected):
+    if LEFT_OUT not in expected:
         return _trimmed(found)
-    result, rest = [], found
-    for line in expected:
-        if line.strip() != LEFT_OUT and rest:
-            best = max(range(len(rest)), key=lambda k: SequenceMatcher(None, line, rest[k]).ratio())
-            line, rest = rest[best], rest[best + 1 :]
-        result.append(line)
+    result: list[str] = []
+    for left_out, lines in groupby(expected, key=lambda line: line.strip() == LEFT_OUT):
+        run = _trimmed(list(lines))
+        if left_out or not any(run):
+            result += run
+            continue
+        first = _find_like(run[0], found)
+        last = first + _find_like(run[-1], found[first:])
+        while last + 1 < len(found) and len(found[last]) > 60 and "  " not in found[last].strip():
+            if not found[last + 1]:
+                break
+            last += 1
+        result += found[first : last + 1]
+        found = found[last + 1 :]
     return result
+
+
+def _find_like(line: str, found: list[str]) -> int:
+    return max(range(len(found)), key=lambda k: SequenceMatcher(None, line, found[k]).ratio())
 
 
 def main() -> None:
