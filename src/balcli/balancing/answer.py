@@ -35,7 +35,7 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.schemes import FIT, KNUCKLES, LADDER
+from ..sizing.schemes import FIT, KNUCKLES, LADDER, SCHEMES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 
@@ -125,6 +125,8 @@ def balance_engine(
     orders = None if orders is None else tuple(list_values("orders", orders))
     if scheme == "minimax" and orders is not None:
         options = (options or SchemeOptions())._replace(orders=orders)
+    if tools is not None and tools.radius is not None and "radius" in SCHEMES.get(scheme, ()):
+        options = (options or SchemeOptions())._replace(radius=tools.radius)
     asked = options or SchemeOptions()
     if scheme in LADDER:
         asked.check(scheme)

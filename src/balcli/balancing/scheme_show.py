@@ -161,12 +161,7 @@ def _show(figure: _Figure, system: System) -> str:
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     if not unit:
         return percent(value) if figure.key.startswith("factor") else number(value)
-    shown = {
-        "N": system.force,
-        "N·m": system.moment,
-        "kg·m": system.unbalance,
-        "mm": system.length,
-    }[unit]
+    shown = system.unbalance if unit == "kg·m" else system.instead_of(unit)
     return f"{number(shown.of(value / 1e3 if unit == 'mm' else value))} {shown.name}"
 
 

@@ -17,16 +17,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations, product
-from math import nan
+from math import sqrt
 
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array, Complex, unit
-from ..core.records import to_document
+from ..core.records import Node, to_document
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import Fitting
@@ -59,7 +59,6 @@ class Optimum:
         engine_force: One of `FORCES`.
         k: Radius of the driving pin over the eccentricity, r_b/e.
         mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
-        unbalance_kg_m: Unbalance of each shaft of an engine; nan of none in particular.
         largest: Largest absolute force that is left, in units of m r omega^2.
         mean: Mean absolute force that is left, in units of m r omega^2.
     """
@@ -69,7 +68,6 @@ class Optimum:
     engine_force: str
     k: float
     mu: float
-    unbalance_kg_m: float = nan
     largest: float
     mean: float
 
@@ -143,6 +141,22 @@ def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
     c = np.fft.rfft([wave.real, wave.imag / step]).real / _COUNT * 2
     values, by_k = np.where(np.abs(c) > _NOISE, c, 0)[:, : len(_ORDERS)]
     return values, by_k
+
+
+def find_shaft_rates(design: str, k: float) -> tuple[float, float, float]:
+    """Return the largest and smallest `phi'`, the speed of the shafts over that of the crank, at
+    theta = 0 and pi, and the largest `phi''`.
+
+    Args:
+        design: One of `DESIGNS`.
+        k: Radius of the driving pin over the eccentricity, above 1.
+    """
+    if design == "a":  # phi = theta + arcsin(sin(theta)/k)
+        return 1 + 1 / k, 1 - 1 / k, 1 / sqrt(k**2 - 1)
+    square = 1 + k**2  # phi = arg(k e^{i theta} - 1); phi'' is largest at this cosine
+    cosine = 8 * k / (square + sqrt(square**2 + 32 * k**2))
+    bend = k * (k**2 - 1) * sqrt(1 - cosine**2) / (square - 2 * k * cosine) ** 2
+    return k / (k - 1), k / (k + 1), bend
 
 
 def _expand_engine_force(engine_force: str, lam: float) -> Array:
@@ -247,11 +261,18 @@ _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
 _ECCENTRIC_SLIDER = (
     "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
     "reciprocates); design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the "
-    "shaft; criteria: largest and mean force"
+    "shaft; criteria: largest and mean force; pin and weight of each shaft at the same radius r_b, "
+    "its axis e from that of the disc; the shafts stand alike on either side of the cylinder axis"
+)
+_SPEED_LAW = (
+    "a: 1 + cos theta/sqrt(k^2 - sin^2 theta), b: k (k - cos theta)/(1 + k^2 - 2 k cos theta) "
+    "times crank speed"
 )
 _OLDHAM = (
     "a side: first-order weight = m r/2 opposite the piston's motion, block mass x e = A2 m r/8, "
-    "e half the distance of the coupling's shafts; m the reciprocating mass"
+    "e half the distance of the coupling's shafts; m the reciprocating mass; e is for a block as "
+    "heavy as the weight: of half its mass it takes 2 e; in either slot the block slides 2 e to "
+    "both sides"
 )
 
 
@@ -259,7 +280,8 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
     unevenly; a weight takes the rotating mass.
 
-    Fitted is design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
+    Masses and eccentricities are for the radius asked for, or else the crank radius. Fitted is
+    design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
     the optima of both designs.
 
     Raises BalcliError for several cylinders, a piston offset, or a rod too short for an optimum.
@@ -271,31 +293,57 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
             "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
             f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
         )
-    mass, radius = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
-    optima = tuple(
-        replace(one, unbalance_kg_m=one.mu * mass * radius)
-        for one in find_optima(float(np.ravel(c.lam)[0]))
-    )
+    mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
+    optima = find_optima(float(np.ravel(c.lam)[0]))
+    designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
     fitting = (
         Fitting.start(engine, "eccentric-slider")
         .balance_rotating(keep_overbalance=False)
         .add_details(
-            unit_force_N=mass * radius * float(engine.omega) ** 2,
-            fitted=to_document(optima[0]),
-            optima=[to_document(one) for one in optima],
+            unit_force_N=mass * throw * float(engine.omega) ** 2,
+            fitted=designs[0],
+            optima=designs,
+            speed_law=_SPEED_LAW,
             definition=_ECCENTRIC_SLIDER,
         )
     )
-    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0]))
+    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0], mass * throw))
 
 
-def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
+def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
+    """Return an optimum with the figures of each shaft: the loads are those of its weight, `m_b r_b
+    phi'^2` outwards, `m_b r_b phi''` along its path, and the torque `m_b r_b^2 phi''`.
+
+    Args:
+        engine: The engine.
+        one: The optimum.
+        unit_kg_m: Reciprocating mass times crank radius.
+        radius: Radius of pin and weight, m; None: the crank radius.
+    """
+    unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius)
+    fastest, slowest, bend = find_shaft_rates(one.design, one.k)
+    force, rpm = unbalance * float(engine.omega) ** 2, float(engine.speed_rpm)
+    return {
+        **to_document(one),
+        "unbalance_kg_m": unbalance,
+        "radius_mm": 1e3 * r_b,
+        "eccentricity_mm": 1e3 * r_b / one.k,
+        "mass_kg": unbalance / r_b,
+        "largest_speed_rpm": rpm * fastest,
+        "smallest_speed_rpm": rpm * slowest,
+        "largest_radial_force_N": force * fastest**2,
+        "largest_tangential_force_N": force * bend,
+        "largest_torque_Nm": force * bend * r_b,
+    }
+
+
+def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Device, ...]:
     """Both shafts: a device for each order of their motion, which shakes along the cylinder."""
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])
     wave, _ = expand_shaft_wave(fitted.design, fitted.k)
     halves = {
-        order: -fitted.unbalance_kg_m * float(amplitude) * axis
+        order: -fitted.mu * unit_kg_m * float(amplitude) * axis
         for order, amplitude in enumerate(wave)
         if order and abs(amplitude) > _SMALLEST
     }
@@ -305,7 +353,7 @@ def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two Oldham couplings, one turning with and one against the crank: first-order weights m r/2,
     and blocks whose centres go round at twice the speed, A2 m r/8 a side; a counterweight takes the
-    rotating mass.
+    rotating mass. Masses are for the radius asked for, or else the crank radius.
 
     Raises BalcliError for several cylinders.
     """
@@ -318,9 +366,18 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         for one in (first, second)
         for vectors in ((-one.force(1), 0j), (0j, -one.force(-1)))
     ]
+    weight, block = abs(first.force(-1)), abs(second.force(-1))
+    radius = options.radius or float(engine.cylinders.radius)
     fitting = fitting.add_details(
-        first_order_kg_m=abs(first.force(-1)),
-        block_kg_m=abs(second.force(-1)),
+        first_order_kg_m=weight,
+        block_kg_m=block,
+        radius_mm=1e3 * radius,
+        mass_kg=weight / radius,
+        eccentricity_mm=1e3 * radius * block / weight if weight else 0.0,
+        speed_rpm=float(engine.speed_rpm),
+        block_speed_rpm=2 * float(engine.speed_rpm),
+        weight_force_N=weight * first.newtons_per_kg_m,
+        block_force_N=block * second.newtons_per_kg_m,
         definition=_OLDHAM,
     )
     return fitting.remedy._replace(beyond=tuple(devices))
