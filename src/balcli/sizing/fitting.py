@@ -30,7 +30,14 @@ from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from .planes import SAME_PLACE, DeviceTable, as_millimetres, find_planes, measure_direction
+from .planes import (
+    SAME_PLACE,
+    DeviceTable,
+    as_millimetres,
+    find_planes,
+    measure_direction,
+    takes_moment,
+)
 from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
@@ -259,20 +266,14 @@ class Fitting(NamedTuple):
         engine, residual = self.engine, self.find_residual(1)
         if engine.rotary:
             return self
-        force, moment, radius = 0j, 0j, float(engine.cylinders.radius)
-        for weighed, pin, z in zip(
-            engine.weighed, engine.cylinders.pin_deg, engine.cylinders.z, strict=True
-        ):
-            direction = complex(unit(float(engine.first_axis_deg + pin)))
-            unbalance = float(weighed.rotating + weighed.share) * radius * direction
-            force += unbalance
-            moment += unbalance * (float(z) - residual.reference.z)
-        pins = force
-        for device in engine.devices:
-            if device.kind is DeviceKind.COUNTERWEIGHT:
-                force += complex(device.forward)
-                moment += complex(device.forward) * float(device.z - residual.reference.z)
-        if keep_overbalance and (pins.conjugate() * force).real < 0:
+        masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
+        directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
+        pins = masses * float(engine.cylinders.radius) * directions
+        own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
+        vectors = np.array([*pins, *(one.forward for one in own)])
+        z = np.array([*engine.cylinders.z, *(one.z for one in own)])
+        force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
+        if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
@@ -312,39 +313,34 @@ def explain_counterweights(residual: Residual) -> str:
     return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
 
 
-def explain_shaft(residual: Residual, sense: int, count: int) -> str:
-    """Return why this many eccentrics on one shaft take all that turns in this sense."""
-    what = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
-    what = "one eccentric" if count == 1 else what
-    return (
-        f"{_name(residual, sense)} turning {_turning(sense)} the crank: nothing on the crankshaft "
-        f"can cancel it; {what} {_on_shaft(residual, sense)} can"
-    )
-
-
-def explain_one_eccentric(
-    residual: Residual, sense: int, whole: bool, more: str, halves: bool = False
+def explain_shaft(
+    residual: Residual, sense: int, count: int, stays: str = "", *, halves: bool = False
 ) -> str:
-    """Return why one eccentric is fitted for the force that turns in this sense, or two halves.
+    """Return why this many eccentrics on one shaft take what turns in this sense.
 
     Args:
         residual: What is left at the order.
         sense: Sense of rotation: 1 with the crank, -1 against it.
-        whole: Whether it takes the moment that turns so, too.
-        more: What would take the moment that stays otherwise.
-        halves: Whether it is divided.
+        count: Number of eccentrics.
+        stays: What stays of the moment (`tell_moment`); empty: they take all.
+        halves: Whether one eccentric is divided.
     """
-    what = _name(residual, sense) if whole else f"Order {residual.order} force"
+    what = f"Order {residual.order} force" if stays else _name(residual, sense)
     why = "nothing on the crankshaft can cancel it"
     if sense * residual.order == 1:
         why = "the scheme counterweights would cancel it without a shaft"
-    reason = (
-        f"{what} turning {_turning(sense)} the crank: {why}; "
-        f"one eccentric {_on_shaft(residual, sense)} can"
-    )
-    if halves:
-        reason += ", in two halves on opposite sides of the crank so that no roll is added"
-    return reason if whole else f"{reason}; a moment stays, which {more}"
+    kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
+    kind = "one eccentric" if count == 1 else kind
+    both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
+    turns = f"turning {_turning(sense)} the crank"
+    return f"{what} {turns}: {why}; {kind} {_on_shaft(residual, sense)} can{both}{stays}"
+
+
+def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
+    """Return words on the moment that one eccentric at z (m) leaves, and what takes it; empty if
+    none stays.
+    """
+    return "" if takes_moment(residual, sense, z) else f"; a moment stays, which {cure}"
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
