@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 
 from ..core import least_squares
 from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import EPS, unit
+from ..core.phasors import EPS, Array, unit
+from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
@@ -76,12 +77,7 @@ class Slot(NamedTuple):
 
     def make_device(self, unbalance: complex) -> Device:
         """The device of this unbalance (kg m) in this slot, as rotating vectors."""
-        u = unbalance
-        if self.kind == "slider":
-            half = complex(unit(self.direction_deg)) / 2
-            return Device(self.order, half * u, half * u.conjugate(), self.place, self.z)
-        forward, backward = (u, 0j) if self.sense > 0 else (0j, u)
-        return Device(self.order, forward, backward, self.place, self.z)
+        return build_device(self.make_table(unbalance, 0.0), 0.0)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
         """Return the device of this unbalance (kg m; its direction at crank angle 0 counts from x)
@@ -131,6 +127,13 @@ def find_effect(
     return np.array(effects, complex)
 
 
+def find_effects(
+    devices: Iterable[Device], parts: Sequence[ResidualPart], reference: ReferencePoint
+) -> Array:
+    """What devices add to each part, real and imaginary in turn, shape (2 parts, devices)."""
+    return np.array([find_effect(one, parts, reference) for one in devices]).view(float).T
+
+
 def size_unbalances(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> Fit:
@@ -143,13 +146,9 @@ def size_unbalances(
         least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
     weights = _weigh(parts, max(least_arm, _find_longest_arm(slots, residual.reference)))
-    columns = [
-        find_effect(slot.make_device(u), parts, residual.reference)
-        for slot in slots
-        for u in (1 + 0j, 1j)
-    ]
+    devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
+    matrix = find_effects(devices, parts, residual.reference)
     target = -np.array([residual.parts[part] for part in parts], complex)
-    matrix = np.array(columns).view(float).T  # real and imaginary parts in turn
     found = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
     rounding = 4 * EPS * np.abs(found.x).max()
     x = np.where(np.abs(found.x) <= rounding, 0, found.x)
