@@ -95,7 +95,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
             f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
             "second order is too strong for an eccentric smaller than its pin radius"
         ) from None
-    remaining = _find_remaining(design, engine, x)
+    remaining, _ = _linearize(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
     return Optimum(
         design=design,
@@ -118,9 +118,8 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
     Raises:
         BalcliError: the first one does not settle.
     """
-    (force, design, criterion), *others = product(FORCES, DESIGNS, CRITERIA)
-    optima = [find_optimum(design, criterion, force, lam)]
-    for force, design, criterion in others:
+    optima = [find_optimum(DESIGNS[0], CRITERIA[0], FORCES[0], lam)]
+    for force, design, criterion in [*product(FORCES, DESIGNS, CRITERIA)][1:]:
         with suppress(BalcliError):
             optima.append(find_optimum(design, criterion, force, lam))
     return tuple(optima)
@@ -166,17 +165,15 @@ def _expand_engine_force(engine_force: str, lam: float) -> Array:
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
-def _find_remaining(design: str, engine: Array, x: Array) -> Array:
-    """Return cosine coefficients of P, what remains of the engine's force."""
+def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:
+    """Return cosine coefficients of P, what remains of the engine's force, and their derivatives
+    by k and by mu, shape (2, orders).
+    """
     if not _LEAST_K < x[0] < _MOST_K:
         raise ArithmeticError(f"k must stay above {_LEAST_K}")
-    return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
-
-
-def _find_slopes(design: str, x: Array) -> Array:
-    """Return derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
     wave, by_k = expand_shaft_wave(design, x[0])
-    return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
+    slopes = -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
+    return engine + x[1] * slopes[1], slopes
 
 
 # ------------------------------------------------------------------ even series
@@ -220,10 +217,10 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     """Return the step d that makes the largest of `values + slopes d` over the extremes of P
     smallest: that of the three extremes whose bound is highest (de la Vallee-Poussin).
     """
-    remaining = _find_remaining(design, engine, x)
+    remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
-    slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
+    slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
     top, best = -np.inf, None
     for triple in map(list, combinations(range(len(values)), 3)):
         system = np.column_stack([slopes[triple], -np.ones(3)])
@@ -244,10 +241,10 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
     """
 
     def find_gradient(x: Array) -> Array:
-        remaining = _find_remaining(design, engine, x)
+        remaining, by_x = _linearize(design, engine, x)
         zeros = _find_zeros(remaining)
         signs = np.sign(_evaluate(remaining, (zeros[:-1] + zeros[1:]) / 2))
-        gradient: Array = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
+        gradient: Array = signs @ np.diff(_evaluate(by_x, zeros, -1), axis=0)
         return gradient
 
     columns = [
