@@ -42,9 +42,12 @@ from .planes import (
 from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
+    BACKWARD_MOMENT,
+    FORCE,
     FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
+    MOMENT,
     ROLL,
     ReferencePoint,
     Residual,
@@ -54,6 +57,13 @@ from .residual import (
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
+_LEFT_OF = {  # parts of an order by the keys of details
+    "force_left_N": FORCE,
+    "moment_left_Nm": MOMENT,
+    "couple_left_Nm": (BACKWARD_MOMENT,),
+    "force_with_crank_left_N": (FORWARD_FORCE,),
+    "moment_with_crank_left_Nm": (FORWARD_MOMENT,),
+}
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
 
@@ -145,7 +155,7 @@ def size_unbalances(
     Args:
         least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
-    weights = _weigh(parts, max(least_arm, _find_longest_arm(slots, residual.reference)))
+    weights = _weigh(slots, residual, parts, least_arm)
     devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
     matrix = find_effects(devices, parts, residual.reference)
     target = -np.array([residual.parts[part] for part in parts], complex)
@@ -165,7 +175,7 @@ def solve_exactly(
     condition number if they are too much alike.
     """
     fit = size_unbalances(slots, residual, parts)
-    weights = _weigh(parts, _find_longest_arm(slots, residual.reference))
+    weights = _weigh(slots, residual, parts)
     size = float(max(weights * [abs(residual.parts[part]) for part in parts]))
     noise = float(max(weights * [residual.noise[part] for part in parts]))
     if fit.condition == np.inf and fit.left * size > noise:
@@ -184,15 +194,15 @@ def solve_exactly(
     return fit
 
 
-def _find_longest_arm(slots: Sequence[Slot], reference: ReferencePoint) -> float:
-    """Of all slots about the point of reference, m; 1 if none has an arm."""
-    along = [abs(slot.z - reference.z) for slot in slots]
-    across = [abs(slot.place - reference.place) for slot in slots]
-    return max(along + across) or 1.0
-
-
-def _weigh(parts: Sequence[ResidualPart], arm: float) -> NDArray[np.float64]:
-    """Return weights by which moments are measured by the force that makes them at this arm."""
+def _weigh(
+    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
+) -> NDArray[np.float64]:
+    """Return weights by which moments are measured by the force that makes them at the longest arm
+    of a slot about the point of reference, at least this (m); at 1 m if none has an arm.
+    """
+    place, z = residual.reference
+    arms = [max(abs(slot.z - z), abs(slot.place - place)) for slot in slots]
+    arm = max(least_arm, max(arms) or 1.0)
     return np.array([1.0 if part.kind == "force" else 1 / arm for part in parts])
 
 
@@ -280,15 +290,18 @@ class Fitting(NamedTuple):
         slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
+    def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
+        """With details, by these keys of `_LEFT_OF`, of what the devices so far leave."""
+        left = self.find_residual(order)
+        return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
+
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
         """With details of what the devices so far leave of an order's roll, and of what it was; of
         an engine with gas, of the roll with the gas at its speed, too.
         """
         order = before.order
-        details = {
-            "roll_left_Nm": self.find_residual(order).size(ROLL),
-            "roll_before_Nm": before.size(ROLL),
-        }
+        left = self.find_residual(order).size(ROLL)
+        details = {"roll_left_Nm": left, "roll_before_Nm": before.size(ROLL)}
         if self.engine.gas is not None:
             fitted = fit_devices(self.engine, self.remedy)
             details["roll_with_gas_left_Nm"] = _size_total_roll(fitted, order)

@@ -28,9 +28,7 @@ from .planes import choose_plane, locate_force, read_two_planes
 from .remedy import Remedy
 from .residual import (
     BACKWARD,
-    BACKWARD_MOMENT,
     FORCE,
-    FORWARD_FORCE,
     MOMENT,
     NothingToBalanceError,
     OnlySmallError,
@@ -68,16 +66,14 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     slots = [Slot("shaft", residual.order, -1, z, options.read_place()) for z in planes]
     reason = explain_shaft(residual, -1, len(slots), stays)
     fitting = fitting.cancel(slots, BACKWARD[: len(slots)], reason)
-    left = fitting.find_residual(residual.order)
     if not two:
         distance = planes[0] - locate_force(residual, -1)
-        fitting = fitting.add_details(
-            couple_left_Nm=left.size(BACKWARD_MOMENT),
-            axial_distance_mm=1e3 * (distance if abs(distance) > _ROUNDING_M else 0.0),
-        )
+        distance_mm = 1e3 * distance if abs(distance) > _ROUNDING_M else 0.0
+        fitting = fitting.describe_left(residual.order, "couple_left_Nm")
+        fitting = fitting.add_details(axial_distance_mm=distance_mm)
     fitting = fitting.describe_roll(residual)
     if residual.order > 1:
-        fitting = fitting.add_details(force_with_crank_left_N=left.size(FORWARD_FORCE))
+        fitting = fitting.describe_left(residual.order, "force_with_crank_left_N")
     return fitting.remedy
 
 
@@ -97,10 +93,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)
         fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
-    left = fitting.find_residual(residual.order)
-    return fitting.add_details(
-        moment_left_Nm=left.size(*MOMENT), force_left_N=left.size(*FORCE)
-    ).remedy
+    return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
 
 
 Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in each sense
@@ -149,8 +142,7 @@ def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Reme
     ]
     fitting = Fitting.start(engine, "two-shaft", residual.order)
     fitting = fitting.cancel(slots, parts, explain_compensator(residual))
-    force = fitting.find_residual(residual.order).size(*FORCE)
-    return fitting.add_details(force_left_N=force).describe_roll(residual).remedy
+    return fitting.describe_left(residual.order, "force_left_N").describe_roll(residual).remedy
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -185,9 +177,9 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
         reason = explain_shaft(residual, sense, 1, stays, halves=len(slots) > 1)
         share = -residual.force(sense) / len(slots)
         fitting = fitting.add(slots, [share] * len(slots), reason)
-    moment = fitting.find_residual(residual.order).size(*MOMENT)
     group = f"order_{residual.order}"
-    fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
+    fitting = fitting.add_details(group, **_describe_places(places))
+    fitting = fitting.describe_left(residual.order, "moment_left_Nm", group=group)
     return fitting.describe_roll(residual, group)
 
 
