@@ -94,15 +94,13 @@ class Slot(NamedTuple):
         as a table of the engine file; a counterweight's angle counts from cylinder 1's crank pin at
         `first_axis_deg`.
         """
-        origin_deg = first_axis_deg if self.kind == "counterweight" else 0.0
-        values: dict[str, Any] = {
-            "unbalance": abs(unbalance) * 1e6,
-            "angle": measure_direction(unbalance, origin_deg),
-            "position": as_millimetres(self.z),
-        }
-        if self.kind == "counterweight":
+        on_crank = self.kind == "counterweight"
+        angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
+        values: dict[str, Any] = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
+        x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
+        if on_crank:
             return Counterweight.model_construct(**values)
-        values["at"] = (as_millimetres(self.place.real), as_millimetres(self.place.imag))
+        values["at"] = (x, y)
         if self.kind == "shaft":
             return Shaft.model_construct(ratio=self.sense * self.order, **values)
         return Slider.model_construct(order=self.order, direction=self.direction_deg, **values)
@@ -362,23 +360,6 @@ def explain_couple(residual: Residual, sense: int) -> str:
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
         f"the shaft stands{needless * (sense * residual.order == 1)}"
-    )
-
-
-def explain_compensator(residual: Residual) -> str:
-    """Return why shafts with a force take a moment."""
-    return (
-        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
-        "work as a moment compensator; their force at this distance makes the opposite moment, and "
-        "stays (couple-shaft leaves no force)"
-    )
-
-
-def explain_sliders(residual: Residual) -> str:
-    """Return why two sliders are fitted for the force."""
-    return (
-        f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
-        "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
     )
 
 

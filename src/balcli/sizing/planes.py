@@ -110,14 +110,12 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
     """The two planes (z, m) asked for, or else the ends; BalcliError if they are not two."""
-    if options.planes is None or options.planes == "ends":
-        low, high = find_ends(engine)
-    elif isinstance(options.planes, tuple) and len(options.planes) == 2:
-        low, high = options.planes
-    else:
+    planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
+    if not isinstance(planes, tuple) or len(planes) != 2:
         raise BalcliError(
             "--planes: opposite eccentrics stand in two planes; give ends, or two places along z"
         )
+    low, high = planes
     if low == high:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high

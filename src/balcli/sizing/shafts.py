@@ -17,7 +17,6 @@ from ..errors import BalcliError
 from .fitting import (
     Fitting,
     Slot,
-    explain_compensator,
     explain_couple,
     explain_shaft,
     tell_moment,
@@ -141,7 +140,12 @@ def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Reme
         for part in parts
     ]
     fitting = Fitting.start(engine, "two-shaft", residual.order)
-    fitting = fitting.cancel(slots, parts, explain_compensator(residual))
+    reason = (
+        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
+        "work as a moment compensator; their force at this distance makes the opposite moment, and "
+        "stays (couple-shaft leaves no force)"
+    )
+    fitting = fitting.cancel(slots, parts, reason)
     return fitting.describe_left(residual.order, "force_left_N").describe_roll(residual).remedy
 
 

@@ -17,9 +17,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from itertools import combinations, product
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -49,8 +49,7 @@ _BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
 _NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
 
 
-@dataclass(frozen=True, kw_only=True)
-class Optimum:
+class Optimum(NamedTuple):
     """The best pair of unevenly turning shafts by one criterion.
 
     Attributes:
@@ -97,15 +96,9 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
         ) from None
     remaining, _ = _linearize(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
-    return Optimum(
-        design=design,
-        criterion=criterion,
-        engine_force=engine_force,
-        k=float(x[0]),
-        mu=float(x[1]),
-        largest=float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max()),
-        mean=float(np.abs(np.diff(primitive)).sum()) / np.pi,
-    )
+    largest = float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max())
+    mean = float(np.abs(np.diff(primitive)).sum()) / np.pi
+    return Optimum(design, criterion, engine_force, float(x[0]), float(x[1]), largest, mean)
 
 
 def find_optima(lam: float) -> tuple[Optimum, ...]:

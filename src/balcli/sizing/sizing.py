@@ -17,7 +17,6 @@ from .fitting import (
     Fitting,
     Slot,
     explain_counterweights,
-    explain_sliders,
     size_unbalances,
 )
 from .ladder import add_at_throws, find_ladder, size_complete
@@ -144,7 +143,11 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     rounding = 2 * residual.noise[FORWARD_FORCE]
     unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
     fitting = Fitting.start(engine, "slider", residual.order, residual.note)
-    fitting = fitting.add(slots, unbalances, explain_sliders(residual))
+    reason = (
+        f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
+        "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
+    )
+    fitting = fitting.add(slots, unbalances, reason)
     return fitting.describe_left(residual.order, "moment_left_Nm").describe_roll(residual).remedy
 
 
