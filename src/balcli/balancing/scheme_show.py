@@ -176,10 +176,8 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
             continue
         order = group.replace("_", " ") or f"order {remedy.order}"
         why = f"where they stand, the devices' forces have levers about {pivot}"
-        if grown[0] < 0:
-            why = (
-                "what they take of the roll of inertia stood against that of the gas at this speed"
-            )
+        took = "what they take of the roll of inertia stood against that of the gas at this speed"
+        why = took if grown[0] < 0 else why
         gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
         yield f"The roll of {order}{gas} grows by {size}: {why}."
 

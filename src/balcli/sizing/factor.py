@@ -403,16 +403,14 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
     sets: list[list[_Pin]] = []
-    if planes is None and weights.any():
-        sets = [[pin for pin in pins if pin.z == z] for z in dict.fromkeys(pin.z for pin in pins)]
-    elif planes is None:
-        sets = [[pin] for pin in pins]
+    if planes is None:
+        own = {k: pin.z if weights.any() else k for k, pin in enumerate(pins)}
+        sets = [[pins[k] for k in own if own[k] == key] for key in dict.fromkeys(own.values())]
     z = np.array([members[0].z for members in sets] if planes is None else planes, float)
     if not pins:
         return _Planes(z[:0], np.zeros((3, 0), complex), [])
-    if planes is None:
-        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
-    else:
+    of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+    if planes is not None:
         of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
     of_weights = np.zeros((len(z), len(places)))
     if weights.any():
