@@ -21,8 +21,9 @@ from ..core.peaks import find_near_peaks
 from ..core.phasors import EPS, Complex, Phasors, unit
 from ..core.vibration import Real
 from ..engine.engine import Engine
+from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
-from .fitting import Fitting, Slot, solve_exactly
+from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
 from .planes import SAME_PLACE, find_crank_middle, measure_direction, read_planes
 from .remedy import Remedy, remove_counterweights
@@ -127,6 +128,9 @@ def _seen(curve: Phasors, theta: Real) -> Complex:
     return curve.values(theta) * np.exp(-1j * theta)
 
 
+_LEFT = 1e-9  # of what is to be cancelled: more, and these planes cannot take the moment
+
+
 def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     """The counterweight that moves the centre of the smallest circle around `F e^{-i theta}` to the
     origin (docs/theory.md).
@@ -190,7 +194,9 @@ def _split(
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)
     wanted = residual._replace(parts={**residual.parts, FORWARD_FORCE: -unbalance})
-    fit = solve_exactly(slots, wanted, FORWARD, f"--planes: {SAME_PLACE}")
+    fit = size_unbalances(slots, wanted, FORWARD)
+    if fit.left > _LEFT:
+        raise BalcliError(f"--planes: {SAME_PLACE}")
     return slots, fit.unbalances
 
 

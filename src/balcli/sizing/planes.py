@@ -168,7 +168,10 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
         vectors = [cmath.rect(find_unbalance(one), math.radians(one.angle)) for one in same]
         if len(same) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors)):
             free.add(ratio)
-    return tuple(device in shafts and getattr(device, "ratio", 0) in free for device in devices)
+    return tuple(
+        isinstance(device, Shaft) and not any(device.at) and device.ratio in free
+        for device in devices
+    )
 
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
