@@ -364,7 +364,7 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         radius_mm=1e3 * radius,
         mass_kg=weight / radius,
         eccentricity_mm=1e3 * radius * block / weight if weight else 0.0,
-        speed_rpm=float(engine.speed_rpm),
+        shaft_speed_rpm=float(engine.speed_rpm),
         block_speed_rpm=2 * float(engine.speed_rpm),
         weight_force_N=weight * first.newtons_per_kg_m,
         block_force_N=block * second.newtons_per_kg_m,
