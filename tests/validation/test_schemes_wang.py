@@ -147,6 +147,59 @@ def test_eccentric_slider_leaves_its_residual():
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
 
 
+@pytest.mark.parametrize("design", DESIGNS)
+def test_eccentric_slider_design_and_loads(design):
+    """(21)-(26) by the path of the weights, differentiated by Fourier: his engine (m r = 22500 g mm,
+    lambda = 0.3), pin and weight at 30 mm.
+    """
+    engine = build_text(engine_text(rod="length = 150", crank="stroke = 90", piston="mass = 0.5"))
+    found = next(one for one in size_scheme(engine, "eccentric-slider", radius=0.03).details["optima"]
+                 if one["design"] == design)  # fmt: skip
+    e, m_b, omega = found["eccentricity_mm"] / 1e3, found["mass_kg"], engine.omega
+    theta = np.arange(8192) * (2 * np.pi / 8192)
+    if design == "a":  # the slot of the disc, whose centre is at -e, leads the pin of the shaft at 0
+        path = (e * np.cos(theta) + np.sqrt(0.03**2 - (e * np.sin(theta)) ** 2)) * np.exp(1j * theta) - e
+    else:  # the slot of the shaft points to the pin of the disc
+        path = 0.03 * np.exp(1j * theta) - e
+        path *= 0.03 / np.abs(path)
+    phi = np.unwrap(np.angle(path))
+    orders = np.fft.fftfreq(8192, 1 / 8192)
+    acceleration = omega**2 * np.fft.ifft(-(orders**2) * np.fft.fft(path))
+    loads = -m_b * acceleration * np.exp(-1j * phi)  # outwards, and along the path
+    speed = engine.speed_rpm * (1 + np.fft.ifft(1j * orders * np.fft.fft(phi - theta)).real)
+    assert np.abs(path) == pytest.approx(0.03, rel=1e-12)
+    assert found["largest_speed_rpm"] == pytest.approx(speed.max(), rel=1e-9)
+    assert found["smallest_speed_rpm"] == pytest.approx(speed.min(), rel=1e-9)
+    assert found["largest_radial_force_N"] == pytest.approx(loads.real.max(), rel=1e-9)
+    assert found["largest_tangential_force_N"] == pytest.approx(np.abs(loads.imag).max(), rel=1e-6)
+    assert found["largest_torque_Nm"] == pytest.approx(0.03 * np.abs(loads.imag).max(), rel=1e-6)
+    both = m_b * (acceleration + acceleration.conj())  # shafts alike on either side: (25), (26)
+    rest = 0.5 * 0.045 * omega**2 * (np.cos(theta) + 0.3 * np.cos(2 * theta)) + both.real
+    assert np.abs(rest).max() == pytest.approx(found["largest"] * 0.0225 * omega**2, rel=1e-5)
+    if design == "a":
+        assert (e, m_b) == pytest.approx((0.03 / 6.686, 0.376), rel=3e-4)
+
+
+def test_oldham_design():
+    """m_b = m r/2 over the radius; a block as heavy, on a circle of e at twice crank speed, takes order 2."""
+    engine = build_text(engine_text(rod="length = 150", crank="stroke = 90", piston="mass = 0.5"))
+    found = size_scheme(engine, "oldham", radius=0.03).details
+    second = float(closed_form.piston([2], 0.3)[0]) * 0.0225 * engine.omega**2
+    assert found["mass_kg"] == pytest.approx(0.375, rel=1e-12)
+    assert found["weight_force_N"] == pytest.approx(0.375 * 0.03 * engine.omega**2, rel=1e-12)
+    turns = found["block_speed_rpm"] * math.pi / 30
+    block = 0.375 * found["eccentricity_mm"] / 1e3 * turns**2
+    assert (block, found["block_force_N"]) == pytest.approx((second / 2, second / 2), rel=1e-12)
+
+
+@pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
+def test_weights_of_a_single_cylinder_stand_at_the_radius_of_the_workshop(scheme):
+    text = "crank.stroke = 84\nrod.length = 140\npiston.mass = 0.5\n"
+    for options, radius in (((), 42), (("--radius", "30"), 30)):
+        details = ask_json("balance", "-", "--scheme", scheme, *options, stdin=text)["details"]
+        assert details.get("fitted", details)["radius_mm"] == pytest.approx(radius)
+
+
 @pytest.mark.stress
 def test_eccentric_slider_of_any_mass_in_any_direction():
     """What is left is that of 1 kg times the mass, along the cylinder axis; no moment arises and no

@@ -9,7 +9,7 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import NoneType
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,7 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.schemes import FIT, KNUCKLES, LADDER
+from ..sizing.schemes import FIT, KNUCKLES, LADDER, SCHEMES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 
@@ -123,14 +123,16 @@ def balance_engine(
     check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
     check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
     orders = None if orders is None else tuple(list_values("orders", orders))
-    if scheme == "minimax" and orders is not None:
-        options = (options or SchemeOptions())._replace(orders=orders)
     asked = options or SchemeOptions()
+    if scheme == "minimax" and orders is not None:
+        asked = asked._replace(orders=orders)
+    if tools is not None and tools.radius is not None and "radius" in SCHEMES.get(scheme, ()):
+        asked = asked._replace(radius=tools.radius)
     if scheme in LADDER:
         asked.check(scheme)
         ladder = find_ladder(engine, asked.read_small())
         return _answer(engine, ladder.fit(asked.step), orders, tools, ladder)
-    remedy = size(engine, scheme, options)
+    remedy = size(engine, scheme, asked)
     start = engine if remedy.start is None else remedy.start
     return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()))
 
@@ -231,12 +233,10 @@ balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
 
 
-Goal = Literal["dead-centres", "strokes"]
-GOALS: tuple[Goal, ...] = ("dead-centres", "strokes")
 _STEP_DEG = 1e-3  # for the slope
 _STAYS_DEG = 1e-9  # what a pin is turned by less is rounding
 _FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
-_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # degrees; metres
+_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # what knuckles can make even: degrees; metres
 
 
 @dataclass(frozen=True)
@@ -250,7 +250,6 @@ class Knuckles:
         reasons: what was done, and for which banks nothing can be.
     """
 
-    goal: Goal
     model: EngineFile
     angles_deg: tuple[float, ...]
     before: Travel
@@ -258,7 +257,7 @@ class Knuckles:
     reasons: tuple[str, ...]
 
 
-def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
+def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
     even.
 
@@ -268,9 +267,11 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
     30 degrees makes even keep theirs.
 
     Raises:
-        BalcliError: the engine has no articulated rods.
+        BalcliError: the engine has no articulated rods, or this is no goal.
         InputError: it cannot be built.
     """
+    if goal not in _CLOSE:
+        raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
     engine = build(model)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if model.articulation is not None and model.layout.rotary:
@@ -310,12 +311,12 @@ def even_knuckles(model: EngineFile, goal: Goal = "dead-centres") -> Knuckles:
         told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
         alike = "all knuckle pins of a bank get the angle that suits its first throw"
         reasons = (*reasons, f"not {told}: {alike}")
-    return Knuckles(goal, better, angles_deg, find_travel(c), after, reasons)
+    return Knuckles(better, angles_deg, find_travel(c), after, reasons)
 
 
 def balance_knuckles(
     model: EngineFile,
-    goal: Goal = "dead-centres",
+    goal: str = "dead-centres",
     orders: Iterable[float] | None = None,
     speed_rpm: float | None = None,
 ) -> Balance:
@@ -370,7 +371,7 @@ def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
 
 
 def _explain(
-    goal: Goal, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
+    goal: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
     """What was done, and for which banks nothing can be; all arrays by banks."""
     result = "strokes equal to the master's"
@@ -466,28 +467,3 @@ def _list_entries(device: DeviceTable) -> dict[str, Any]:
     """Return keys and values of a device as TOML has them."""
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}
-
-
-def answer_knuckles(
-    scheme: str,
-    options: SchemeOptions,
-    even: str | None,
-    model: EngineFile,
-    engine: Engine,
-    orders: list[float] | None,
-) -> Balance:
-    """Return the balance of the scheme that changes knuckle angles, at the engine's speed.
-
-    Raises:
-        BalcliError: options that are not its own, and --even with another scheme.
-    """
-    if scheme != KNUCKLES:
-        raise BalcliError(
-            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
-        )
-    if options != SchemeOptions():
-        raise BalcliError("scheme knuckles: has no option but --even")
-    goal = next((goal for goal in GOALS if goal == (even or GOALS[0])), None)
-    if goal is None:
-        raise BalcliError(f'--even "{even or "":.60}": choose from {", ".join(GOALS)}')
-    return balance_knuckles(model, goal, orders, float(engine.speed_rpm))

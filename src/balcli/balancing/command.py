@@ -199,6 +199,16 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
         )
 
 
+def _check_even(scheme: str, options: SchemeOptions) -> None:
+    """Raise BalcliError for --even with another scheme, and options besides it."""
+    if scheme != KNUCKLES:
+        raise BalcliError(
+            f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
+        )
+    if options != SchemeOptions():
+        raise BalcliError("scheme knuckles: has no option but --even")
+
+
 def balance(
     path: EnginePath,
     scheme: Scheme = None,
@@ -272,7 +282,9 @@ def balance(
         if fits:
             return answer.balance_fit(engine, model, wanted, asked, tools, options.read_small())
         if scheme == KNUCKLES or even is not None:
-            return answer.answer_knuckles(scheme, options, even, model, engine, asked)
+            _check_even(scheme, options)
+            goal = even or "dead-centres"
+            return answer.balance_knuckles(model, goal, asked, float(engine.speed_rpm))
         return answer.balance_engine(engine, scheme, options, asked, tools)
 
     misfit = None

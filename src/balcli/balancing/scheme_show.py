@@ -99,11 +99,9 @@ def tell_best_factors(result: Balance, system: System) -> str:
 def _list_figures(result: Balance) -> Iterator[_Figure]:
     """Yield the figures of the details one by one; tables among them are left out."""
     for key, value in result.remedy.details.items():
-        if key == "best":
-            continue
-        if isinstance(value, dict):
+        if isinstance(value, dict) and key != "best":
             yield from (_Figure(key, name, figure) for name, figure in value.items())
-        elif key not in ("optima", "change"):
+        elif key not in ("best", "optima", "change"):
             yield _Figure("", key, value)
     if result.speed_note:
         yield _Figure("", "speed", result.speed_note)
@@ -149,24 +147,18 @@ def _show(figure: _Figure, system: System) -> str:
     value, unit = figure.value, find_unit(figure.key) or find_unit(figure.group)
     if isinstance(value, str):
         return value
-    if value and isinstance(value, list) and isinstance(value[0], str):
-        return ", ".join(value)
-    if isinstance(value, list):
-        return f"{', '.join(map(degrees, value))} deg" if value else UNKNOWN
-    if isnan(value):
+    if value == [] or (isinstance(value, float) and isnan(value)):
         return UNKNOWN
+    if isinstance(value, list):
+        words = isinstance(value[0], str)
+        return ", ".join(value) if words else f"{', '.join(map(degrees, value))} deg"
     if figure.key.endswith("_g"):
         return f"{number(value)} g"
     if unit == "deg":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     if not unit:
         return percent(value) if figure.key.startswith("factor") else number(value)
-    shown = {
-        "N": system.force,
-        "N·m": system.moment,
-        "kg·m": system.unbalance,
-        "mm": system.length,
-    }[unit]
+    shown = system.unbalance if unit == "kg·m" else system.instead_of(unit)
     return f"{number(shown.of(value / 1e3 if unit == 'mm' else value))} {shown.name}"
 
 
@@ -178,21 +170,16 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
     pivot = "the point of reference" if x or y else "the crankshaft"
     groups = {"": remedy.details} | {k: v for k, v in remedy.details.items() if type(v) is dict}
     for group, figures in groups.items():
-        grown = [
-            _find_growth(figures[before], figures[left])
-            for before, left in _ROLLS
-            if before in figures
-        ]
+        known = [pair for pair in _ROLLS if pair[0] in figures]
+        grown = [_find_growth(figures[before], figures[left]) for before, left in known]
         if not grown or grown[-1] <= 0:
             continue
         order = group.replace("_", " ") or f"order {remedy.order}"
-        why = f"where they stand, the devices' forces have levers about {pivot}."
-        if grown[0] < 0:
-            why = (
-                "what they take of the roll of inertia stood against that of the gas at this speed."
-            )
+        why = f"where they stand, the devices' forces have levers about {pivot}"
+        took = "what they take of the roll of inertia stood against that of the gas at this speed"
+        why = took if grown[0] < 0 else why
         gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
-        yield f"The roll of {order}{gas} grows by {size}: {why}"
+        yield f"The roll of {order}{gas} grows by {size}: {why}."
 
 
 def _find_growth(before: float, left: float) -> float:

@@ -258,12 +258,14 @@ def _crank_loads(result: Balance, system: System) -> Iterator[Grid]:
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
         sizes = [getattr(state, key) for state in states]
-        if None in sizes:
+        if None in sizes or not any(sizes):
             continue
         unit = system.unit(kind).fit(max(sizes))
         places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
         cells = [(number(unit.of(size)), at) for size, at in zip(sizes, places, strict=True)]
         rows.append((f"{name}, {unit.name}", *cells[0], *cells[1]))
+    if not rows:
+        return
     at = f"at z, {system.length.name}"
     note = "Inertia alone, bearings half-way between throws; of equal places the first."
     yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)

@@ -159,10 +159,10 @@ def _list_curves(
     """Return what is left with a factor, by the names of its peaks: free force or moment, and loads
     of main bearings if they are known.
     """
-    fitting, _ = _fit_factor(engine, factor, planes)
-    new = fit_devices(fitting.engine, fitting.remedy)
-    by_moment = engine.places_known and _do_pins_balance(engine)
-    key, kind = ("peak_moment_Nm", "moment") if by_moment else ("peak_force_N", "force")
+    new = fit_devices(*_fit_factor(engine, factor, planes)[0])
+    key, kind = (
+        ("peak_moment_Nm", "moment") if _counts_by_moment(engine) else ("peak_force_N", "force")
+    )
     curves = {key: find_curve(new, kind)}
     bearings = place_bearings(new.joined_throws_m) if new.places_known else None
     if bearings is not None:
@@ -223,17 +223,18 @@ def find_factor_peaks(
         peak_moment_Nm=find_peak(moment).value,
         bobweight_g=fill_card(engine, factor)[0].bobweight_g,
         counterweight_kg_m=max(weights, default=0.0),
-        by_moment=engine.places_known and _do_pins_balance(engine),
+        by_moment=_counts_by_moment(engine),
     )
 
 
-def _do_pins_balance(engine: Engine) -> bool:
+def _counts_by_moment(engine: Engine) -> bool:
     """Return whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the
-    share of it that a factor adds to the counterweights is then a moment.
+    share of it that a factor adds to the counterweights is then a moment. False where moments are
+    not known.
     """
     masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
     pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
-    return bool(abs(masses @ pins) < _NEARLY * masses.max())
+    return engine.places_known and bool(abs(masses @ pins) < _NEARLY * masses.max())
 
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:
@@ -320,17 +321,13 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
     base = fit_devices(bare, start)
     remedy = size_by_factor(base, wanted)
-    changes = [(one, (one.bobweight_g / 1e3 - measured) * radius) for one in card]
-    actions = [
-        {
-            "throw": one.throw,
-            "unbalance_kg_m": change,
-            "action": "add" if change > 0 else "remove",
-        }
-        if abs(change) > _UNCHANGED * abs(one.bobweight_g / 1e3 * radius)
-        else {"throw": one.throw, "unbalance_kg_m": 0.0, "action": "nothing"}
-        for one, change in changes
-    ]
+    actions = []
+    for one in card:
+        wants = one.bobweight_g / 1e3 * radius
+        change = wants - measured * radius
+        change = change if abs(change) > _UNCHANGED * abs(wants) else 0.0
+        action = "add" if change > 0 else "remove" if change else "nothing"
+        actions.append({"throw": one.throw, "unbalance_kg_m": change, "action": action})
     remedy = remedy.add_details(
         measured_g=1e3 * measured,
         measured_factor=has,
@@ -406,16 +403,14 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
     sets: list[list[_Pin]] = []
-    if planes is None and weights.any():
-        sets = [[pin for pin in pins if pin.z == z] for z in dict.fromkeys(pin.z for pin in pins)]
-    elif planes is None:
-        sets = [[pin] for pin in pins]
+    if planes is None:
+        own = {k: pin.z if weights.any() else k for k, pin in enumerate(pins)}
+        sets = [[pins[k] for k in own if own[k] == key] for key in dict.fromkeys(own.values())]
     z = np.array([members[0].z for members in sets] if planes is None else planes, float)
     if not pins:
         return _Planes(z[:0], np.zeros((3, 0), complex), [])
-    if planes is None:
-        of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
-    else:
+    of_pins = np.array([[float(pin in members) for pin in pins] for members in sets])
+    if planes is not None:
         of_pins = share_by_lever(np.array([pin.z for pin in pins]), z)
     of_weights = np.zeros((len(z), len(places)))
     if weights.any():

@@ -8,13 +8,12 @@ stand next to each other.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from ..core import least_squares
-from ..core.phasors import Array
+from ..core.phasors import Array, unit
 from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
@@ -22,16 +21,13 @@ from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from .fitting import find_effect
+from .fitting import find_effects
 from .planes import TABLES, DeviceTable, find_order, measure_direction
 from .remedy import Remedy
 from .residual import (
-    BACKWARD_FORCE,
-    BACKWARD_MOMENT,
-    FORWARD_FORCE,
-    FORWARD_MOMENT,
+    FORCE,
+    MOMENT,
     ROLL,
-    Scales,
     find_residual,
     find_scales,
     hold_steady,
@@ -40,23 +36,14 @@ from .schemes import FIT
 
 # Quantities that can be targets, and their parts; roll_total includes the gas.
 TARGETS = {
-    "force": (FORWARD_FORCE, BACKWARD_FORCE),
-    "moment": (FORWARD_MOMENT, BACKWARD_MOMENT),
+    "force": FORCE,
+    "moment": MOMENT,
     "roll": (ROLL,),
     ROLL_TOTAL.name: (ROLL,),
 }
 _LOST = 1e-10  # of the largest singular value of an order: less determines nothing
 _NOTHING = 1e-12  # of the largest unbalance of an order: less is rounding
 _REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
-
-
-class _Unknown(NamedTuple):
-    """A device to fit: its name in messages, its table, and the columns of its real unknowns."""
-
-    name: str
-    table: DeviceTable
-    held: bool
-    columns: Array
 
 
 def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
@@ -93,29 +80,24 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     Raises:
         BalcliError: an unknown target, or one that the file does not determine.
     """
-    chosen = _check_targets(engine, targets)
-    scales, notes = find_scales(engine), []
-    by_order: dict[int, list[tuple[str, DeviceTable]]] = {}
-    for name, table in list_to_fit(model):
-        by_order.setdefault(find_order(table), []).append((name, table))
+    chosen, named = _check_targets(engine, targets), list_to_fit(model)
     found: dict[str, DeviceTable] = {}
+    notes: list[str] = []
     unknowns = rank = 0
-    for order, tables in by_order.items():
-        matrix, target, devices = _set_up(engine, order, tables, chosen, scales)
-        solution = least_squares.solve(matrix, target, lost=_LOST)
-        unknowns, rank = unknowns + matrix.shape[1], rank + solution.rank
+    for order in dict.fromkeys(find_order(table) for _, table in named):
+        tables = {name: table for name, table in named if find_order(table) == order}
+        effects, target = _set_up(engine, order, tables.values(), chosen)
+        solution = least_squares.solve(np.concatenate(effects, axis=1), target, lost=_LOST)
+        unknowns, rank = unknowns + len(solution.x), rank + solution.rank
         x = np.where(np.abs(solution.x) < _NOTHING * np.abs(solution.x).max(), 0, solution.x)
-        largest, at = np.abs(matrix).max(), 0
-        for device in devices:
-            values = x[at : at + device.columns.shape[1]]
-            at += len(values)
-            found[device.name] = _fill(device, values)
-            if np.abs(device.columns).max() <= _LOST * largest:
-                notes.append(f"{device.name} has no effect on these targets: its unbalance is 0.")
-            elif device.held and values[0] < 0:
-                notes.append(
-                    f"{device.name} has to stand opposite: its angle is turned by 180 deg."
-                )
+        largest = max(np.abs(each).max() for each in effects)
+        for (name, table), each in zip(tables.items(), effects, strict=True):
+            values, x = np.split(x, [each.shape[1]])
+            found[name] = _fill(table, values)
+            if np.abs(each).max() <= _LOST * largest:
+                notes.append(f"{name} has no effect on these targets: its unbalance is 0.")
+            elif len(values) == 1 and values[0] < 0:
+                notes.append(f"{name} has to stand opposite: its angle is turned by 180 deg.")
     if undetermined := unknowns - rank:
         notes.insert(
             0,
@@ -124,7 +106,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
         )
     details = {"target": list(chosen), "unknowns": unknowns, "undetermined": undetermined}
     remedy = Remedy(FIT, note=" ".join(notes), details=details)
-    fitted = [found[name] for name, _ in list_to_fit(model)]
+    fitted = [found[name] for name, _ in named]
     return remedy.add_devices(fitted, _REASON.format(join_words(chosen)))
 
 
@@ -143,14 +125,13 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
 
 
 def _set_up(
-    engine: Engine,
-    order: int,
-    tables: Sequence[tuple[str, DeviceTable]],
-    targets: Sequence[str],
-    scales: Scales,
-) -> tuple[Array, Array, list[_Unknown]]:
-    """Return matrix and target of an order, in shares of one cylinder, and its devices."""
-    residual, parts, there, weights = find_residual(engine, order), [], [], []
+    engine: Engine, order: int, tables: Iterable[DeviceTable], targets: Sequence[str]
+) -> tuple[list[Array], Array]:
+    """Return what each device of an order does, shape (readings, unknowns): one where its angle is
+    held, else two; and what is wanted, shape (readings,); in shares of one cylinder.
+    """
+    residual, scales = find_residual(engine, order), find_scales(engine)
+    parts, there, weights = [], [], []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)
         for part in TARGETS[target]:
@@ -160,34 +141,22 @@ def _set_up(
                 value = 2 * complex(phasors.forward[0]) / residual.newtons_per_kg_m
             parts.append(part)
             there.append(value)
-            weights.append(residual.newtons_per_kg_m / scale)
-    devices = []
-    for name, table in tables:
-        held = "angle" in table.model_fields_set
-        angles = (table.angle,) if held else (0.0, 90.0)
-        columns = [
-            np.array(weights)
-            * find_effect(
-                build_device(
-                    table.model_copy(update={"unbalance": 1e6, "angle": angle}),
-                    engine.first_axis_deg,
-                ),
-                parts,
-                residual.reference,
-            )
-            for angle in angles
-        ]
-        devices.append(_Unknown(name, table, held, np.array(columns).view(float).T))
-    matrix = np.concatenate([device.columns for device in devices], axis=1)
-    return matrix, -(np.array(weights) * np.array(there, complex)).view(float), devices
+            weights += 2 * [residual.newtons_per_kg_m / scale]
+    effects = []
+    for table in tables:
+        angles = (table.angle,) if "angle" in table.model_fields_set else (0.0, 90.0)
+        turned = [table.model_copy(update={"unbalance": 1e6, "angle": angle}) for angle in angles]
+        devices = [build_device(one, engine.first_axis_deg) for one in turned]
+        of_one = find_effects(devices, parts, residual.reference)
+        effects.append(np.array(weights)[:, None] * of_one)
+    return effects, -np.array(weights) * np.array(there, complex).view(float)
 
 
-def _fill(device: _Unknown, values: Array) -> DeviceTable:
+def _fill(table: DeviceTable, values: Array) -> DeviceTable:
     """Return the table with the unbalance found; values: kg m, one of a held angle, else two."""
-    if device.held:
-        turned = measure_direction(complex(np.exp(1j * np.radians(device.table.angle + 180))))
-        angle = turned if values[0] < 0 else device.table.angle
-    else:
-        angle = measure_direction(complex(*values)) if values.any() else 0.0
+    angle = measure_direction(complex(*values)) if values.any() else 0.0
+    if len(values) == 1:
+        opposite = complex(unit(table.angle + 180))
+        angle = measure_direction(opposite) if values[0] < 0 else table.angle
     size = 1e6 * float(np.hypot(*values) if len(values) > 1 else abs(values[0]))
-    return device.table.model_copy(update={"unbalance": size, "angle": angle})
+    return table.model_copy(update={"unbalance": size, "angle": angle})

@@ -24,19 +24,30 @@ from numpy.typing import NDArray
 
 from ..core import least_squares
 from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import EPS, unit
+from ..core.phasors import EPS, Array, unit
+from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from .planes import SAME_PLACE, DeviceTable, as_millimetres, find_planes, measure_direction
+from .planes import (
+    SAME_PLACE,
+    DeviceTable,
+    as_millimetres,
+    find_planes,
+    measure_direction,
+    takes_moment,
+)
 from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
+    BACKWARD_MOMENT,
+    FORCE,
     FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
+    MOMENT,
     ROLL,
     ReferencePoint,
     Residual,
@@ -46,6 +57,13 @@ from .residual import (
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
+_LEFT_OF = {  # parts of an order by the keys of details
+    "force_left_N": FORCE,
+    "moment_left_Nm": MOMENT,
+    "couple_left_Nm": (BACKWARD_MOMENT,),
+    "force_with_crank_left_N": (FORWARD_FORCE,),
+    "moment_with_crank_left_Nm": (FORWARD_MOMENT,),
+}
 LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
 
 
@@ -69,27 +87,20 @@ class Slot(NamedTuple):
 
     def make_device(self, unbalance: complex) -> Device:
         """The device of this unbalance (kg m) in this slot, as rotating vectors."""
-        u = unbalance
-        if self.kind == "slider":
-            half = complex(unit(self.direction_deg)) / 2
-            return Device(self.order, half * u, half * u.conjugate(), self.place, self.z)
-        forward, backward = (u, 0j) if self.sense > 0 else (0j, u)
-        return Device(self.order, forward, backward, self.place, self.z)
+        return build_device(self.make_table(unbalance, 0.0), 0.0)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
         """Return the device of this unbalance (kg m; its direction at crank angle 0 counts from x)
         as a table of the engine file; a counterweight's angle counts from cylinder 1's crank pin at
         `first_axis_deg`.
         """
-        origin_deg = first_axis_deg if self.kind == "counterweight" else 0.0
-        values: dict[str, Any] = {
-            "unbalance": abs(unbalance) * 1e6,
-            "angle": measure_direction(unbalance, origin_deg),
-            "position": as_millimetres(self.z),
-        }
-        if self.kind == "counterweight":
+        on_crank = self.kind == "counterweight"
+        angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
+        values: dict[str, Any] = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
+        x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
+        if on_crank:
             return Counterweight.model_construct(**values)
-        values["at"] = (as_millimetres(self.place.real), as_millimetres(self.place.imag))
+        values["at"] = (x, y)
         if self.kind == "shaft":
             return Shaft.model_construct(ratio=self.sense * self.order, **values)
         return Slider.model_construct(order=self.order, direction=self.direction_deg, **values)
@@ -124,6 +135,13 @@ def find_effect(
     return np.array(effects, complex)
 
 
+def find_effects(
+    devices: Iterable[Device], parts: Sequence[ResidualPart], reference: ReferencePoint
+) -> Array:
+    """What devices add to each part, real and imaginary in turn, shape (2 parts, devices)."""
+    return np.array([find_effect(one, parts, reference) for one in devices]).view(float).T
+
+
 def size_unbalances(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> Fit:
@@ -135,14 +153,10 @@ def size_unbalances(
     Args:
         least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
     """
-    weights = _weigh(parts, max(least_arm, _find_longest_arm(slots, residual.reference)))
-    columns = [
-        find_effect(slot.make_device(u), parts, residual.reference)
-        for slot in slots
-        for u in (1 + 0j, 1j)
-    ]
+    weights = _weigh(slots, residual, parts, least_arm)
+    devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
+    matrix = find_effects(devices, parts, residual.reference)
     target = -np.array([residual.parts[part] for part in parts], complex)
-    matrix = np.array(columns).view(float).T  # real and imaginary parts in turn
     found = least_squares.solve(matrix, target.view(float), np.repeat(weights, 2))
     rounding = 4 * EPS * np.abs(found.x).max()
     x = np.where(np.abs(found.x) <= rounding, 0, found.x)
@@ -159,7 +173,7 @@ def solve_exactly(
     condition number if they are too much alike.
     """
     fit = size_unbalances(slots, residual, parts)
-    weights = _weigh(parts, _find_longest_arm(slots, residual.reference))
+    weights = _weigh(slots, residual, parts)
     size = float(max(weights * [abs(residual.parts[part]) for part in parts]))
     noise = float(max(weights * [residual.noise[part] for part in parts]))
     if fit.condition == np.inf and fit.left * size > noise:
@@ -178,15 +192,15 @@ def solve_exactly(
     return fit
 
 
-def _find_longest_arm(slots: Sequence[Slot], reference: ReferencePoint) -> float:
-    """Of all slots about the point of reference, m; 1 if none has an arm."""
-    along = [abs(slot.z - reference.z) for slot in slots]
-    across = [abs(slot.place - reference.place) for slot in slots]
-    return max(along + across) or 1.0
-
-
-def _weigh(parts: Sequence[ResidualPart], arm: float) -> NDArray[np.float64]:
-    """Return weights by which moments are measured by the force that makes them at this arm."""
+def _weigh(
+    slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
+) -> NDArray[np.float64]:
+    """Return weights by which moments are measured by the force that makes them at the longest arm
+    of a slot about the point of reference, at least this (m); at 1 m if none has an arm.
+    """
+    place, z = residual.reference
+    arms = [max(abs(slot.z - z), abs(slot.place - place)) for slot in slots]
+    arm = max(least_arm, max(arms) or 1.0)
     return np.array([1.0 if part.kind == "force" else 1 / arm for part in parts])
 
 
@@ -259,20 +273,14 @@ class Fitting(NamedTuple):
         engine, residual = self.engine, self.find_residual(1)
         if engine.rotary:
             return self
-        force, moment, radius = 0j, 0j, float(engine.cylinders.radius)
-        for weighed, pin, z in zip(
-            engine.weighed, engine.cylinders.pin_deg, engine.cylinders.z, strict=True
-        ):
-            direction = complex(unit(float(engine.first_axis_deg + pin)))
-            unbalance = float(weighed.rotating + weighed.share) * radius * direction
-            force += unbalance
-            moment += unbalance * (float(z) - residual.reference.z)
-        pins = force
-        for device in engine.devices:
-            if device.kind is DeviceKind.COUNTERWEIGHT:
-                force += complex(device.forward)
-                moment += complex(device.forward) * float(device.z - residual.reference.z)
-        if keep_overbalance and (pins.conjugate() * force).real < 0:
+        masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
+        directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
+        pins = masses * float(engine.cylinders.radius) * directions
+        own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
+        vectors = np.array([*pins, *(one.forward for one in own)])
+        z = np.array([*engine.cylinders.z, *(one.z for one in own)])
+        force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
+        if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
             return self
         parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
@@ -280,15 +288,18 @@ class Fitting(NamedTuple):
         slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
+    def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
+        """With details, by these keys of `_LEFT_OF`, of what the devices so far leave."""
+        left = self.find_residual(order)
+        return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
+
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
         """With details of what the devices so far leave of an order's roll, and of what it was; of
         an engine with gas, of the roll with the gas at its speed, too.
         """
         order = before.order
-        details = {
-            "roll_left_Nm": self.find_residual(order).size(ROLL),
-            "roll_before_Nm": before.size(ROLL),
-        }
+        left = self.find_residual(order).size(ROLL)
+        details = {"roll_left_Nm": left, "roll_before_Nm": before.size(ROLL)}
         if self.engine.gas is not None:
             fitted = fit_devices(self.engine, self.remedy)
             details["roll_with_gas_left_Nm"] = _size_total_roll(fitted, order)
@@ -312,39 +323,34 @@ def explain_counterweights(residual: Residual) -> str:
     return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
 
 
-def explain_shaft(residual: Residual, sense: int, count: int) -> str:
-    """Return why this many eccentrics on one shaft take all that turns in this sense."""
-    what = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
-    what = "one eccentric" if count == 1 else what
-    return (
-        f"{_name(residual, sense)} turning {_turning(sense)} the crank: nothing on the crankshaft "
-        f"can cancel it; {what} {_on_shaft(residual, sense)} can"
-    )
-
-
-def explain_one_eccentric(
-    residual: Residual, sense: int, whole: bool, more: str, halves: bool = False
+def explain_shaft(
+    residual: Residual, sense: int, count: int, stays: str = "", *, halves: bool = False
 ) -> str:
-    """Return why one eccentric is fitted for the force that turns in this sense, or two halves.
+    """Return why this many eccentrics on one shaft take what turns in this sense.
 
     Args:
         residual: What is left at the order.
         sense: Sense of rotation: 1 with the crank, -1 against it.
-        whole: Whether it takes the moment that turns so, too.
-        more: What would take the moment that stays otherwise.
-        halves: Whether it is divided.
+        count: Number of eccentrics.
+        stays: What stays of the moment (`tell_moment`); empty: they take all.
+        halves: Whether one eccentric is divided.
     """
-    what = _name(residual, sense) if whole else f"Order {residual.order} force"
+    what = f"Order {residual.order} force" if stays else _name(residual, sense)
     why = "nothing on the crankshaft can cancel it"
     if sense * residual.order == 1:
         why = "the scheme counterweights would cancel it without a shaft"
-    reason = (
-        f"{what} turning {_turning(sense)} the crank: {why}; "
-        f"one eccentric {_on_shaft(residual, sense)} can"
-    )
-    if halves:
-        reason += ", in two halves on opposite sides of the crank so that no roll is added"
-    return reason if whole else f"{reason}; a moment stays, which {more}"
+    kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
+    kind = "one eccentric" if count == 1 else kind
+    both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
+    turns = f"turning {_turning(sense)} the crank"
+    return f"{what} {turns}: {why}; {kind} {_on_shaft(residual, sense)} can{both}{stays}"
+
+
+def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
+    """Return words on the moment that one eccentric at z (m) leaves, and what takes it; empty if
+    none stays.
+    """
+    return "" if takes_moment(residual, sense, z) else f"; a moment stays, which {cure}"
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
@@ -354,23 +360,6 @@ def explain_couple(residual: Residual, sense: int) -> str:
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
         f"the shaft stands{needless * (sense * residual.order == 1)}"
-    )
-
-
-def explain_compensator(residual: Residual) -> str:
-    """Return why shafts with a force take a moment."""
-    return (
-        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
-        "work as a moment compensator; their force at this distance makes the opposite moment, and "
-        "stays (couple-shaft leaves no force)"
-    )
-
-
-def explain_sliders(residual: Residual) -> str:
-    """Return why two sliders are fitted for the force."""
-    return (
-        f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
-        "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from numbers import Complex, Integral, Real
 from types import NoneType
 from typing import Any, NamedTuple, cast
@@ -22,6 +23,7 @@ _NUMBERS: dict[str, tuple[type, bool, str]] = {
     "measured": (Real, True, "a mass in kg, such as 0.812"),
     "orders": (Real, True, "orders, such as (1, 2)"),
     "small": (Real, True, "a share, such as 0.05"),
+    "radius": (Real, False, "a length in m, such as 0.03"),
 }
 _SEVERAL = ("at", "planes", "factor", "orders")
 
@@ -43,6 +45,8 @@ class SchemeOptions(NamedTuple):
         orders: orders of the force whose largest value is made smallest; default: all.
         small: share of one cylinder below which what turns one way in an order is left.
         step: name or number of a step of the ladder (scheme step).
+        radius: of the weights on shafts that turn unevenly or drive couplings; default: the crank
+            radius.
     """
 
     order: int | None = None
@@ -55,6 +59,7 @@ class SchemeOptions(NamedTuple):
     orders: tuple[float, ...] | None = None
     small: float | None = None
     step: str | int | None = None
+    radius: float | None = None
 
     def read_small(self) -> float:
         """Return the share below which a part is small."""
@@ -89,6 +94,8 @@ class SchemeOptions(NamedTuple):
             raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
         if not isinstance(self.step, (str, int, NoneType)):
             raise wrong_type("SchemeOptions: step", self.step, "give a name or number, such as 1")
+        if self.radius is not None and not 0 < self.radius < math.inf:
+            raise BalcliError(f"--radius: {1e3 * self.radius:g} mm; give figures above 0")
         if isinstance(self.planes, str) and self.planes not in ("ends", "throws"):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'

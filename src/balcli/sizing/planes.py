@@ -7,7 +7,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from typing import TypeAlias, TypeGuard
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -110,14 +110,12 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
     """The two planes (z, m) asked for, or else the ends; BalcliError if they are not two."""
-    if options.planes is None or options.planes == "ends":
-        low, high = find_ends(engine)
-    elif isinstance(options.planes, tuple) and len(options.planes) == 2:
-        low, high = options.planes
-    else:
+    planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
+    if not isinstance(planes, tuple) or len(planes) != 2:
         raise BalcliError(
             "--planes: opposite eccentrics stand in two planes; give ends, or two places along z"
         )
+    low, high = planes
     if low == high:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high
@@ -163,22 +161,17 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
     """Which devices belong to a shaft that may stand anywhere, because its eccentrics together make
     a moment and no force, and nobody has said where it stands.
     """
-    turned: dict[int, list[complex]] = {}
-    for device in devices:
-        if _stands_nowhere(device):
-            vector = cmath.rect(find_unbalance(device), math.radians(device.angle))
-            turned.setdefault(device.ratio, []).append(vector)
-    free = {
-        ratio
-        for ratio, vectors in turned.items()
-        if len(vectors) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors))
-    }
-    return tuple(_stands_nowhere(device) and device.ratio in free for device in devices)
-
-
-def _stands_nowhere(device: DeviceTable) -> TypeGuard[Shaft]:
-    """A shaft on the crank axis, where it is put if nothing is said of its place."""
-    return isinstance(device, Shaft) and not any(device.at)
+    shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
+    free = set[int]()
+    for ratio in {shaft.ratio for shaft in shafts}:
+        same = [shaft for shaft in shafts if shaft.ratio == ratio]
+        vectors = [cmath.rect(find_unbalance(one), math.radians(one.angle)) for one in same]
+        if len(same) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors)):
+            free.add(ratio)
+    return tuple(
+        isinstance(device, Shaft) and not any(device.at) and device.ratio in free
+        for device in devices
+    )
 
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:

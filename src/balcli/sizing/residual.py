@@ -33,6 +33,7 @@ class ResidualPart(NamedTuple):
 
 FORWARD_FORCE, FORWARD_MOMENT = FORWARD = (ResidualPart("force", 1), ResidualPart("moment", 1))
 BACKWARD_FORCE, BACKWARD_MOMENT = BACKWARD = (ResidualPart("force", -1), ResidualPart("moment", -1))
+FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMENT)
 ROLL = ResidualPart("roll", 0)
 
 

@@ -14,8 +14,8 @@ SCHEMES: dict[str, tuple[str, ...]] = {
     "four-shaft": ("at", "position"),
     "couple-shaft": ("order", "at", "planes"),
     "slider": ("order", "at", "position"),
-    "eccentric-slider": (),
-    "oldham": (),
+    "eccentric-slider": ("radius",),
+    "oldham": ("radius",),
 }
 
 

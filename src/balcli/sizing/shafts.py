@@ -11,37 +11,27 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
 
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import (
     Fitting,
     Slot,
-    explain_compensator,
     explain_couple,
-    explain_one_eccentric,
     explain_shaft,
+    tell_moment,
 )
 from .ladder import add_at_ends
 from .options import SchemeOptions
-from .planes import (
-    choose_plane,
-    locate_force,
-    read_two_planes,
-    takes_moment,
-)
+from .planes import choose_plane, locate_force, read_two_planes
 from .remedy import Remedy
 from .residual import (
     BACKWARD,
-    BACKWARD_FORCE,
-    BACKWARD_MOMENT,
-    FORWARD_FORCE,
-    FORWARD_MOMENT,
+    FORCE,
+    MOMENT,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
-    ResidualPart,
     choose_residual,
     find_scales,
     find_share,
@@ -66,34 +56,24 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "single-shaft", residual.order, residual.note)
     if residual.order == 1:
         fitting = add_at_ends(fitting, residual)
+    planes: tuple[float, ...]
     if two:
-        fitting = _add_two_eccentrics(fitting, residual, options)
+        planes, stays = read_two_planes(engine, options), ""
     else:
-        fitting = _add_one_eccentric(fitting, residual, options)
+        planes = (choose_plane(engine, options, residual, -1),)
+        stays = tell_moment(residual, -1, planes[0], "eccentrics in two planes take, too")
+    slots = [Slot("shaft", residual.order, -1, z, options.read_place()) for z in planes]
+    reason = explain_shaft(residual, -1, len(slots), stays)
+    fitting = fitting.cancel(slots, BACKWARD[: len(slots)], reason)
+    if not two:
+        distance = planes[0] - locate_force(residual, -1)
+        distance_mm = 1e3 * distance if abs(distance) > _ROUNDING_M else 0.0
+        fitting = fitting.describe_left(residual.order, "couple_left_Nm")
+        fitting = fitting.add_details(axial_distance_mm=distance_mm)
     fitting = fitting.describe_roll(residual)
     if residual.order > 1:
-        left = fitting.find_residual(residual.order)
-        fitting = fitting.add_details(force_with_crank_left_N=left.size(FORWARD_FORCE))
+        fitting = fitting.describe_left(residual.order, "force_with_crank_left_N")
     return fitting.remedy
-
-
-def _add_one_eccentric(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
-    z = choose_plane(fitting.engine, options, residual, -1)
-    slot = Slot("shaft", residual.order, -1, z, options.read_place())
-    more = "eccentrics in two planes take, too"
-    reason = explain_one_eccentric(residual, -1, takes_moment(residual, -1, z), more)
-    fitting = fitting.cancel([slot], [BACKWARD_FORCE], reason)
-    left, distance = fitting.find_residual(residual.order), z - locate_force(residual, -1)
-    return fitting.add_details(
-        couple_left_Nm=left.size(BACKWARD_MOMENT),
-        axial_distance_mm=1e3 * (distance if abs(distance) > _ROUNDING_M else 0.0),
-    )
-
-
-def _add_two_eccentrics(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
-    planes, place = read_two_planes(fitting.engine, options), options.read_place()
-    slots = [Slot("shaft", residual.order, -1, z, place) for z in planes]
-    return fitting.cancel(slots, BACKWARD, explain_shaft(residual, -1, 2))
 
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -102,28 +82,17 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
-    places = _read_places(options, [sense for sense in (-1, 1) if residual.moment(sense)])
-    fitting = Fitting.start(engine, "couple-shaft", residual.order, residual.note)
-    for sense in sorted(places, reverse=True):
-        slots = [Slot("shaft", residual.order, sense, z, places[sense]) for z in (low, high)]
-        unbalance = residual.moment(sense) / (high - low)
-        fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
-    left = fitting.find_residual(residual.order)
-    return fitting.add_details(
-        moment_left_Nm=left.size(FORWARD_MOMENT, BACKWARD_MOMENT),
-        force_left_N=left.size(FORWARD_FORCE, BACKWARD_FORCE),
-    ).remedy
-
-
-def _read_places(options: SchemeOptions, senses: Sequence[int]) -> dict[int, complex]:
-    """Where the shafts of these senses stand, as asked for in this order; what is not said is free,
-    and counts as on the crank axis.
-    """
+    senses = [sense for sense in (-1, 1) if residual.moment(sense)]
     at = options.at or ()
     if len(at) > len(senses):
         told = "two shafts" if len(senses) == 2 else "one shaft"
         raise BalcliError(f"--at: this moment takes {told}; give no more places")
-    return {sense: at[k] if k < len(at) else 0j for k, sense in enumerate(senses)}
+    fitting = Fitting.start(engine, "couple-shaft", residual.order, residual.note)
+    for sense, place in reversed([*zip(senses, (*at, 0j, 0j), strict=False)]):
+        slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
+        unbalance = residual.moment(sense) / (high - low)
+        fitting = fitting.add(slots, (unbalance, -unbalance), explain_couple(residual, sense))
+    return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
 
 
 Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in each sense
@@ -142,7 +111,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
             ) from None
         if options.order is None or options.position is None:
             raise
-        return _compensate_moment(engine, options)
+        return _compensate_moment(engine, options, options.position)
     fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
     if residual.order == 1:
         fitting = fitting.balance_rotating()
@@ -150,7 +119,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     return _add_pair(fitting, residual, options).remedy
 
 
-def _compensate_moment(engine: Engine, options: SchemeOptions) -> Remedy:
+def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Remedy:
     """Shafts at +N and -N far from the engine, as marine engines have at one end: their force there
     takes the moment of order N, and stays.
 
@@ -158,36 +127,38 @@ def _compensate_moment(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: the order has no moment, either.
         BalcliError: the place has no arm.
     """
-    residual, z = choose_residual(engine, options, ("moment",)), float(options.position or 0)
+    residual = choose_residual(engine, options, ("moment",))
     if z == residual.reference.z:
         raise BalcliError(
             f"--position {1e3 * z:g}: a force there has no arm about the point of reference and "
             f"makes no moment of order {residual.order}; give a place far from it"
         )
-    places = dict.fromkeys((1, -1), 0j) | dict(zip((-1, 1), options.at or (), strict=False))
+    against, with_crank = (*(options.at or ()), 0j, 0j)[:2]
+    parts = [part for part in MOMENT if residual.parts[part]]
     slots = [
-        Slot("shaft", residual.order, sense, z, place)
-        for sense, place in places.items()
-        if residual.moment(sense)
+        Slot("shaft", residual.order, part.sense, z, with_crank if part.sense > 0 else against)
+        for part in parts
     ]
     fitting = Fitting.start(engine, "two-shaft", residual.order)
-    parts = [ResidualPart("moment", slot.sense) for slot in slots]
-    fitting = fitting.cancel(slots, parts, explain_compensator(residual))
-    force = fitting.find_residual(residual.order).size(FORWARD_FORCE, BACKWARD_FORCE)
-    return fitting.add_details(force_left_N=force).describe_roll(residual).remedy
+    reason = (
+        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
+        "work as a moment compensator; their force at this distance makes the opposite moment, and "
+        "stays (couple-shaft leaves no force)"
+    )
+    fitting = fitting.cancel(slots, parts, reason)
+    return fitting.describe_left(residual.order, "force_left_N").describe_roll(residual).remedy
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
     fitting = Fitting.start(engine, "four-shaft").balance_rotating()
-    residuals = [fitting.find_residual(order) for order in (1, 2)]
-    sought, scales = (FORWARD_FORCE, BACKWARD_FORCE), find_scales(engine)
-    sizes = [max(find_share(one, part, scales) for part in sought) for one in residuals]
+    residuals, scales = [fitting.find_residual(order) for order in (1, 2)], find_scales(engine)
+    sizes = [max(find_share(one, part, scales) for part in FORCE) for one in residuals]
     least = options.read_small()
     forces = [one for one, size in zip(residuals, sizes, strict=True) if size and size >= least]
     if not forces and any(sizes):
-        largest = max(zip(sizes, residuals, strict=True), key=lambda each: each[0])[1]
-        raise OnlySmallError(tell_small(largest, sought, residuals, scales, least))
+        largest = residuals[sizes.index(max(sizes))]
+        raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError(
             "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "
@@ -206,13 +177,13 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
     for sense, standing in places.items():
         z = choose_plane(fitting.engine, options, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
-        whole, more = takes_moment(residual, sense, z), "takes eccentrics in two planes"
-        reason = explain_one_eccentric(residual, sense, whole, more, halves=len(slots) > 1)
+        stays = tell_moment(residual, sense, z, "takes eccentrics in two planes")
+        reason = explain_shaft(residual, sense, 1, stays, halves=len(slots) > 1)
         share = -residual.force(sense) / len(slots)
         fitting = fitting.add(slots, [share] * len(slots), reason)
-    left = fitting.find_residual(residual.order)
-    group, moment = f"order_{residual.order}", left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
-    fitting = fitting.add_details(group, **_describe_places(places), moment_left_Nm=moment)
+    group = f"order_{residual.order}"
+    fitting = fitting.add_details(group, **_describe_places(places))
+    fitting = fitting.describe_left(residual.order, "moment_left_Nm", group=group)
     return fitting.describe_roll(residual, group)
 
 
@@ -222,7 +193,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
 
     A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
     (docs/theory.md). Without a place that was given, those nearest to the crank are taken (least
-    squares).
+    squares). A force that turns in one sense alone takes one shaft on the crank axis, or two
+    halves at the place asked for and opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
@@ -231,39 +203,26 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
             "crank"
         )
     if not (forward and backward):
-        return _choose_place_of_one(residual, options)
+        if options.roll:
+            raise BalcliError(
+                f"order {residual.order}: its force turns {'with' if forward else 'against'} the "
+                "crank alone, so that one shaft takes it and none is left to be placed for the "
+                "roll; leave out --roll"
+            )
+        place = at[0] if at else 0j
+        return {1 if forward else -1: (place, -place) if place else (0j,)}
     if len(at) == 2 and options.roll:
         raise BalcliError(
             "--roll zero fixes the place of the second shaft; give one --at, or two without --roll"
         )
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    wanted = 1j * _find_roll_about_crank(residual) if options.roll else 0j
+    here = residual.reference.place  # the roll is wanted about the crank axis
+    moved = here.conjugate() * forward - here * backward.conjugate()
+    wanted = 1j * residual.roll + moved if options.roll else 0j
     against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
     with_crank = (wanted + against * backward.conjugate()) / forward
     return {-1: (against,), 1: (with_crank.conjugate(),)}
-
-
-def _choose_place_of_one(residual: Residual, options: SchemeOptions) -> Places:
-    """Return places for a force that turns in one sense alone: one shaft on the crank axis, or two
-    halves at the place asked for and opposite to it.
-    """
-    sense = 1 if residual.force(1) else -1
-    if options.roll:
-        raise BalcliError(
-            f"order {residual.order}: its force turns {'with' if sense > 0 else 'against'} the "
-            "crank alone, so that one shaft takes it and none is left to be placed for the roll; "
-            "leave out --roll"
-        )
-    place = options.at[0] if options.at else 0j
-    return {sense: (place, -place) if place else (0j,)}
-
-
-def _find_roll_about_crank(residual: Residual) -> complex:
-    """The roll taken about the crank axis instead of the point of reference, kg m^2."""
-    place = residual.reference.place
-    moved = place.conjugate() * residual.force(1) - place * residual.force(-1).conjugate()
-    return residual.roll - 1j * moved
 
 
 def _describe_places(places: Places) -> dict[str, float]:

@@ -17,16 +17,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from itertools import combinations, product
-from math import nan
+from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Device
 from ..core.mechanisms import closed_form
 from ..core.phasors import Array, Complex, unit
-from ..core.records import to_document
+from ..core.records import Node, to_document
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import Fitting
@@ -49,8 +49,7 @@ _BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
 _NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
 
 
-@dataclass(frozen=True, kw_only=True)
-class Optimum:
+class Optimum(NamedTuple):
     """The best pair of unevenly turning shafts by one criterion.
 
     Attributes:
@@ -59,7 +58,6 @@ class Optimum:
         engine_force: One of `FORCES`.
         k: Radius of the driving pin over the eccentricity, r_b/e.
         mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
-        unbalance_kg_m: Unbalance of each shaft of an engine; nan of none in particular.
         largest: Largest absolute force that is left, in units of m r omega^2.
         mean: Mean absolute force that is left, in units of m r omega^2.
     """
@@ -69,7 +67,6 @@ class Optimum:
     engine_force: str
     k: float
     mu: float
-    unbalance_kg_m: float = nan
     largest: float
     mean: float
 
@@ -97,17 +94,11 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
             f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
             "second order is too strong for an eccentric smaller than its pin radius"
         ) from None
-    remaining = _find_remaining(design, engine, x)
+    remaining, _ = _linearize(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
-    return Optimum(
-        design=design,
-        criterion=criterion,
-        engine_force=engine_force,
-        k=float(x[0]),
-        mu=float(x[1]),
-        largest=float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max()),
-        mean=float(np.abs(np.diff(primitive)).sum()) / np.pi,
-    )
+    largest = float(np.abs(_evaluate(remaining, _find_zeros(remaining, 1))).max())
+    mean = float(np.abs(np.diff(primitive)).sum()) / np.pi
+    return Optimum(design, criterion, engine_force, float(x[0]), float(x[1]), largest, mean)
 
 
 def find_optima(lam: float) -> tuple[Optimum, ...]:
@@ -120,9 +111,8 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
     Raises:
         BalcliError: the first one does not settle.
     """
-    (force, design, criterion), *others = product(FORCES, DESIGNS, CRITERIA)
-    optima = [find_optimum(design, criterion, force, lam)]
-    for force, design, criterion in others:
+    optima = [find_optimum(DESIGNS[0], CRITERIA[0], FORCES[0], lam)]
+    for force, design, criterion in [*product(FORCES, DESIGNS, CRITERIA)][1:]:
         with suppress(BalcliError):
             optima.append(find_optimum(design, criterion, force, lam))
     return tuple(optima)
@@ -145,6 +135,22 @@ def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
     return values, by_k
 
 
+def find_shaft_rates(design: str, k: float) -> tuple[float, float, float]:
+    """Return the largest and smallest `phi'`, the speed of the shafts over that of the crank, at
+    theta = 0 and pi, and the largest `phi''`.
+
+    Args:
+        design: One of `DESIGNS`.
+        k: Radius of the driving pin over the eccentricity, above 1.
+    """
+    if design == "a":  # phi = theta + arcsin(sin(theta)/k)
+        return 1 + 1 / k, 1 - 1 / k, 1 / sqrt(k**2 - 1)
+    square = 1 + k**2  # phi = arg(k e^{i theta} - 1); phi'' is largest at this cosine
+    cosine = 8 * k / (square + sqrt(square**2 + 32 * k**2))
+    bend = k * (k**2 - 1) * sqrt(1 - cosine**2) / (square - 2 * k * cosine) ** 2
+    return k / (k - 1), k / (k + 1), bend
+
+
 def _expand_engine_force(engine_force: str, lam: float) -> Array:
     """Return cosine coefficients of the force of the piston in units of m r omega^2."""
     if engine_force == "all orders":
@@ -152,17 +158,15 @@ def _expand_engine_force(engine_force: str, lam: float) -> Array:
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
-def _find_remaining(design: str, engine: Array, x: Array) -> Array:
-    """Return cosine coefficients of P, what remains of the engine's force."""
+def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:
+    """Return cosine coefficients of P, what remains of the engine's force, and their derivatives
+    by k and by mu, shape (2, orders).
+    """
     if not _LEAST_K < x[0] < _MOST_K:
         raise ArithmeticError(f"k must stay above {_LEAST_K}")
-    return engine - 2 * x[1] * _ORDERS**2 * expand_shaft_wave(design, x[0])[0]
-
-
-def _find_slopes(design: str, x: Array) -> Array:
-    """Return derivatives of the coefficients of P by k and by mu, shape (2, orders)."""
     wave, by_k = expand_shaft_wave(design, x[0])
-    return -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
+    slopes = -2 * _ORDERS**2 * np.stack([x[1] * by_k, wave])
+    return engine + x[1] * slopes[1], slopes
 
 
 # ------------------------------------------------------------------ even series
@@ -206,10 +210,10 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     """Return the step d that makes the largest of `values + slopes d` over the extremes of P
     smallest: that of the three extremes whose bound is highest (de la Vallee-Poussin).
     """
-    remaining = _find_remaining(design, engine, x)
+    remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
-    slopes = np.sign(values)[:, None] * _evaluate(_find_slopes(design, x), theta)
+    slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
     top, best = -np.inf, None
     for triple in map(list, combinations(range(len(values)), 3)):
         system = np.column_stack([slopes[triple], -np.ones(3)])
@@ -230,10 +234,10 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
     """
 
     def find_gradient(x: Array) -> Array:
-        remaining = _find_remaining(design, engine, x)
+        remaining, by_x = _linearize(design, engine, x)
         zeros = _find_zeros(remaining)
         signs = np.sign(_evaluate(remaining, (zeros[:-1] + zeros[1:]) / 2))
-        gradient: Array = signs @ np.diff(_evaluate(_find_slopes(design, x), zeros, -1), axis=0)
+        gradient: Array = signs @ np.diff(_evaluate(by_x, zeros, -1), axis=0)
         return gradient
 
     columns = [
@@ -247,11 +251,18 @@ _SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
 _ECCENTRIC_SLIDER = (
     "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
     "reciprocates); design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the "
-    "shaft; criteria: largest and mean force"
+    "shaft; criteria: largest and mean force; pin and weight of each shaft at the same radius r_b, "
+    "its axis e from that of the disc; the shafts stand alike on either side of the cylinder axis"
+)
+_SPEED_LAW = (
+    "a: 1 + cos theta/sqrt(k^2 - sin^2 theta), b: k (k - cos theta)/(1 + k^2 - 2 k cos theta) "
+    "times crank speed"
 )
 _OLDHAM = (
     "a side: first-order weight = m r/2 opposite the piston's motion, block mass x e = A2 m r/8, "
-    "e half the distance of the coupling's shafts; m the reciprocating mass"
+    "e half the distance of the coupling's shafts; m the reciprocating mass; e is for a block as "
+    "heavy as the weight: of half its mass it takes 2 e; in either slot the block slides 2 e to "
+    "both sides"
 )
 
 
@@ -259,7 +270,8 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
     unevenly; a weight takes the rotating mass.
 
-    Fitted is design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
+    Masses and eccentricities are for the radius asked for, or else the crank radius. Fitted is
+    design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
     the optima of both designs.
 
     Raises BalcliError for several cylinders, a piston offset, or a rod too short for an optimum.
@@ -271,31 +283,57 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
             "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
             f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
         )
-    mass, radius = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
-    optima = tuple(
-        replace(one, unbalance_kg_m=one.mu * mass * radius)
-        for one in find_optima(float(np.ravel(c.lam)[0]))
-    )
+    mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
+    optima = find_optima(float(np.ravel(c.lam)[0]))
+    designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
     fitting = (
         Fitting.start(engine, "eccentric-slider")
         .balance_rotating(keep_overbalance=False)
         .add_details(
-            unit_force_N=mass * radius * float(engine.omega) ** 2,
-            fitted=to_document(optima[0]),
-            optima=[to_document(one) for one in optima],
+            unit_force_N=mass * throw * float(engine.omega) ** 2,
+            fitted=designs[0],
+            optima=designs,
+            speed_law=_SPEED_LAW,
             definition=_ECCENTRIC_SLIDER,
         )
     )
-    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0]))
+    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0], mass * throw))
 
 
-def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
+def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
+    """Return an optimum with the figures of each shaft: the loads are those of its weight, `m_b r_b
+    phi'^2` outwards, `m_b r_b phi''` along its path, and the torque `m_b r_b^2 phi''`.
+
+    Args:
+        engine: The engine.
+        one: The optimum.
+        unit_kg_m: Reciprocating mass times crank radius.
+        radius: Radius of pin and weight, m; None: the crank radius.
+    """
+    unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius)
+    fastest, slowest, bend = find_shaft_rates(one.design, one.k)
+    force, rpm = unbalance * float(engine.omega) ** 2, float(engine.speed_rpm)
+    return {
+        **to_document(one),
+        "unbalance_kg_m": unbalance,
+        "radius_mm": 1e3 * r_b,
+        "eccentricity_mm": 1e3 * r_b / one.k,
+        "mass_kg": unbalance / r_b,
+        "largest_speed_rpm": rpm * fastest,
+        "smallest_speed_rpm": rpm * slowest,
+        "largest_radial_force_N": force * fastest**2,
+        "largest_tangential_force_N": force * bend,
+        "largest_torque_Nm": force * bend * r_b,
+    }
+
+
+def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Device, ...]:
     """Both shafts: a device for each order of their motion, which shakes along the cylinder."""
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])
     wave, _ = expand_shaft_wave(fitted.design, fitted.k)
     halves = {
-        order: -fitted.unbalance_kg_m * float(amplitude) * axis
+        order: -fitted.mu * unit_kg_m * float(amplitude) * axis
         for order, amplitude in enumerate(wave)
         if order and abs(amplitude) > _SMALLEST
     }
@@ -305,7 +343,7 @@ def _make_shafts(engine: Engine, fitted: Optimum) -> tuple[Device, ...]:
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
     """Two Oldham couplings, one turning with and one against the crank: first-order weights m r/2,
     and blocks whose centres go round at twice the speed, A2 m r/8 a side; a counterweight takes the
-    rotating mass.
+    rotating mass. Masses are for the radius asked for, or else the crank radius.
 
     Raises BalcliError for several cylinders.
     """
@@ -318,9 +356,18 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         for one in (first, second)
         for vectors in ((-one.force(1), 0j), (0j, -one.force(-1)))
     ]
+    weight, block = abs(first.force(-1)), abs(second.force(-1))
+    radius = options.radius or float(engine.cylinders.radius)
     fitting = fitting.add_details(
-        first_order_kg_m=abs(first.force(-1)),
-        block_kg_m=abs(second.force(-1)),
+        first_order_kg_m=weight,
+        block_kg_m=block,
+        radius_mm=1e3 * radius,
+        mass_kg=weight / radius,
+        eccentricity_mm=1e3 * radius * block / weight if weight else 0.0,
+        shaft_speed_rpm=float(engine.speed_rpm),
+        block_speed_rpm=2 * float(engine.speed_rpm),
+        weight_force_N=weight * first.newtons_per_kg_m,
+        block_force_N=block * second.newtons_per_kg_m,
         definition=_OLDHAM,
     )
     return fitting.remedy._replace(beyond=tuple(devices))

@@ -17,7 +17,6 @@ from .fitting import (
     Fitting,
     Slot,
     explain_counterweights,
-    explain_sliders,
     size_unbalances,
 )
 from .ladder import add_at_throws, find_ladder, size_complete
@@ -33,11 +32,9 @@ from .planes import (
 )
 from .remedy import Remedy
 from .residual import (
-    BACKWARD_FORCE,
-    BACKWARD_MOMENT,
+    FORCE,
     FORWARD,
     FORWARD_FORCE,
-    FORWARD_MOMENT,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
@@ -130,12 +127,9 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
         "one can (least squares of force, and of moment over the longest arm of weight, rods and "
         "crank radius)",
     )
-    left = fitting.find_residual(1)
-    fitting = fitting.add_details(
-        force_with_crank_left_N=left.size(FORWARD_FORCE),
-        moment_with_crank_left_Nm=left.size(FORWARD_MOMENT),
-    )
-    return fitting.remedy._replace(note=SAME_PLACE if left.moment(1) else "")
+    fitting = fitting.describe_left(1, "force_with_crank_left_N", "moment_with_crank_left_Nm")
+    stays = fitting.remedy.details["moment_with_crank_left_Nm"]
+    return fitting.remedy._replace(note=SAME_PLACE if stays else "")
 
 
 def _find_engine_arm(engine: Engine, residual: Residual) -> float:
@@ -157,16 +151,18 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     stronger = 1 if abs(forward) >= abs(backward) else -1
     z, place = choose_plane(engine, options, residual, stronger), options.read_place()
     axis = float(wrap_degrees(measure_direction(cmath.sqrt(forward * backward)), 180))
-    across = axis + 90 if axis <= 0 else axis - 90
-    slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in (axis, across)]
-    fit = size_unbalances(slots, residual, (FORWARD_FORCE, BACKWARD_FORCE))
+    directions = (axis, axis + 90 if axis <= 0 else axis - 90)
+    slots = [Slot("slider", residual.order, 0, z, place, direction) for direction in directions]
+    fit = size_unbalances(slots, residual, FORCE)
     rounding = 2 * residual.noise[FORWARD_FORCE]
     unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
     fitting = Fitting.start(engine, "slider", residual.order, residual.note)
-    fitting = fitting.add(slots, unbalances, explain_sliders(residual))
-    left = fitting.find_residual(residual.order)
-    moment = left.size(FORWARD_MOMENT, BACKWARD_MOMENT)
-    return fitting.add_details(moment_left_Nm=moment).describe_roll(residual).remedy
+    reason = (
+        f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
+        "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
+    )
+    fitting = fitting.add(slots, unbalances, reason)
+    return fitting.describe_left(residual.order, "moment_left_Nm").describe_roll(residual).remedy
 
 
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
