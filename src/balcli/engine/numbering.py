@@ -30,7 +30,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
-from ..file.model import EngineFile
+from ..file.model import EngineFile, Rod
 from ..file.plain_tables import list_chapter_defaults
 from ..limits import SMALL
 from .devices import build_devices
@@ -49,6 +49,7 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # engines among which a user is asked to choose
+NARROW_DEG = 30.0  # between the banks of one block with one head: their axes miss the crank
 FREE_END = (
     "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
     "the other way round."
@@ -427,8 +428,10 @@ def _suggest(parts: Parts) -> str:
 
 
 # ------------------------------------------------------------------ what a file leaves out
-_OF_CHAPTERS = {"gas", "torsion", "body", "mount"}  # tables that count in some subjects alone
-STEADY = ("crank.spacing", "layout.stagger", "crank.inertia")  # no part of a torque at steady speed
+# Tables that count in some subjects alone.
+_OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
+# Keys that are no part of a torque at steady speed.
+STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
 
 
 def list_inferred(parts: Parts) -> Iterator[str]:
@@ -480,13 +483,48 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
         yield "crank.spacing = 0"
     if together and "stagger" not in model.layout.model_fields_set:
         yield "layout.stagger = 0"
-    if model.operation.speed_ripple and model.crank.inertia is None:
-        yield "crank.inertia = 0"
+    yield from _list_masses(parts)
     if gas is not None:
         own = sum(one.indicator is not None for one in model.cylinder.values())
         computed = gas.cycle is not None and own < len(parts.plan.cells)
         measured = gas.indicator is not None or own > 0
         yield from gas.list_assumed(model.layout.strokes, measured, computed)
+
+
+def _list_masses(parts: Parts) -> Iterator[str]:
+    """Yield masses and moments of inertia of crank, flywheel and rod that the file does not give,
+    and the piston offset of a vee so narrow that it is built with one.
+    """
+    model, crank, rod = parts.model, parts.model.crank, parts.model.rod
+    if not (crank.has("throw_mass") or model.layout.rotary):
+        yield "crank.throw_mass = 0"
+    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
+        yield "crank.inertia = 0"
+    if crank.inertia is not None and model.flywheel is None:
+        yield "flywheel.inertia = 0"
+    if rod.mass is None and rod.small_end is None:
+        yield "rod.mass = 0"
+    elif rod.mass and rod.cg is None:
+        yield "rod.cg = 0"
+    else:
+        yield from _tell_two_masses(parts, "rod", rod, articulated=False)
+    if model.articulation is not None:
+        yield from _tell_two_masses(
+            parts, "articulation.rod", model.articulation.rod, articulated=True
+        )
+    angles = [float(angle) for angle in bank_angles(model.layout, parts.figures)]
+    own = any(one.piston_offset is not None for one in model.cylinder.values())
+    if len(angles) == 2 and not (model.piston.has("offset") or own):
+        vee = abs((angles[1] - angles[0] + 180) % TURN - 180)
+        yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
+
+
+def _tell_two_masses(parts: Parts, path: str, rod: Rod, *, articulated: bool) -> Iterator[str]:
+    """Yield the moment of inertia of a rod without one, that of two masses at its ends."""
+    if rod.inertia is None and rod.pendulum is None:
+        gear = parts.weigh_gear(parts.find_rod(0, articulated))
+        if gear.small_end + gear.big_end > 0:
+            yield f"{path}.inertia = {1e6 * float(gear.spin):g}"
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:

@@ -159,11 +159,18 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
     member: `mount.dynamic_factor = 1`.
     """
-    for end in ("front", "rear") if model.torsion else ():
-        of_steel = (part for part in getattr(model.torsion, end) if part.is_of_unnamed_steel)
-        yield from {f"torsion.{end}.shear_modulus = {part.shear_modulus:g}" for part in of_steel}
+    if (torsion := model.torsion) is not None:
+        for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
+            of_steel = (part for part in parts if part.is_of_unnamed_steel)
+            yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
+        if not (torsion.has("loss") or torsion.has("damping")):
+            yield "torsion.loss = 0"
     if model.body is not None and not model.body.has("gravity"):
         yield "body.gravity = [-1, 0, 0]"
+    if model.body is not None and model.gas is not None and not model.body.has("carries_load"):
+        yield "body.carries_load = false"
+    if not all(one.has("loss") or one.has("damping") for one in model.mount):
+        yield "mount.loss = 0"
     if not all(one.has("dynamic_factor") for one in model.mount):
         yield "mount.dynamic_factor = 1"
 

@@ -151,7 +151,32 @@ def list_assumed(
         chapter = find_chapter(name) or ENGINE
         of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
         tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    return choose_assumed(list_inferred(Parts(model)), tables, tuple(varied)) or None
+    idle = _list_idle_masses(names, uneven=bool(model.operation.speed_ripple))
+    if "fluctuation" in names:
+        tables.add("flywheel")
+        idle -= {"crank.inertia"} if model.flywheel else set()
+    return choose_assumed(list_inferred(Parts(model)), tables, {*varied, *idle}) or None
+
+
+def _list_idle_masses(names: Collection[str], *, uneven: bool) -> set[str]:
+    """Return keys of masses and moments of inertia on which no quantity of these names depends.
+
+    Args:
+        names: Names of the quantities.
+        uneven: Whether the speed of the crank is uneven.
+    """
+    split = [(*name.split("."), "") for name in names]
+    turning = any(
+        kind in {"peak", "mount", "point"} or (kind in {"force", "moment"} and order == "1")
+        for kind, order, *_ in split
+    )
+    swinging = any(
+        kind not in {"force", "moment", "peak", "gas", "mode"} and order != "mean"
+        for kind, order, *_ in split
+    )
+    idle = set() if turning or uneven else {"crank.throw_mass"}
+    idle |= set() if swinging else {"rod.inertia", "articulation.rod.inertia"}
+    return idle | (set() if uneven else {"crank.inertia"})
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:
