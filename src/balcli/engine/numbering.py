@@ -538,7 +538,7 @@ USUAL_ORDERS = {
     4: "1-3-4-2 or 1-2-4-3",
     5: "1-2-4-5-3 or 1-3-5-4-2",
     6: "1-5-3-6-2-4 or 1-4-2-6-3-5",
-    8: "1-6-2-5-8-3-7-4",
+    8: "1-6-2-5-8-3-7-4, or 1-5-2-6-4-8-3-7 with two cranks of fours at 90 deg",
 }
 USUAL_FLAT_ORDERS = {
     4: "1-4-3-2 bank by bank, 1-3-2-4 with odd numbers in one bank",
@@ -596,8 +596,9 @@ def _doubt_splay(model: EngineFile) -> Iterator[str]:
 
 def _find_usual_orders(parts: Parts) -> str:
     """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
-    usual crank of an engine in line is its own mirror image end for end, or that of a usual five;
-    pins of neighbouring cylinders of a flat engine stand 180 deg apart.
+    usual crank of an engine in line is its own mirror image end for end, that of a usual five, or
+    of an eight two cranks of fours at 90 deg; pins of neighbouring cylinders of a flat engine stand
+    180 deg apart.
     """
     throws, plan = _count_throws_from_first(parts), parts.plan
     angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
@@ -607,11 +608,21 @@ def _find_usual_orders(parts: Parts) -> str:
         built = len(throws) % 2 or throws == throws[::-1]
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
+        if len(throws) == 8:
+            built = built or _is_two_fours(throws)
         return "" if built else USUAL_ORDERS.get(len(throws), "")
     if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
         return ""
     built = all(map(_are_opposite, throws[::2], throws[1::2]))
     return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
+
+
+def _is_two_fours(throws: Sequence[float]) -> bool:
+    """Return whether eight throws are two cranks of fours in line, one behind the other, at 90 deg."""
+    first, second = throws[:4], throws[4:]
+    mirrored = first == first[::-1] and second == second[::-1]
+    opposite = _are_opposite(*first[:2]) and _are_opposite(*second[:2])
+    return mirrored and opposite and abs(abs(second[0] - 180) - 90) <= TOLERANCE_DEG
 
 
 def _are_opposite(first: float, second: float) -> bool:
