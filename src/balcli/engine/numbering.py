@@ -618,7 +618,7 @@ def _find_usual_orders(parts: Parts) -> str:
 
 
 def _is_two_fours(throws: Sequence[float]) -> bool:
-    """Return whether eight throws are two cranks of fours in line, one behind the other, at 90 deg."""
+    """Return whether eight throws are two cranks of straight fours in series, at 90 deg."""
     first, second = throws[:4], throws[4:]
     mirrored = first == first[::-1] and second == second[::-1]
     opposite = _are_opposite(*first[:2]) and _are_opposite(*second[:2])
