@@ -72,9 +72,9 @@ def _key(key: object) -> str:
 def _plain(value: object) -> object:
     if isinstance(value, Mapping):
         return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
-    if isinstance(value, (np.ndarray, np.generic)):
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         return value.tolist()
-    if isinstance(value, (list, tuple, range, Iterator)):
+    if isinstance(value, (list, tuple, range, Iterator, np.ndarray)):
         return [_plain(inner) for inner in islice(value, MOST_KEY_VALUES + 1)]
     return value
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.layout import plan_cylinders
-from ..errors import BalcliError, list_values, wrong_type
+from ..errors import BalcliError, refuse_more, wrong_type
 from ..file.fields import Number, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
@@ -179,8 +179,9 @@ def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
     if path not in known:
         raise BalcliError(_describe_unknown(path, known, model))
     number = known[path]
+    refuse_more(path, values, MOST_PARAMETER_VALUES)
     if isinstance(values, range):
-        values = list_values(path, values, MOST_PARAMETER_VALUES)
+        values = np.fromiter(values, float, len(values))  # a list of them takes much more memory
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError, OverflowError):
