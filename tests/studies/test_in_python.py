@@ -2,11 +2,12 @@
 wrong.
 """
 
-from __future__ import tracemalloc
+from __future__ import annotations
 
 import io
 import sys
 import tomllib
+import tracemalloc
 
 import numpy as np
 import pytest
