@@ -296,7 +296,7 @@ def _find_faults(
     if np.all(still):
         yield Problem("fixed", "clamps every node; leave one free")
         return
-    yield from _find_loops(chain, paths)
+    yield from _find_loops(chain, paths, names)
     if limited and still[0]:
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
         text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
@@ -310,18 +310,28 @@ def _find_faults(
             yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
 
 
-def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
-    """Loops of meshes alone, in which nothing says what each carries; and of shafts, which a chain
-    that turns would wind up without end.
+def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Iterator[Problem]:
+    """Yield loops of meshes alone, in which nothing says what each carries, with the partners of
+    the mesh that closes them; and loops of shafts, which a chain that turns would wind up without
+    end.
     """
     group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
+    joining = np.zeros(len(chain.start), bool)
     for mesh in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
-        start, end = group[chain.start[mesh]], group[chain.end[mesh]]
-        if start == end:
-            text = "closes a loop of gears and rigid shafts, fixed nodes counted as one"
-            hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-            yield Problem(paths[mesh], f"{text}: {hint}")
-        group[group == end] = start
+        start, end = int(chain.start[mesh]), int(chain.end[mesh])
+        if group[start] != group[end]:
+            group[group == group[end]], joining[mesh] = group[start], True
+            continue
+        partners, fixed = _trace(chain, joining, [start], end), list[int]()
+        if partners is None:
+            roots = np.flatnonzero(chain.clamped).tolist()
+            ways = [_trace(chain, joining, roots, node, fixed) for node in (start, end)]
+            partners = [each for way in ways for each in way or ()]
+        others = [paths[each] for each in partners]
+        others += [f"fixed node {shorten(names[node])}" for node in dict.fromkeys(fixed)]
+        text = f"closes a loop of gears and rigid shafts with {join_words(others)}"
+        hint = "nothing says how they share the torque; leave it out, or give a stiffness"
+        yield Problem(paths[mesh], f"{text}: {hint}")
     if not np.any(chain.clamped):
         yield from _find_contradiction(chain, paths, np.ones(len(chain.start), bool))
 
@@ -336,18 +346,43 @@ def _find_contradiction(
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        branches = grow_branches(chain, [int(chain.start[shaft])], joining & ~torn)
-        led = {branch.child: branch for branch in branches}
-        node, partners = int(chain.end[shaft]), list[str]()
-        while node in led:
-            partners.append(paths[led[node].shaft])
-            node = led[node].parent
+        start, end = int(chain.start[shaft]), int(chain.end[shaft])
+        partners = _trace(chain, joining & ~torn, [start], end) or ()
+        named = join_words([paths[each] for each in partners])
         yield Problem(
             paths[shaft],
-            f"closes a loop with {join_words(partners[::-1])}, and the ratios contradict each "
-            f"other: {chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give "
-            "ratios with all digits, or leave one out",
+            f"closes a loop with {named}, and the ratios contradict each other: "
+            f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give ratios with "
+            "all digits, or leave one out",
         )
+
+
+def _trace(
+    chain: Chain,
+    joining: NDArray[np.bool_],
+    roots: Sequence[int],
+    node: int,
+    reached: list[int] | None = None,
+) -> list[int] | None:
+    """Return the shafts from one of some nodes to another node; None: they do not join them.
+
+    Args:
+        chain: Nodes and shafts.
+        joining: Which shafts count, shape (shafts,).
+        roots: Nodes to begin with.
+        node: Node to end with.
+        reached: List that receives the root at which the way begins.
+    """
+    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
+    way = list[int]()
+    while node in led:
+        way.append(led[node].shaft)
+        node = led[node].parent
+    if node not in roots:
+        return None
+    if reached is not None:
+        reached.append(node)
+    return way[::-1]
 
 
 class _Joint(NamedTuple):

@@ -160,12 +160,13 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
         ratio = float(chain.ratio[shaft])
         joined.setdefault(start, []).append(Branch(end, start, shaft, -1.0, ratio))
         joined.setdefault(end, []).append(Branch(start, end, shaft, ratio, -1.0))
-    reached, branches = list(roots), []
-    for parent in reached:
+    reached, branches, outward = {*roots}, list[Branch](), list(roots)
+    for parent in outward:
         for branch in joined.get(parent, ()):
             if branch.child not in reached:
                 branches.append(branch)
-                reached.append(branch.child)
+                reached.add(branch.child)
+                outward.append(branch.child)
     return branches
 
 
