@@ -12,12 +12,15 @@ from typing import NamedTuple
 
 from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, LONGEST_ROW, MOST_ROWS
-from .fields import shorten
+from .fields import join_words, shorten
 from .toml import read_bytes
-from .units import PLAIN, Dimension, convert
+from .units import FORTRAN, PLAIN, Dimension, convert
 
+ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
 GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
+_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees of it
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
+_STARTS_NUMBER = r"\s*[+-]?\.?\d"
 _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
@@ -28,21 +31,28 @@ class Head(NamedTuple):
         usual: its head as documents write it, such as torque_Nm; other heads begin with its name.
         dimension: dimension of its numbers; PLAIN: the head is `usual` alone.
         others: further heads that messages name.
+        symbols: Other names of the quantity, as a regular expression.
     """
 
     usual: str
     dimension: Dimension = PLAIN
     others: tuple[str, ...] = ()
+    symbols: str = ""
 
-    def read(self, head: str) -> tuple[str, float] | None:
-        """Return the unit in a head, and its size; None: this is another column."""
+    def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
+        """Return the unit in a head, and its size; None: this is another column.
+
+        Args:
+            head: Head of a column, with its unit.
+            by_symbol: Whether to compare it with the symbols of the quantity, not with its name.
+        """
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
-        name, _, _ = self.usual.partition("_")
-        found = re.fullmatch(rf"(?i){name}[\s_]*[\[(/]?\s*([^\])]+?)\s*[\])]?", head)
+        name = rf"(?:{self.symbols})(?![^\W_])" if by_symbol else self.usual.partition("_")[0]
+        found = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*([^\])]+?)\s*[\])]?", head)
         if found is None:
             return None
-        unit = found[1].replace("_", " ")
+        unit = re.sub(_CRANK_ANGLE, "deg", found[1]).replace("_", " ")
         try:  # gauge pressures are units with a g behind them
             absolute = unit.removesuffix("g") if unit in GAUGE_UNITS else unit
             return unit, convert(f"1 {absolute}", self.dimension)
@@ -146,35 +156,73 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
         mark = " "
-        # A unit in brackets may have blanks: "torque [kN m]"
-        first = re.sub(r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), first)
-        lines |= {next(iter(lines)): re.sub(r"\s+(?=[\[(])", "_", first.strip())}
+        for number in list(lines)[:2]:  # a unit in brackets may have blanks: "torque [kN m]"
+            squeezed = re.sub(
+                r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), lines[number]
+            )
+            lines[number] = squeezed.strip()
+        lines[next(iter(lines))] = re.sub(r"\s+(?=[\[(])", "_", next(iter(lines.values())))
         lines = {n: " ".join(line.split()) for n, line in lines.items()}
     numbers, cells = list(lines)[1:], csv.reader(lines.values(), delimiter=mark)
     heading = [cell.strip() for cell in next(cells, [])]
-    found = [_find_head(head, heading, wanted, mark) for head in wanted]
+    rows = list(cells)
+    found, first_row = _find_heads(heading, rows, wanted, mark)
+    rows, numbers = rows[first_row:], numbers[first_row:]
     places = [place for place, _, _ in found]
     width = len(heading) if mark in ", " else None
-    texts = [_find_cells(row, places, width, n) for row, n in zip(cells, numbers, strict=False)]
+    texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
     for column in zip(*texts, strict=True):
         _refuse_thousands(column, numbers)
     comma = "," if mark == "," else "."  # what a comma in a number stands for
-    rows = tuple(
+    figures = tuple(
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
     )
     heads = tuple(heading[place] for place in places)
     _, units, scales = zip(*found, strict=True)
-    return NumberColumns(heads, rows, tuple(numbers), units, scales)
+    return NumberColumns(heads, figures, tuple(numbers), units, scales)
+
+
+def _find_heads(
+    heading: list[str], rows: Sequence[list[str]], wanted: Sequence[Head], mark: str
+) -> tuple[list[tuple[int, str, float]], int]:
+    """Return place, unit and scale of each column, and the number of the first row of figures: 1
+    where row 0 has the units, or says them again.
+    """
+    below = rows[0] if rows else []
+    units = [cell.strip(" []()") for cell in below]
+    if any(re.match(_STARTS_NUMBER, cell) for cell in below) or not any(units):
+        return [_find_head(head, heading, wanted, mark) for head in wanted], 0
+    joined = [f"{head} [{unit}]" for head, unit in zip(heading, units, strict=False)]
+    try:
+        return [_find_head(head, joined, wanted, mark) for head in wanted], 1
+    except ValueError:
+        found = [_find_head(head, heading, wanted, mark) for head in wanted]
+    again = [
+        head.read(f"{head.usual.partition('_')[0]} [{units[place]}]")
+        if place < len(units)
+        else None
+        for head, (place, _, _) in zip(wanted, found, strict=True)
+    ]
+    same = [
+        each is not None and each[1] == scale
+        for each, (*_, scale) in zip(again, found, strict=True)
+    ]
+    return found, int(all(same))
 
 
 def _find_head(
     wanted: Head, heading: list[str], every: Sequence[Head], mark: str
 ) -> tuple[int, str, float]:
     """Return place, unit and scale of a column; `mark` parts the columns of the heading."""
-    for place, head in enumerate(heading):
-        if head_read := wanted.read(head):
-            return (place, *head_read)
+    for by_symbol in (False, True) if wanted.symbols else (False,):
+        read = [wanted.read(head, by_symbol=by_symbol) for head in heading]
+        places = [place for place, found in enumerate(read) if found]
+        if len(places) > 1 and by_symbol:
+            several = join_words([shorten(heading[place]) for place in places])
+            raise ValueError(f"has the columns {several}; head the one that counts {wanted.usual}")
+        for place in places[:1]:
+            return (place, *(read[place] or ("", 1.0)))
     usual = mark.join(head.usual for head in every)
     others = [name for head in every for name in head.others]
     also = f" (or {', '.join(others)})" if others else ""
@@ -188,7 +236,7 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
     """
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
-    if width is not None and any(re.match(r"\s*[+-]?\.?\d", cell) for cell in row[width:]):
+    if width is not None and any(re.match(_STARTS_NUMBER, cell) for cell in row[width:]):
         raise ValueError(
             f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
             "heading, or, where decimals have commas, part columns by semicolons there and below"
@@ -212,7 +260,8 @@ def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
 
 def _read_number(cell: str, comma: str, line: int) -> float:
     try:
-        number = float(re.sub(_SPACE, "", cell.replace(",", comma)))
+        spelt = re.sub(_SPACE, "", cell.replace(",", comma))
+        number = float(re.sub(FORTRAN, r"e\1", spelt))
     except ValueError:
         number = math.nan
     if not abs(number) <= LARGEST_IN_COLUMNS:

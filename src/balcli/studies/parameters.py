@@ -22,7 +22,7 @@ from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
 from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
-from ..file.units import BARE_FIGURE, convert_exactly
+from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 from ..show.sheet import count_name
 
@@ -282,10 +282,11 @@ def _read_exactly(text: str, number: Number) -> Fraction:
     """The figure in the bare unit of its field, not rounded: three of a range that were would miss
     its end.
     """
-    figure = text.strip()
-    if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
-        return Fraction(figure)
+    figure = re.sub(FORTRAN, r"e\1", text.strip())
     try:
+        if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
+            refuse_thousands(figure, bare := Fraction(figure), number.dimension)
+            return bare
         return convert_exactly(figure, number.dimension)
     except ValueError as error:
         raise ValueError(f"{shorten(figure)} {error}") from None
