@@ -219,7 +219,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # A decimal comma, unless three digits behind it might be thousands
     (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
-    (r'^([^"]*\d)\s*"\s*$', r"\1 in"),
+    (r"""^([^"']*\d)\s*(?:"|'')\s*$""", r"\1 in"),
 )
 
 
@@ -248,7 +248,7 @@ _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER})
 # A force where only that fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
 _FORCES = (
     (r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)", "lbf"),
-    (r"(?i)\bkgs?(?=\s*/)", "kgf"),
+    (r"(?i)\bkgs?(?=(?:\b|[cm]?m).*[/s])", "kgf"),  # "3 kgm" of a torque is asked back
 )
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([23]))?"
 
