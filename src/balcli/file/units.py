@@ -458,6 +458,7 @@ def _find_pair(name: str) -> tuple[Unit, Unit] | None:
     pairs = {
         (first, second)
         for cut in range(1, len(name))
+        if not re.fullmatch("[cdm]?ms", name[cut:])  # "kgcms2" might be kgf cm s^2
         if (first := _find(name[:cut])) and (second := _find(name[cut:]))
         if (first.powers in loads and second.powers == length)
         or (first.powers == length and second.powers in loads)
