@@ -14,11 +14,12 @@ from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, LONGEST_ROW, MOST_ROWS
 from .fields import join_words, shorten
 from .toml import read_bytes
-from .units import FORTRAN, PLAIN, Dimension, convert
+from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
 ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
 GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
 _CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees of it
+_DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
 _STARTS_NUMBER = r"\s*[+-]?\.?\d"
 _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
@@ -49,10 +50,15 @@ class Head(NamedTuple):
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
         name = rf"(?:{self.symbols})(?![^\W_])" if by_symbol else self.usual.partition("_")[0]
-        found = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*([^\])]+?)\s*[\])]?", head)
+        if by_symbol and self.dimension is ANGLE and re.fullmatch(_DEGREES_OF_CRANK, head):
+            return "deg", 1.0
+        found = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*(.+?)\s*[\])]?", head)
         if found is None:
             return None
         unit = re.sub(_CRANK_ANGLE, "deg", found[1]).replace("_", " ")
+        if self.dimension is PRESSURE:  # "bar (abs)", "bar g"
+            unit = re.sub(r"(?i)[\s(]+a(?:bs(?:olute)?)?\)?$", "", unit)
+            unit = re.sub(r"(?i)[\s(]+g(?:auge)?\)?$", "g", unit)
         try:  # gauge pressures are units with a g behind them
             absolute = unit.removesuffix("g") if unit in GAUGE_UNITS else unit
             return unit, convert(f"1 {absolute}", self.dimension)
@@ -137,8 +143,8 @@ def _list_lines(text: str) -> dict[int, str]:
     """Return the lines that are neither empty nor comments, by their numbers from 1."""
     lines: dict[int, str] = {}
     for number, line in enumerate(StringIO(text, newline=None), 1):
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
+        if not line.strip() or line.lstrip().startswith("#") or re.match("sep=.$", line):
+            continue  # Excel writes sep=;
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
         if len(lines) > MOST_ROWS:  # besides the heading
@@ -191,13 +197,18 @@ def _find_heads(
     """
     below = rows[0] if rows else []
     units = [cell.strip(" []()") for cell in below]
-    if any(re.match(_STARTS_NUMBER, cell) for cell in below) or not any(units):
+    figures = any(re.match(_STARTS_NUMBER, cell) for cell in below)
+    if figures or not any(units) or len(units) < len(heading):
         return [_find_head(head, heading, wanted, mark) for head in wanted], 0
     joined = [f"{head} [{unit}]" for head, unit in zip(heading, units, strict=False)]
     try:
         return [_find_head(head, joined, wanted, mark) for head in wanted], 1
-    except ValueError:
+    except ValueError as error:
+        missing = error
+    try:
         found = [_find_head(head, heading, wanted, mark) for head in wanted]
+    except ValueError:
+        raise missing from None
     again = [
         head.read(f"{head.usual.partition('_')[0]} [{units[place]}]")
         if place < len(units)
