@@ -467,8 +467,10 @@ def _list_firing(parts: Parts) -> Iterator[str]:
         yield f"layout.numbering = {write_rows([[c.number for c in bank] for _, bank in cells])}"
     if inferred:
         yield f"crank.throws = [{_join(_count_throws_from_first(parts))}]"
-        if layout.firing_intervals is None:
-            yield f"layout.firing_intervals = [{_join(_list_gaps(parts))}]"
+    gaps = _list_gaps(parts)
+    a_turn_later = model.gas is not None and len(gaps) > 1 and max(gaps) > TURN + TOLERANCE_DEG
+    if layout.firing_intervals is None and (inferred or a_turn_later):
+        yield f"layout.firing_intervals = [{_join(gaps)}]"
     if "strokes" not in given and (inferred or model.gas is not None):
         yield f"layout.strokes = {layout.strokes}"
 
