@@ -274,7 +274,11 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
     if max(abs(start), abs(start + rise * count), scale) < _EXACT:
-        return (start + rise * np.arange(count)) / scale
+        values = np.arange(count, dtype=float)  # whole numbers, which are exact
+        values *= rise
+        values += start
+        values /= scale
+        return values
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 
