@@ -23,9 +23,9 @@ from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
-from ..file.plain_tables import list_tables
+from ..file.plain_tables import choose_assumed, list_tables
 from ..names import NOTEBOOK, VARY, import_name
-from .numbering import choose_assumed, doubt_firing, find_fitting_splay
+from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:

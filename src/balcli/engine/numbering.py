@@ -18,7 +18,7 @@ A numbering that the file gives is not doubted; if it does not fit, other keys a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, pairwise
@@ -30,8 +30,8 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
-from ..file.model import EngineFile, Rod
-from ..file.plain_tables import list_chapter_defaults
+from ..file.model import EngineFile
+from ..file.plain_tables import list_chapter_defaults, list_mass_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -396,9 +396,8 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 
 # ------------------------------------------------------------------ a numbering that does not fit
 def _suggest(parts: Parts) -> str:
-    """Return other keys with which every cylinder fires at its dead centre, in words: intervals
-    begun one later, a usual numbering in place of the file's, throws counted the other way round,
-    other throws, another splay; else empty.
+    """Return other keys with which every cylinder fires at its dead centre, in words; else empty:
+    intervals begun one later, a usual numbering, throws the other way round, others, another splay.
     """
     if parts.varies:
         return ""
@@ -428,12 +427,6 @@ def _suggest(parts: Parts) -> str:
 
 
 # ------------------------------------------------------------------ what a file leaves out
-# Tables that count in some subjects alone.
-_OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
-# Keys that are no part of a torque at steady speed.
-STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
-
-
 def list_inferred(parts: Parts) -> Iterator[str]:
     """Yield keys with values that are taken because the file leaves them out, where results depend
     on them: `layout.strokes = 4`.
@@ -442,17 +435,6 @@ def list_inferred(parts: Parts) -> Iterator[str]:
         yield from _list_firing(parts)
         yield from _list_defaults(parts)
         yield from list_chapter_defaults(parts.model)
-
-
-def choose_assumed(
-    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
-) -> tuple[str, ...]:
-    """Return the keys of `list_inferred` that count in a subject; arguments as of
-    `Engine.list_assumed`.
-    """
-    idle = _OF_CHAPTERS.difference(chapters).union(without)
-    keys = ((line, line.partition(" =")[0]) for line in inferred)
-    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
 
 
 def _list_firing(parts: Parts) -> Iterator[str]:
@@ -494,39 +476,21 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
 
 
 def _list_masses(parts: Parts) -> Iterator[str]:
-    """Yield masses and moments of inertia of crank, flywheel and rod that the file does not give,
-    and the piston offset of a vee so narrow that it is built with one.
+    """Yield masses and inertias that the file does not give, those of rods as of two masses at the
+    ends, and the piston offset of a narrow vee.
     """
-    model, crank, rod = parts.model, parts.model.crank, parts.model.rod
-    if not (crank.has("throw_mass") or model.layout.rotary):
-        yield "crank.throw_mass = 0"
-    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
-        yield "crank.inertia = 0"
-    if crank.inertia is not None and model.flywheel is None:
-        yield "flywheel.inertia = 0"
-    if rod.mass is None and rod.small_end is None:
-        yield "rod.mass = 0"
-    elif rod.mass and rod.cg is None:
-        yield "rod.cg = 0"
-    else:
-        yield from _tell_two_masses(parts, "rod", rod, articulated=False)
-    if model.articulation is not None:
-        yield from _tell_two_masses(
-            parts, "articulation.rod", model.articulation.rod, articulated=True
-        )
-    angles = [float(angle) for angle in bank_angles(model.layout, parts.figures)]
+    model, hinged = parts.model, parts.model.articulation
+    yield from list_mass_defaults(model)
+    rods = {"rod": model.rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
+    for path, rod in rods.items():
+        spin = float(parts.weigh_gear(parts.find_rod(0, rod is not model.rod)).spin)
+        if spin > 0 and rod.inertia is None and rod.pendulum is None:
+            yield f"{path}.inertia = {1e6 * spin:g}"
+    first, *others = (float(angle) for angle in bank_angles(model.layout, parts.figures))
     own = any(one.piston_offset is not None for one in model.cylinder.values())
-    if len(angles) == 2 and not (model.piston.has("offset") or own):
-        vee = abs((angles[1] - angles[0] + 180) % TURN - 180)
+    if len(others) == 1 and not (model.piston.has("offset") or own):
+        vee = abs((others[0] - first + 180) % TURN - 180)
         yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
-
-
-def _tell_two_masses(parts: Parts, path: str, rod: Rod, *, articulated: bool) -> Iterator[str]:
-    """Yield the moment of inertia of a rod without one, that of two masses at its ends."""
-    if rod.inertia is None and rod.pendulum is None:
-        gear = parts.weigh_gear(parts.find_rod(0, articulated))
-        if gear.small_end + gear.big_end > 0:
-            yield f"{path}.inertia = {1e6 * float(gear.spin):g}"
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:
@@ -549,9 +513,8 @@ USUAL_FLAT_ORDERS = {
 
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings: a numbering that was inferred, a crank inferred from an order that nobody
-    builds, and throws with which all cylinders fire in one revolution of two; without a firing
-    order, a splay of the wrong sign.
+    """Yield warnings: a numbering that was inferred, a crank of an order that nobody builds, throws
+    with which all fire in one revolution of two; without an order, a splay of the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
@@ -607,11 +570,9 @@ def _find_usual_orders(parts: Parts) -> str:
     if plan.banks == 1:
         order = parts.order or ()
         turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
-        built = len(throws) % 2 or throws == throws[::-1]
+        built = len(throws) % 2 or throws == throws[::-1] or _is_two_fours(throws)
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
-        if len(throws) == 8:
-            built = built or _is_two_fours(throws)
         return "" if built else USUAL_ORDERS.get(len(throws), "")
     if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
         return ""
@@ -620,11 +581,10 @@ def _find_usual_orders(parts: Parts) -> str:
 
 
 def _is_two_fours(throws: Sequence[float]) -> bool:
-    """Return whether eight throws are two cranks of straight fours in series, at 90 deg."""
-    first, second = throws[:4], throws[4:]
-    mirrored = first == first[::-1] and second == second[::-1]
-    opposite = _are_opposite(*first[:2]) and _are_opposite(*second[:2])
-    return mirrored and opposite and abs(abs(second[0] - 180) - 90) <= TOLERANCE_DEG
+    """Return whether throws are those of two cranks of straight fours in series, at 90 deg."""
+    fours = [[round((throw - one[0]) % TURN) for throw in one] for one in (throws[:4], throws[4:])]
+    across = len(throws) == 8 and round(abs(throws[4] - 180)) == 90
+    return across and fours == [[0, 180, 180, 0]] * 2
 
 
 def _are_opposite(first: float, second: float) -> bool:

@@ -5,7 +5,7 @@ the defaults that count where it leaves keys out.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -175,6 +175,38 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
         yield "mount.dynamic_factor = 1"
 
 
+def list_mass_defaults(model: EngineFile) -> Iterator[str]:
+    """Yield masses and inertias of crank, flywheel and rod that the file does not give."""
+    crank, rod = model.crank, model.rod
+    if not (crank.has("throw_mass") or model.layout.rotary):
+        yield "crank.throw_mass = 0"
+    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
+        yield "crank.inertia = 0"
+    if crank.inertia is not None and model.flywheel is None:
+        yield "flywheel.inertia = 0"
+    if rod.mass is None and rod.small_end is None:
+        yield "rod.mass = 0"
+    elif rod.mass and rod.cg is None:
+        yield "rod.cg = 0"
+
+
+# Tables that count in some subjects alone.
+_OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
+# Keys that are no part of a torque at steady speed.
+STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
+
+
+def choose_assumed(
+    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
+) -> tuple[str, ...]:
+    """Return the keys of `engine.numbering.list_inferred` that count in a subject; arguments as of
+    `Engine.list_assumed`.
+    """
+    idle = _OF_CHAPTERS.difference(chapters).union(without)
+    keys = ((line, line.partition(" =")[0]) for line in inferred)
+    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
+
+
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
 _TOLD = "left out: "  # in the description of a key: what follows is taken
 
@@ -198,8 +230,6 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
                 yield f"{path} = {field.default}"
             elif isinstance(field.default, int | float) and field.default is not False:
                 yield f"{path} = {field.default:g} {unit}".rstrip()
-    if model.rod.mass is None and model.rod.small_end is None:
-        yield "rod.mass: a rod without mass"
 
 
 def _list_idle(model: EngineFile) -> set[str]:

@@ -14,11 +14,10 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import find_first_largest
-from ..engine.numbering import choose_assumed
 from ..errors import BalcliError, check_type
 from ..file.fields import order_number
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults, take_tables
+from ..file.plain_tables import choose_assumed, list_chapter_defaults, take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody

@@ -10,11 +10,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol, cast
 
-from ..engine.numbering import choose_assumed, list_inferred
+from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
+from ..file.plain_tables import choose_assumed
 from ..file.table import FileTable, document_keys
 from ..forces.quantity import Quantity, parse_quantity
 from ..names import QUANTITIES, import_name

@@ -12,8 +12,8 @@ import numpy as np
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import Engine, check_engine, find_row
-from ..engine.numbering import STEADY
 from ..errors import BalcliError, check_number, check_type, list_words
+from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import (

@@ -23,10 +23,10 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..engine.numbering import STEADY
 from ..errors import InputError, Problem
 from ..file.fields import counted, join_words, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
+from ..file.plain_tables import STEADY
 from ..file.torsion_tables import (
     STEEL,
     Damper,
@@ -45,9 +45,9 @@ from .chain import (
     Damping,
     find_pieces,
     find_still,
-    grow_branches,
     join_chain,
     rigid_motions,
+    trace_shafts,
 )
 from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
@@ -311,9 +311,8 @@ def _find_faults(
 
 
 def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Iterator[Problem]:
-    """Yield loops of meshes alone, in which nothing says what each carries, with the partners of
-    the mesh that closes them; and loops of shafts, which a chain that turns would wind up without
-    end.
+    """Yield loops of meshes alone, which share a torque in no known way, with their partners; and
+    of shafts, which a chain that turns would wind up without end.
     """
     group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
     joining = np.zeros(len(chain.start), bool)
@@ -322,16 +321,15 @@ def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Ite
         if group[start] != group[end]:
             group[group == group[end]], joining[mesh] = group[start], True
             continue
-        partners, fixed = _trace(chain, joining, [start], end), list[int]()
+        partners, fixed = trace_shafts(chain, joining, [start], end), list[int]()
         if partners is None:
             roots = np.flatnonzero(chain.clamped).tolist()
-            ways = [_trace(chain, joining, roots, node, fixed) for node in (start, end)]
+            ways = [trace_shafts(chain, joining, roots, node, fixed) for node in (start, end)]
             partners = [each for way in ways for each in way or ()]
-        others = [paths[each] for each in partners]
-        others += [f"fixed node {shorten(names[node])}" for node in dict.fromkeys(fixed)]
-        text = f"closes a loop of gears and rigid shafts with {join_words(others)}"
+        others = [f"fixed node {shorten(names[node])}" for node in dict.fromkeys(fixed)]
+        named = join_words([*(paths[each] for each in partners), *others])
         hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-        yield Problem(paths[mesh], f"{text}: {hint}")
+        yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts with {named}: {hint}")
     if not np.any(chain.clamped):
         yield from _find_contradiction(chain, paths, np.ones(len(chain.start), bool))
 
@@ -339,50 +337,21 @@ def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Ite
 def _find_contradiction(
     chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
 ) -> Iterator[Problem]:
-    """The first shaft that closes a loop, of shafts of these (shafts,), whose ratios contradict
-    each other, with its partners: gears alone would lock, a chain that turns wind up its shafts.
+    """Yield the first shaft that closes a loop whose ratios contradict each other, with its
+    partners: gears alone would lock, a chain that turns wind up its shafts.
     """
     pieces = find_pieces(chain, joining)
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        start, end = int(chain.start[shaft]), int(chain.end[shaft])
-        partners = _trace(chain, joining & ~torn, [start], end) or ()
-        named = join_words([paths[each] for each in partners])
+        ends = [int(chain.start[shaft])], int(chain.end[shaft])
+        named = join_words([paths[k] for k in trace_shafts(chain, joining & ~torn, *ends) or ()])
         yield Problem(
             paths[shaft],
             f"closes a loop with {named}, and the ratios contradict each other: "
             f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give ratios with "
             "all digits, or leave one out",
         )
-
-
-def _trace(
-    chain: Chain,
-    joining: NDArray[np.bool_],
-    roots: Sequence[int],
-    node: int,
-    reached: list[int] | None = None,
-) -> list[int] | None:
-    """Return the shafts from one of some nodes to another node; None: they do not join them.
-
-    Args:
-        chain: Nodes and shafts.
-        joining: Which shafts count, shape (shafts,).
-        roots: Nodes to begin with.
-        node: Node to end with.
-        reached: List that receives the root at which the way begins.
-    """
-    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
-    way = list[int]()
-    while node in led:
-        way.append(led[node].shaft)
-        node = led[node].parent
-    if node not in roots:
-        return None
-    if reached is not None:
-        reached.append(node)
-    return way[::-1]
 
 
 class _Joint(NamedTuple):

@@ -170,6 +170,34 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
+def trace_shafts(
+    chain: Chain,
+    joining: NDArray[np.bool_],
+    roots: Sequence[int],
+    node: int,
+    reached: list[int] | None = None,
+) -> list[int] | None:
+    """Return the shafts from one of some nodes to another node; None: they do not join them.
+
+    Args:
+        chain: Nodes and shafts.
+        joining: Which shafts count, shape (shafts,).
+        roots: Nodes to begin with.
+        node: Node to end with.
+        reached: List that receives the root at which the way begins.
+    """
+    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
+    way = list[int]()
+    while node in led:
+        way.append(led[node].shaft)
+        node = led[node].parent
+    if node not in roots:
+        return None
+    if reached is not None:
+        reached.append(node)
+    return way[::-1]
+
+
 _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
 
 
