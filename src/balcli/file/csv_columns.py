@@ -21,7 +21,7 @@ GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
 _CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees of it
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
-_STARTS_NUMBER = r"\s*[+-]?\.?\d"
+_STARTS_NUMBER = r"(?i)\s*[+-]?(?:\.?\d|nan\b|inf)"
 _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
@@ -172,8 +172,9 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     numbers, cells = list(lines)[1:], csv.reader(lines.values(), delimiter=mark)
     heading = [cell.strip() for cell in next(cells, [])]
     rows = list(cells)
-    found, first_row = _find_heads(heading, rows, wanted, mark)
-    rows, numbers = rows[first_row:], numbers[first_row:]
+    if rows and (joined := _join_units(heading, rows[0])):
+        heading, rows, numbers = joined, rows[1:], numbers[1:]
+    found = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in found]
     width = len(heading) if mark in ", " else None
     texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
@@ -189,51 +190,28 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     return NumberColumns(heads, figures, tuple(numbers), units, scales)
 
 
-def _find_heads(
-    heading: list[str], rows: Sequence[list[str]], wanted: Sequence[Head], mark: str
-) -> tuple[list[tuple[int, str, float]], int]:
-    """Return place, unit and scale of each column, and the number of the first row of figures: 1
-    where row 0 has the units, or says them again.
-    """
-    below = rows[0] if rows else []
+def _join_units(heading: list[str], below: list[str]) -> list[str]:
+    """Return the heading with the units of a row below it; empty where that row has none."""
     units = [cell.strip(" []()") for cell in below]
-    figures = any(re.match(_STARTS_NUMBER, cell) for cell in below)
-    if figures or not any(units) or len(units) < len(heading):
-        return [_find_head(head, heading, wanted, mark) for head in wanted], 0
-    joined = [f"{head} [{unit}]" for head, unit in zip(heading, units, strict=False)]
-    try:
-        return [_find_head(head, joined, wanted, mark) for head in wanted], 1
-    except ValueError as error:
-        missing = error
-    try:
-        found = [_find_head(head, heading, wanted, mark) for head in wanted]
-    except ValueError:
-        raise missing from None
-    again = [
-        head.read(f"{head.usual.partition('_')[0]} [{units[place]}]")
-        if place < len(units)
-        else None
-        for head, (place, _, _) in zip(wanted, found, strict=True)
-    ]
-    same = [
-        each is not None and each[1] == scale
-        for each, (*_, scale) in zip(again, found, strict=True)
-    ]
-    return found, int(all(same))
+    if len(units) < len(heading) or any(re.match(_STARTS_NUMBER, cell) for cell in below):
+        return []
+    said = [re.split(r"[\s_[(/]+", head)[-1].rstrip("]) ") for head in heading]
+    each = zip(heading, units, said, strict=False)
+    return [head if unit == known else f"{head} [{unit}]" for head, unit, known in each]
 
 
 def _find_head(
     wanted: Head, heading: list[str], every: Sequence[Head], mark: str
 ) -> tuple[int, str, float]:
     """Return place, unit and scale of a column; `mark` parts the columns of the heading."""
-    for by_symbol in (False, True) if wanted.symbols else (False,):
-        read = [wanted.read(head, by_symbol=by_symbol) for head in heading]
-        places = [place for place, found in enumerate(read) if found]
+    for by_symbol in (False, True):
+        read = enumerate(wanted.read(head, by_symbol=by_symbol) for head in heading)
+        places = [(place, *unit) for place, unit in read if unit]
         if len(places) > 1 and by_symbol:
-            several = join_words([shorten(heading[place]) for place in places])
+            several = join_words([shorten(heading[place]) for place, *_ in places])
             raise ValueError(f"has the columns {several}; head the one that counts {wanted.usual}")
-        for place in places[:1]:
-            return (place, *(read[place] or ("", 1.0)))
+        if places:
+            return places[0]
     usual = mark.join(head.usual for head in every)
     others = [name for head in every for name in head.others]
     also = f" (or {', '.join(others)})" if others else ""

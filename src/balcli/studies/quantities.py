@@ -133,6 +133,7 @@ def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity])
 
 _MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
 _TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
+_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")  # their inertia
 _OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
 
 
@@ -152,32 +153,17 @@ def list_assumed(
         chapter = find_chapter(name) or ENGINE
         of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
         tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    idle = _list_idle_masses(names, uneven=bool(model.operation.speed_ripple))
-    if "fluctuation" in names:
-        tables.add("flywheel")
-        idle -= {"crank.inertia"} if model.flywheel else set()
+    uneven = model.operation.speed_ripple
+    idle = set[str]() if uneven or any(map(_feels_throws, names)) else {"crank.throw_mass"}
+    idle |= {"rod.inertia"} if all(each.startswith(_WITHOUT_RODS) for each in names) else set()
+    tables |= {"flywheel"} if "fluctuation" in names else set()
+    idle |= set() if uneven or (tables & {"flywheel"} and model.flywheel) else {"crank.inertia"}
     return choose_assumed(list_inferred(Parts(model)), tables, {*varied, *idle}) or None
 
 
-def _list_idle_masses(names: Collection[str], *, uneven: bool) -> set[str]:
-    """Return keys of masses and moments of inertia on which no quantity of these names depends.
-
-    Args:
-        names: Names of the quantities.
-        uneven: Whether the speed of the crank is uneven.
-    """
-    split = [(*name.split("."), "") for name in names]
-    turning = any(
-        kind in {"peak", "mount", "point"} or (kind in {"force", "moment"} and order == "1")
-        for kind, order, *_ in split
-    )
-    swinging = any(
-        kind not in {"force", "moment", "peak", "gas", "mode"} and order != "mean"
-        for kind, order, *_ in split
-    )
-    idle = set() if turning or uneven else {"crank.throw_mass"}
-    idle |= set() if swinging else {"rod.inertia", "articulation.rod.inertia"}
-    return idle | (set() if uneven else {"crank.inertia"})
+def _feels_throws(name: str) -> bool:
+    """Return whether a quantity depends on the masses of the throws at steady speed."""
+    return name.startswith(("force.1.", "moment.1.", "peak.", "mount.", "point."))
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:

@@ -296,7 +296,7 @@ def _find_faults(
     if np.all(still):
         yield Problem("fixed", "clamps every node; leave one free")
         return
-    yield from _find_loops(chain, paths, names)
+    yield from _find_loops(chain, paths)
     if limited and still[0]:
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
         text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
@@ -310,7 +310,7 @@ def _find_faults(
             yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
 
 
-def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Iterator[Problem]:
+def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
     """Yield loops of meshes alone, which share a torque in no known way, with their partners; and
     of shafts, which a chain that turns would wind up without end.
     """
@@ -321,15 +321,15 @@ def _find_loops(chain: Chain, paths: Sequence[str], names: Sequence[str]) -> Ite
         if group[start] != group[end]:
             group[group == group[end]], joining[mesh] = group[start], True
             continue
-        partners, fixed = trace_shafts(chain, joining, [start], end), list[int]()
-        if partners is None:
-            roots = np.flatnonzero(chain.clamped).tolist()
-            ways = [trace_shafts(chain, joining, roots, node, fixed) for node in (start, end)]
-            partners = [each for way in ways for each in way or ()]
-        others = [f"fixed node {shorten(names[node])}" for node in dict.fromkeys(fixed)]
-        named = join_words([*(paths[each] for each in partners), *others])
+        way, held = trace_shafts(chain, [start], end, joining), np.flatnonzero(chain.clamped)
+        named = [paths[each] for each in way]
+        if not way:
+            ways = (trace_shafts(chain, held.tolist(), node, joining) for node in (start, end))
+            named = [*(paths[each] for way in ways for each in way), "the fixed nodes"]
         hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-        yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts with {named}: {hint}")
+        yield Problem(
+            paths[mesh], f"closes a loop of gears and rigid shafts with {join_words(named)}: {hint}"
+        )
     if not np.any(chain.clamped):
         yield from _find_contradiction(chain, paths, np.ones(len(chain.start), bool))
 
@@ -345,7 +345,7 @@ def _find_contradiction(
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
         ends = [int(chain.start[shaft])], int(chain.end[shaft])
-        named = join_words([paths[k] for k in trace_shafts(chain, joining & ~torn, *ends) or ()])
+        named = join_words([paths[k] for k in trace_shafts(chain, *ends, joining & ~torn)])
         yield Problem(
             paths[shaft],
             f"closes a loop with {named}, and the ratios contradict each other: "

@@ -171,30 +171,14 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
 
 
 def trace_shafts(
-    chain: Chain,
-    joining: NDArray[np.bool_],
-    roots: Sequence[int],
-    node: int,
-    reached: list[int] | None = None,
-) -> list[int] | None:
-    """Return the shafts from one of some nodes to another node; None: they do not join them.
-
-    Args:
-        chain: Nodes and shafts.
-        joining: Which shafts count, shape (shafts,).
-        roots: Nodes to begin with.
-        node: Node to end with.
-        reached: List that receives the root at which the way begins.
-    """
+    chain: Chain, roots: Sequence[int], node: int, joining: NDArray[np.bool_]
+) -> list[int]:
+    """Return the shafts of some (shafts,) that lead from one of these roots to a node."""
     led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
     way = list[int]()
     while node in led:
         way.append(led[node].shaft)
         node = led[node].parent
-    if node not in roots:
-        return None
-    if reached is not None:
-        reached.append(node)
     return way[::-1]
 
 
