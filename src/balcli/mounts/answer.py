@@ -107,7 +107,7 @@ def report_mounts(
     settled = settle(mounted, response.loads.mean if response else 0.0)
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
-    own, centre = np.diag(stiffness), elastic_centre(stiffness, mounted.body.centre).point
+    centre = elastic_centre(stiffness, mounted.body.centre).point
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
     shapes = drop_rounding(modes.modes.shapes, 1 / np.sqrt(np.diag(modes.mass)))
     forces, travel = drop_rounding(settled.forces), drop_rounding(1e3 * settled.travel)
@@ -129,7 +129,7 @@ def report_mounts(
         roll_axis=drop_rounding(roll_axis(mounted.body)),
         elastic_centre_mm=1e3 * drop_rounding(centre, farthest),
         static=AtRest(tuple(map(MountAtRest, mounted.names, forces, travel))),
-        stiffness_N_per_m=drop_rounding(stiffness, np.sqrt(np.outer(own, own))),
+        stiffness_N_per_m=stiffness,
         response=response,
         fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
         others=tuple(map(Other, (label for label, _ in others), found)) or None,
