@@ -62,6 +62,7 @@ def test_json_has_devices_reasons_and_both_analyses(file):
         "reasons",
         "practical",
         "details",
+        "assumed",
         "before",
         "after",
         "ladder",
