@@ -38,7 +38,7 @@ class Rows(NamedTuple):
     """CSV of a result: names of the columns, and lines of as many cells."""
 
     header: Sequence[str]
-    lines: Iterable[Sequence[Any]]
+    lines: Iterable[Sequence[object]]
 
 
 def csv_text(results: Sequence[Rows]) -> str:
