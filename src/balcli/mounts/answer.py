@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import NoneType
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -136,7 +135,7 @@ def report_mounts(
 
 @tell_arguments(speeds="speeds_rpm")
 def analyze_mounts(
-    source: Engine | str | Path | Mapping[str, Any],
+    source: Engine | str | Path | Mapping[str, object],
     speeds_rpm: ArrayLike | None = None,
     *,
     orders: Iterable[float] | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -304,7 +304,7 @@ def rows(result: MountReport, system: System) -> Rows:
     return Rows(_HEADER, _list_lines(result, system))
 
 
-def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
+def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, ...]]:
     force, motion = list_kinds(system)
     for k, mode in enumerate(result.modes, 1):
         head = ("mode", f"mode {k}", None, None)
@@ -330,7 +330,7 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]
             yield from _list_curves(response, kind, label)
 
 
-def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[Any, ...]]:
+def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:
     """Yield every mount, or point, by speed and order."""
     figure, unit = kind.figure, kind.unit
     for place in kind.places(response):

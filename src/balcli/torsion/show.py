@@ -71,14 +71,14 @@ def _put(
     number: int | None = None,
     speed: float | None = None,
     order: float | None = None,
-) -> Iterator[tuple[Any, ...]]:
+) -> Iterator[tuple[object, ...]]:
     """Yield lines of CSV: what stands before figures, and these."""
     for each in figures:
         called = remove_unit(each.name)
         yield part, number, speed, order, name_cell(name), called, each.value, each.unit
 
 
-def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
+def _list_lines(found: Node) -> Iterator[tuple[object, ...]]:
     """Yield the lines of CSV in their order."""
     for key in ("no_gas_in", "no_burning_in"):
         if key in found:
@@ -97,7 +97,7 @@ def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
     yield from _list_extras(found)
 
 
-def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
+def _list_extras(found: Node) -> Iterator[tuple[object, ...]]:
     """Yield the lines of what was asked besides modes and criticals."""
     for k, table in enumerate(found.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
@@ -115,7 +115,7 @@ def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
         yield from _put("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
 
 
-def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
+def _list_response(response: Node) -> Iterator[tuple[object, ...]]:
     """Yield the lines at every speed."""
     for s, speed in enumerate(response["speeds_rpm"]):
         for shaft in response["shafts"]:
@@ -129,7 +129,7 @@ def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
             yield from _put("response", [swing], each["node"], speed=speed)
 
 
-def _list_worst(response: Node) -> Iterator[tuple[Any, ...]]:
+def _list_worst(response: Node) -> Iterator[tuple[object, ...]]:
     """Yield the lines of the largest values over all speeds."""
     for shaft in response["shafts"]:
         worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
@@ -378,7 +378,7 @@ def _show_response(
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
 
 
-def _name_span(ends: Sequence[float] | np.ndarray[Any, Any]) -> str:
+def _name_span(ends: Sequence[float] | Real) -> str:
     low, high = number(float(ends[0])), number(float(ends[-1]))
     return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
 
