@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from ..core.records import to_document
+from ..core.records import Node, to_document
 from ..shell.file_names import text_format
 from ..shell.inputs import read_engine
 from ..shell.options import EnginePath, FormatOption, Output
@@ -57,7 +57,7 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
             yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
 
 
-def document(result: NamedNumbers) -> dict[str, Any]:
+def document(result: NamedNumbers) -> Node:
     """Return `balcli.numbers/1`."""
     return to_document(result)
 
