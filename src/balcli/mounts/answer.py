@@ -21,7 +21,7 @@ from ..file.plain_tables import list_chapter_defaults, take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
-from ..shell.arguments import check_mapping, check_speeds, tell_arguments
+from ..shell.arguments import check_speeds, tell_arguments
 from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
@@ -168,7 +168,8 @@ def analyze_mounts(
         >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')
+    beside = {} if others is None else others
+    check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else check_orders(orders).tolist()
