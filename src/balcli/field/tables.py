@@ -165,7 +165,7 @@ _PHASES = "lag: phases count against rotation, as most instruments do; lead: wit
 _ANGLES = "with: their angles go the way the rotor turns; against: the other way"
 
 
-def _key(example: object, description: str, default: Any = None) -> Any:
+def _key(example: object, description: str, default: object = None) -> Any:
     """Return the declaration of a key that may be left out."""
     return Field(default, examples=[example], description=description)
 
