@@ -199,15 +199,40 @@ def check_number(name: str, value: object, wanted: str) -> float:
         return math.inf
 
 
+def refuse_more(name: str, values: object, most: int) -> None:
+    """Raise BalcliError if a list, a range or an array has more values than `most`, or the first
+    member of a list has; none is copied.
+
+    Args:
+        name: Name of the argument.
+        values: Argument; what has no length passes.
+        most: Largest number of values.
+
+    Raises:
+        BalcliError: It has more.
+    """
+    size = getattr(values, "size", None)
+    try:
+        count = size if isinstance(size, int) else len(values)  # type: ignore[arg-type]
+    except TypeError:
+        return
+    except OverflowError:  # a range longer than memory
+        count = most + 1
+    if count > most:
+        raise BalcliError(f"{name}: has more than {most} values; give at most {most}")
+    if count and isinstance(values, (list, tuple)):
+        refuse_more(name, values[0], most)
+
+
 def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) -> list[T]:
     """Return an argument of the library as a list, however many values it would yield.
 
     Raises:
         BalcliError: it has more than `most`.
     """
+    refuse_more(name, values, most)
     listed = list(islice(values, most + 1))
-    if len(listed) > most:
-        raise BalcliError(f"{name}: has more than {most} values; give at most {most}")
+    refuse_more(name, listed, most)
     return listed
 
 

@@ -280,3 +280,16 @@ def test_intervals_begun_one_later_come_before_another_numbering():
     with pytest.raises(InputError) as caught:
         load(tables("1-6-2-5-3-4", 90, **given))
     assert "layout.numbering. It fits with layout.firing_intervals = [90, 150, 90" in str(caught.value)
+
+
+def test_a_turn_between_firings_that_the_crank_leaves_open_is_assumed():
+    """A vee twin on one pin fires 45 or 405 deg after its first cylinder."""
+    twin = {
+        "crank": {"stroke": 90},
+        "rod": {"length": 150},
+        "piston": {"mass": 0.5, "bore": 90},
+        "layout": {"bank_angle": 45, "firing_order": [1, 2]},
+    }
+    gas = {"gas": {"cycle": "otto", "compression_ratio": 9, "imep": 9}}
+    assert "layout.firing_intervals = [405, 315]" in load(twin | gas).inferred
+    assert not any(line.startswith("layout.firing_intervals") for line in load(twin).inferred)

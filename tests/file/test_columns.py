@@ -40,11 +40,28 @@ def torque_of(folder, text):
         {"heading": ("Angle [deg]", "Pressure [kPa]"), "values": BAR * 100},
         {"mark": "  ", "heading": ("angle [deg]", "pressure (bar)")},
         {"heading": ("angle_rad", "pressure_bar"), "angles": np.radians(ANGLES)},
+        {"heading": ("Crank angle [°CA]", "p_cyl [kg/cm2]"), "values": BAR / 0.980665},
+        {"heading": ("θ/deg", "P_bar")},
+        {"heading": ("angle,pressure\ndeg", "bar")},
+        {"heading": ("angle,pressure\n(deg)", "[kg/cm2]"), "values": BAR / 0.980665},
+        {"heading": ("angle_deg,pressure_bar\ndeg", "bar")},
     ],
 )
 def test_a_diagram_in_any_form_is_the_same(tmp_path, form):
     text = diagram(**form)
     assert torque_of(tmp_path, text)[0] == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-9)
+
+
+def test_exponents_may_be_those_of_fortran(tmp_path):
+    text = "\n".join(["angle_deg,pressure_bar", *(f"{a:.9E},{b:.9E}" for a, b in zip(ANGLES, BAR, strict=True))])
+    found = torque_of(tmp_path, text.replace("E+", "D+"))[0]
+    assert found == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-7)
+
+
+def test_two_columns_that_may_both_be_meant_are_named(tmp_path):
+    heading = ("CA [deg],p [bar]", "p_cyl [bar]")
+    with pytest.raises(BalcliError, match=r'has the columns "p \[bar\]" and "p_cyl \[bar\]"; head the one that counts'):
+        torque_of(tmp_path, diagram(heading=heading))
 
 
 @pytest.mark.parametrize("restarts", [True, False])

@@ -267,3 +267,22 @@ def test_the_starting_file_runs(tmp_path):
     out = ask("mounts", path)
     assert "Largest mount force" in out
     assert run_here("analyze", path).status == 0
+
+
+def test_a_mount_that_nothing_moves_has_no_force(tmp_path):
+    """A six, which rolls alone in order 3, and a mount on the axis of roll: no force of 1e-17 N."""
+    six = ENGINE.replace("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]")
+    six = six.replace("[cylinder.2]\npiston_mass = 0.55\n", "")
+    body = "[body]\nmass = 150\ncg = [0, 0, 0]\ninertia = [9e6, 9e6, 5e6, 0, 0, 0]\n"
+    places = {"left": [0, 290, 10], "right": [0, -290, 10], "rear": [0, 0, 500]}
+    mounts = (f'[[mount]]\nname = "{name}"\nat = {at}\nstiffness = 200\nloss = 0.1\n' for name, at in places.items())
+    found = ask_json("mounts", write(tmp_path / "six.toml", six + body + "".join(mounts)))
+    response = found["response"]
+    rear = response["mounts"][2]["orders"][response["orders"].index(3)]["force_N"]
+    assert not any(rear)
+    passed = response["passed"][response["orders"].index(3)]
+    assert set(passed["rigid"]) == set(passed["on_mounts"]) == {"moment_z_Nm"}
+    small = [abs(x) for mode in found["modes"] for x in mode["shape"]] + np.abs(
+        found["stiffness_N_per_m"]
+    ).ravel().tolist()
+    assert all(value == 0 or value > 1e-6 for value in small)

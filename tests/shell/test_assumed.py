@@ -90,6 +90,20 @@ def test_each_document_lists_the_defaults_that_it_depends_on(
         assert [key for key in keys if key not in head] == []
 
 
+@cases("shell/assumed", "masses_that_are_left_out_are_assumed_where_they_count")
+def test_masses_that_are_left_out_are_assumed_where_they_count(
+    command: str, options: list[str], changes: list[list[str]], there: list[str], absent: list[str], file: str
+) -> None:
+    text = FILE
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    Path(file).write_text(text, encoding="utf-8")
+    assumed = ask(command, file, *options)["assumed"]
+    assert {*there} <= {*assumed}
+    assert not {*absent} & {line.partition(" = ")[0] for line in assumed}
+
+
 def test_what_the_file_gives_is_not_assumed(file: str) -> None:
     text = FILE.replace("[layout]", "[layout]\nstrokes = 4").replace("[gas]", "[gas]\nexpansion_index = 1.28")
     text = text.replace("length = 300", "length = 300\nshear_modulus = 79.3").replace(

@@ -74,7 +74,7 @@ def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path)
         status, out, err = balcli(command, said, "--format", "json")
         assert (status, err) == (0, "")
         known, found = json.loads(out), json.loads(balcli(command, twin, "--format", "json")[1])
-        assert "assumed" not in known
+        assert "crank.spacing = 0" not in known["assumed"]
         assert "moment_Nm" in known["ladder"]["scale"]
         assert "moment_Nm" not in found["ladder"]["scale"]
         assert "bearings" not in found.get("after", {})
@@ -83,7 +83,7 @@ def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path)
         for one in (found, known):  # of what moments decide nothing is told
             for key in ("ladder", "sizing", "step"):
                 one.pop(key, None)
-        assert found == known | {"assumed": ["crank.spacing = 0"]}
+        assert found == known | {"assumed": ["crank.spacing = 0", *known["assumed"]]}
 
 
 def test_csv_has_no_moments(balcli, twin):
@@ -149,7 +149,7 @@ def test_curves_have_no_moments(balcli, twin):
         "roll_Nm",
     ]
     found = json.loads(balcli("curves", twin, "--format", "json")[1])
-    assert found["assumed"] == ["crank.spacing = 0"]
+    assert "crank.spacing = 0" in found["assumed"]
     assert "moment_x_Nm" in found["curves"]
 
 

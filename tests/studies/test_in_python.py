@@ -7,6 +7,7 @@ from __future__ import annotations
 import io
 import sys
 import tomllib
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -276,6 +277,28 @@ def test_what_is_wrong_is_told(kind, call, message):
     with pytest.raises(named[kind]) as caught:
         eval(call, named)
     assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "sweep(V8, {'rod.length': range(10**9)}, ['force.1.major'])",
+        "sweep(V8, {'rod.length': [range(10**9)]}, ['force.1.major'])",
+        "sweep(V8, {'rod.length': np.broadcast_to(150, 10**9)}, ['force.1.major'])",
+        "analyze_torsion(DIESEL, np.broadcast_to(1500.0, 10**9))",
+        "analyze_mounts(MOUNTS, range(1, 10**30))",
+        "V8.vary({'rod.length': np.broadcast_to(150.0, 10**9)})",
+    ],
+)
+def test_a_thousand_million_values_are_refused_before_they_take_memory(call):
+    named = {name: getattr(balcli, name) for name in balcli.__all__} | THERE
+    tracemalloc.start()
+    try:
+        with pytest.raises(balcli.BalcliError, match=r"has more than|holds 20002 values"):
+            eval(call, named)
+        assert tracemalloc.get_traced_memory()[1] < 20e6
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("cylinder", [None, 2])

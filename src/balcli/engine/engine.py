@@ -23,9 +23,9 @@ from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
-from ..file.plain_tables import list_tables
+from ..file.plain_tables import choose_assumed, list_tables
 from ..names import NOTEBOOK, VARY, import_name
-from .numbering import choose_assumed, doubt_firing, find_fitting_splay
+from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:
@@ -175,11 +175,13 @@ class Engine:
         """Return what is taken because the file leaves it out, of `inferred`; None: nothing.
 
         Args:
-            chapters: Tables that count besides those of every engine: gas, torsion, body, mount.
+            chapters: Tables that count in addition to those of every engine: gas, torsion, body,
+                mount, flywheel.
             without: Keys that do not count.
         """
         given = () if self.speed_assumed else ("operation.speed",)
-        return choose_assumed(self.inferred, chapters, {*given, *without}) or None
+        steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
+        return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
 
     # -------------------------------------------------------------- in words
     def __repr__(self) -> str:

@@ -16,7 +16,7 @@ from ..core.cylinder_pressure import find_highest
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline
 from ..errors import BalcliError
-from ..file.csv_columns import GAUGE_UNITS, Head, NumberColumns
+from ..file.csv_columns import ANGLE_SYMBOLS, GAUGE_UNITS, Head, NumberColumns
 from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import Gas
 from ..file.units import ANGLE, BAR, PRESSURE
@@ -27,9 +27,10 @@ FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure 
 _FLAT = 0.01  # of the highest pressure
 _SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
 _OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
+_SYMBOLS = r"(?:in[-\s_]?)?cyl(?:inder|\.)?[\s_]*press(?:ure)?|press|p(?:[\s_]*cyl(?:inder)?)?"
 HEADS = (
-    Head("angle_deg", ANGLE),
-    Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS)),
+    Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS),
+    Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS), _SYMBOLS),
 )
 LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'

@@ -18,7 +18,7 @@ A numbering that the file gives is not doubted; if it does not fit, other keys a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, pairwise
@@ -31,7 +31,7 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults
+from ..file.plain_tables import list_chapter_defaults, list_mass_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -49,6 +49,7 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # engines among which a user is asked to choose
+NARROW_DEG = 30.0  # between the banks of one block with one head: their axes miss the crank
 FREE_END = (
     "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
     "the other way round."
@@ -395,9 +396,8 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 
 # ------------------------------------------------------------------ a numbering that does not fit
 def _suggest(parts: Parts) -> str:
-    """Return other keys with which every cylinder fires at its dead centre, in words: intervals
-    begun one later, a usual numbering in place of the file's, throws counted the other way round,
-    other throws, another splay; else empty.
+    """Return other keys with which every cylinder fires at its dead centre, in words; else empty:
+    intervals begun one later, a usual numbering, throws the other way round, others, another splay.
     """
     if parts.varies:
         return ""
@@ -427,10 +427,6 @@ def _suggest(parts: Parts) -> str:
 
 
 # ------------------------------------------------------------------ what a file leaves out
-_OF_CHAPTERS = {"gas", "torsion", "body", "mount"}  # tables that count in some subjects alone
-STEADY = ("crank.spacing", "layout.stagger", "crank.inertia")  # no part of a torque at steady speed
-
-
 def list_inferred(parts: Parts) -> Iterator[str]:
     """Yield keys with values that are taken because the file leaves them out, where results depend
     on them: `layout.strokes = 4`.
@@ -439,17 +435,6 @@ def list_inferred(parts: Parts) -> Iterator[str]:
         yield from _list_firing(parts)
         yield from _list_defaults(parts)
         yield from list_chapter_defaults(parts.model)
-
-
-def choose_assumed(
-    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
-) -> tuple[str, ...]:
-    """Return the keys of `list_inferred` that count in a subject; arguments as of
-    `Engine.list_assumed`.
-    """
-    idle = _OF_CHAPTERS.difference(chapters).union(without)
-    keys = ((line, line.partition(" =")[0]) for line in inferred)
-    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
 
 
 def _list_firing(parts: Parts) -> Iterator[str]:
@@ -464,8 +449,10 @@ def _list_firing(parts: Parts) -> Iterator[str]:
         yield f"layout.numbering = {write_rows([[c.number for c in bank] for _, bank in cells])}"
     if inferred:
         yield f"crank.throws = [{_join(_count_throws_from_first(parts))}]"
-        if layout.firing_intervals is None:
-            yield f"layout.firing_intervals = [{_join(_list_gaps(parts))}]"
+    gaps = _list_gaps(parts)
+    a_turn_later = model.gas is not None and len(gaps) > 1 and max(gaps) > TURN + TOLERANCE_DEG
+    if layout.firing_intervals is None and (inferred or a_turn_later):
+        yield f"layout.firing_intervals = [{_join(gaps)}]"
     if "strokes" not in given and (inferred or model.gas is not None):
         yield f"layout.strokes = {layout.strokes}"
 
@@ -480,13 +467,30 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
         yield "crank.spacing = 0"
     if together and "stagger" not in model.layout.model_fields_set:
         yield "layout.stagger = 0"
-    if model.operation.speed_ripple and model.crank.inertia is None:
-        yield "crank.inertia = 0"
+    yield from _list_masses(parts)
     if gas is not None:
         own = sum(one.indicator is not None for one in model.cylinder.values())
         computed = gas.cycle is not None and own < len(parts.plan.cells)
         measured = gas.indicator is not None or own > 0
         yield from gas.list_assumed(model.layout.strokes, measured, computed)
+
+
+def _list_masses(parts: Parts) -> Iterator[str]:
+    """Yield masses and inertias that the file does not give, those of rods as of two masses at the
+    ends, and the piston offset of a narrow vee.
+    """
+    model, hinged = parts.model, parts.model.articulation
+    yield from list_mass_defaults(model)
+    rods = {"rod": model.rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
+    for path, rod in rods.items():
+        spin = float(parts.weigh_gear(parts.find_rod(0, rod is not model.rod)).spin)
+        if spin > 0 and rod.inertia is None and rod.pendulum is None:
+            yield f"{path}.inertia = {1e6 * spin:g}"
+    first, *others = (float(angle) for angle in bank_angles(model.layout, parts.figures))
+    own = any(one.piston_offset is not None for one in model.cylinder.values())
+    if len(others) == 1 and not (model.piston.has("offset") or own):
+        vee = abs((others[0] - first + 180) % TURN - 180)
+        yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:
@@ -500,7 +504,7 @@ USUAL_ORDERS = {
     4: "1-3-4-2 or 1-2-4-3",
     5: "1-2-4-5-3 or 1-3-5-4-2",
     6: "1-5-3-6-2-4 or 1-4-2-6-3-5",
-    8: "1-6-2-5-8-3-7-4",
+    8: "1-6-2-5-8-3-7-4, or 1-5-2-6-4-8-3-7 with two cranks of fours at 90 deg",
 }
 USUAL_FLAT_ORDERS = {
     4: "1-4-3-2 bank by bank, 1-3-2-4 with odd numbers in one bank",
@@ -509,9 +513,8 @@ USUAL_FLAT_ORDERS = {
 
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings: a numbering that was inferred, a crank inferred from an order that nobody
-    builds, and throws with which all cylinders fire in one revolution of two; without a firing
-    order, a splay of the wrong sign.
+    """Yield warnings: a numbering that was inferred, a crank of an order that nobody builds, throws
+    with which all fire in one revolution of two; without an order, a splay of the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
@@ -558,15 +561,16 @@ def _doubt_splay(model: EngineFile) -> Iterator[str]:
 
 def _find_usual_orders(parts: Parts) -> str:
     """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
-    usual crank of an engine in line is its own mirror image end for end, or that of a usual five;
-    pins of neighbouring cylinders of a flat engine stand 180 deg apart.
+    usual crank of an engine in line is its own mirror image end for end, that of a usual five, or
+    of an eight two cranks of fours at 90 deg; pins of neighbouring cylinders of a flat engine stand
+    180 deg apart.
     """
     throws, plan = _count_throws_from_first(parts), parts.plan
     angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
     if plan.banks == 1:
         order = parts.order or ()
         turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
-        built = len(throws) % 2 or throws == throws[::-1]
+        built = len(throws) % 2 or throws == throws[::-1] or _is_two_fours(throws)
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
         return "" if built else USUAL_ORDERS.get(len(throws), "")
@@ -574,6 +578,13 @@ def _find_usual_orders(parts: Parts) -> str:
         return ""
     built = all(map(_are_opposite, throws[::2], throws[1::2]))
     return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
+
+
+def _is_two_fours(throws: Sequence[float]) -> bool:
+    """Return whether throws are those of two cranks of straight fours in series, at 90 deg."""
+    fours = [[round((throw - one[0]) % TURN) for throw in one] for one in (throws[:4], throws[4:])]
+    across = len(throws) == 8 and round(abs(throws[4] - 180)) == 90
+    return across and fours == [[0, 180, 180, 0]] * 2
 
 
 def _are_opposite(first: float, second: float) -> bool:

@@ -12,12 +12,16 @@ from typing import NamedTuple
 
 from ..errors import BalcliError
 from ..limits import LARGEST_FILE_BYTES, LARGEST_IN_COLUMNS, LONGEST_ROW, MOST_ROWS
-from .fields import shorten
+from .fields import join_words, shorten
 from .toml import read_bytes
-from .units import PLAIN, Dimension, convert
+from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
+ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
 GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
+_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees of it
+_DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
+_STARTS_NUMBER = r"(?i)\s*[+-]?(?:\.?\d|nan\b|inf)"
 _SPACE = r"(?<=\d)[ \u00a0\u2009\u202f'](?=\d{3}\b)"  # between thousands
 
 
@@ -28,21 +32,33 @@ class Head(NamedTuple):
         usual: its head as documents write it, such as torque_Nm; other heads begin with its name.
         dimension: dimension of its numbers; PLAIN: the head is `usual` alone.
         others: further heads that messages name.
+        symbols: Other names of the quantity, as a regular expression.
     """
 
     usual: str
     dimension: Dimension = PLAIN
     others: tuple[str, ...] = ()
+    symbols: str = ""
 
-    def read(self, head: str) -> tuple[str, float] | None:
-        """Return the unit in a head, and its size; None: this is another column."""
+    def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
+        """Return the unit in a head, and its size; None: this is another column.
+
+        Args:
+            head: Head of a column, with its unit.
+            by_symbol: Whether to compare it with the symbols of the quantity, not with its name.
+        """
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
-        name, _, _ = self.usual.partition("_")
-        found = re.fullmatch(rf"(?i){name}[\s_]*[\[(/]?\s*([^\])]+?)\s*[\])]?", head)
+        name = rf"(?:{self.symbols})(?![^\W_])" if by_symbol else self.usual.partition("_")[0]
+        if by_symbol and self.dimension is ANGLE and re.fullmatch(_DEGREES_OF_CRANK, head):
+            return "deg", 1.0
+        found = re.fullmatch(rf"(?i){name}[\s_,]*[\[(/]?\s*(.+?)\s*[\])]?", head)
         if found is None:
             return None
-        unit = found[1].replace("_", " ")
+        unit = re.sub(_CRANK_ANGLE, "deg", found[1]).replace("_", " ")
+        if self.dimension is PRESSURE:  # "bar (abs)", "bar g"
+            unit = re.sub(r"(?i)[\s(]+a(?:bs(?:olute)?)?\)?$", "", unit)
+            unit = re.sub(r"(?i)[\s(]+g(?:auge)?\)?$", "g", unit)
         try:  # gauge pressures are units with a g behind them
             absolute = unit.removesuffix("g") if unit in GAUGE_UNITS else unit
             return unit, convert(f"1 {absolute}", self.dimension)
@@ -127,8 +143,8 @@ def _list_lines(text: str) -> dict[int, str]:
     """Return the lines that are neither empty nor comments, by their numbers from 1."""
     lines: dict[int, str] = {}
     for number, line in enumerate(StringIO(text, newline=None), 1):
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
+        if not line.strip() or line.lstrip().startswith("#") or re.match("sep=.$", line):
+            continue  # Excel writes sep=;
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
         if len(lines) > MOST_ROWS:  # besides the heading
@@ -146,35 +162,56 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
         mark = " "
-        # A unit in brackets may have blanks: "torque [kN m]"
-        first = re.sub(r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), first)
-        lines |= {next(iter(lines)): re.sub(r"\s+(?=[\[(])", "_", first.strip())}
+        for number in list(lines)[:2]:  # a unit in brackets may have blanks: "torque [kN m]"
+            squeezed = re.sub(
+                r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), lines[number]
+            )
+            lines[number] = squeezed.strip()
+        lines[next(iter(lines))] = re.sub(r"\s+(?=[\[(])", "_", next(iter(lines.values())))
         lines = {n: " ".join(line.split()) for n, line in lines.items()}
     numbers, cells = list(lines)[1:], csv.reader(lines.values(), delimiter=mark)
     heading = [cell.strip() for cell in next(cells, [])]
+    rows = list(cells)
+    if rows and (joined := _join_units(heading, rows[0])):
+        heading, rows, numbers = joined, rows[1:], numbers[1:]
     found = [_find_head(head, heading, wanted, mark) for head in wanted]
     places = [place for place, _, _ in found]
     width = len(heading) if mark in ", " else None
-    texts = [_find_cells(row, places, width, n) for row, n in zip(cells, numbers, strict=False)]
+    texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
     for column in zip(*texts, strict=True):
         _refuse_thousands(column, numbers)
     comma = "," if mark == "," else "."  # what a comma in a number stands for
-    rows = tuple(
+    figures = tuple(
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
     )
     heads = tuple(heading[place] for place in places)
     _, units, scales = zip(*found, strict=True)
-    return NumberColumns(heads, rows, tuple(numbers), units, scales)
+    return NumberColumns(heads, figures, tuple(numbers), units, scales)
+
+
+def _join_units(heading: list[str], below: list[str]) -> list[str]:
+    """Return the heading with the units of a row below it; empty where that row has none."""
+    units = [cell.strip(" []()") for cell in below]
+    if len(units) < len(heading) or any(re.match(_STARTS_NUMBER, cell) for cell in below):
+        return []
+    said = [re.split(r"[\s_[(/]+", head)[-1].rstrip("]) ") for head in heading]
+    each = zip(heading, units, said, strict=False)
+    return [head if unit == known else f"{head} [{unit}]" for head, unit, known in each]
 
 
 def _find_head(
     wanted: Head, heading: list[str], every: Sequence[Head], mark: str
 ) -> tuple[int, str, float]:
     """Return place, unit and scale of a column; `mark` parts the columns of the heading."""
-    for place, head in enumerate(heading):
-        if head_read := wanted.read(head):
-            return (place, *head_read)
+    for by_symbol in (False, True):
+        read = enumerate(wanted.read(head, by_symbol=by_symbol) for head in heading)
+        places = [(place, *unit) for place, unit in read if unit]
+        if len(places) > 1 and by_symbol:
+            several = join_words([shorten(heading[place]) for place, *_ in places])
+            raise ValueError(f"has the columns {several}; head the one that counts {wanted.usual}")
+        if places:
+            return places[0]
     usual = mark.join(head.usual for head in every)
     others = [name for head in every for name in head.others]
     also = f" (or {', '.join(others)})" if others else ""
@@ -188,7 +225,7 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
     """
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
-    if width is not None and any(re.match(r"\s*[+-]?\.?\d", cell) for cell in row[width:]):
+    if width is not None and any(re.match(_STARTS_NUMBER, cell) for cell in row[width:]):
         raise ValueError(
             f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
             "heading, or, where decimals have commas, part columns by semicolons there and below"
@@ -212,7 +249,8 @@ def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
 
 def _read_number(cell: str, comma: str, line: int) -> float:
     try:
-        number = float(re.sub(_SPACE, "", cell.replace(",", comma)))
+        spelt = re.sub(_SPACE, "", cell.replace(",", comma))
+        number = float(re.sub(FORTRAN, r"e\1", spelt))
     except ValueError:
         number = math.nan
     if not abs(number) <= LARGEST_IN_COLUMNS:

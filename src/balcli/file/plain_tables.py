@@ -5,7 +5,7 @@ the defaults that count where it leaves keys out.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -72,9 +72,9 @@ def _key(key: object) -> str:
 def _plain(value: object) -> object:
     if isinstance(value, Mapping):
         return {_key(key): _plain(inner) for key, inner in value.items() if inner is not None}
-    if isinstance(value, (np.ndarray, np.generic)):
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         return value.tolist()
-    if isinstance(value, (list, tuple, range, Iterator)):
+    if isinstance(value, (list, tuple, range, Iterator, np.ndarray)):
         return [_plain(inner) for inner in islice(value, MOST_KEY_VALUES + 1)]
     return value
 
@@ -159,13 +159,52 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
     member: `mount.dynamic_factor = 1`.
     """
-    for end in ("front", "rear") if model.torsion else ():
-        of_steel = (part for part in getattr(model.torsion, end) if part.is_of_unnamed_steel)
-        yield from {f"torsion.{end}.shear_modulus = {part.shear_modulus:g}" for part in of_steel}
+    if (torsion := model.torsion) is not None:
+        for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
+            of_steel = (part for part in parts if part.is_of_unnamed_steel)
+            yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
+        if not (torsion.has("loss") or torsion.has("damping")):
+            yield "torsion.loss = 0"
     if model.body is not None and not model.body.has("gravity"):
         yield "body.gravity = [-1, 0, 0]"
+    if model.body is not None and model.gas is not None and not model.body.has("carries_load"):
+        yield "body.carries_load = false"
+    if not all(one.has("loss") or one.has("damping") for one in model.mount):
+        yield "mount.loss = 0"
     if not all(one.has("dynamic_factor") for one in model.mount):
         yield "mount.dynamic_factor = 1"
+
+
+def list_mass_defaults(model: EngineFile) -> Iterator[str]:
+    """Yield masses and inertias of crank, flywheel and rod that the file does not give."""
+    crank, rod = model.crank, model.rod
+    if not (crank.has("throw_mass") or model.layout.rotary):
+        yield "crank.throw_mass = 0"
+    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
+        yield "crank.inertia = 0"
+    if crank.inertia is not None and model.flywheel is None:
+        yield "flywheel.inertia = 0"
+    if rod.mass is None and rod.small_end is None:
+        yield "rod.mass = 0"
+    elif rod.mass and rod.cg is None:
+        yield "rod.cg = 0"
+
+
+# Tables that count in some subjects alone.
+_OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
+# Keys that are no part of a torque at steady speed.
+STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
+
+
+def choose_assumed(
+    inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
+) -> tuple[str, ...]:
+    """Return the keys of `engine.numbering.list_inferred` that count in a subject; arguments as of
+    `Engine.list_assumed`.
+    """
+    idle = _OF_CHAPTERS.difference(chapters).union(without)
+    keys = ((line, line.partition(" =")[0]) for line in inferred)
+    return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
 
 
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
@@ -191,8 +230,6 @@ def list_assumed(model: EngineFile) -> Iterator[str]:
                 yield f"{path} = {field.default}"
             elif isinstance(field.default, int | float) and field.default is not False:
                 yield f"{path} = {field.default:g} {unit}".rstrip()
-    if model.rod.mass is None and model.rod.small_end is None:
-        yield "rod.mass: a rod without mass"
 
 
 def _list_idle(model: EngineFile) -> set[str]:

@@ -28,6 +28,7 @@ _DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
 # Patterns of a value without quotes, and the remedy; the first that fits counts.
 _HINTS = (
     (rf"{_NUMBER},\d+", "write a decimal point, not a comma"),
+    (rf"{_NUMBER}[dD][+-]?\d+", "an exponent is written with e, as in 1.5e3"),
     (
         rf"{_NUMBER}(?:[\s,;]+{_NUMBER})+|{_DASHED}|\[[^\[\]]*\d\s*[\s;]\s*[-+.\d][^\[\]]*\]",
         "a list stands in brackets, with commas: {key} = [{numbers}]",

@@ -51,7 +51,7 @@ gr = g, or grain (65 mg)?; gm = g, or gigametre?; Mm = mm, or megametre?; MG = m
 NM = N m, or nanometre?; ton = t (1000 kg), or 2000 lb, or 2240 lb?; cwt = 100 lb, or 112 lb?
 barg = bar over the atmosphere? Absolute it is 1.01325 bar more,
 psig = psi over the atmosphere? Absolute it is 14.696 psi more,
-grad grade = deg, or gon (0.9 deg)?; cycle = turn, or the two of a four-stroke engine?
+grad grade Grad = deg, or gon (0.9 deg)?; cycle = turn, or the two of a four-stroke engine?
 cpm = rpm, or cycles of two turns in a minute?; cal = 4.184 J, or 4.1868 J?
 kcal = 4184 J, or 4186.8 J?
 """
@@ -200,6 +200,7 @@ _CYRILLIC = dict(
     Дж:J кДж:kJ МДж:MJ Вт:W кВт:kW л:l
     """.split()  # noqa: SIM905
 )
+FORTRAN = r"(?<=[\d.])[dD]([+-]?\d{1,3})(?![\d.])"  # the exponent of 1.5D3
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"(\d?)\s*([¼-¾⅐-⅞])", lambda m: f"{m[1]} {normalize('NFKC', m[2])}"),
@@ -211,13 +212,14 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
     (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0]) or _CYRILLIC.get(m[0].lower(), m[0])),
     (r"(?<=\d)\s*[x×·⋅*]\s*10\^([+-]?\d{1,3})\b", r"e\1"),
+    (FORTRAN, r"e\1"),
     (
         r"^(\s*[+-]?[1-9]\d{0,2})((?:[ '_]\d{3})+)(?![\d/]| \d{3}|\s*/\s*\d)",
         lambda m: m[1] + re.sub(r"[ '_]", "", m[2]),
     ),
     # A decimal comma, unless three digits behind it might be thousands
     (r"^(\s*[+-]?(?:0|\d{4,}|\d+(?=,(?:\d{1,2}|\d{4,})(?!\d)))),(\d+)(?![\d,.])", r"\1.\2"),
-    (r'^([^"]*\d)\s*"\s*$', r"\1 in"),
+    (r"""^([^"']*\d)\s*(?:"|'')\s*$""", r"\1 in"),
 )
 
 
@@ -243,8 +245,11 @@ _PER_SECOND = r"\d\.?(?:(?:\s+1)?\s*/\s*|\s*(?=\w+(?:\^|\*\*)?-))s(?:ec)?(?:(?:\
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-# A force where only that fits: 24 lb in/rad, 0.3 lb in s2
-_POUND = r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)"
+# A force where only that fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
+_FORCES = (
+    (r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)", "lbf"),
+    (r"(?i)\bkgs?(?=(?:\b|[cm]?m).*[/s])", "kgf"),  # "3 kgm" of a torque is asked back
+)
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([23]))?"
 
 
@@ -277,14 +282,26 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
         raise ValueError("divides by zero") from None
     except OverflowError:
         raise ValueError("is too large a number") from None
+    refuse_thousands(text, exact, dimension)
+    return exact
+
+
+def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -> None:
+    """Raise ValueError for a figure with three decimals where the point is rather one between
+    thousands: "6.000 rpm".
+
+    Args:
+        text: Figure as it is typed, with or without a unit.
+        value: Its value in the bare unit of its dimension.
+        dimension: Dimension of the figure.
+    """
     point = re.match(r"\s*[+-]?([1-9]\d{0,2})\.(\d{3})(?![\d.,/eE])", text)
-    if point and abs(exact) < _LEAST_WITH_DECIMALS.get(dimension, 0):
+    if point and abs(float(value)) < _LEAST_WITH_DECIMALS.get(dimension, 0):
         decimals, thousands = f"{point[1]}.{point[2]}0", point[1] + point[2]
         raise ValueError(
             f"has three decimals, or a point between thousands: write {decimals} or {thousands}; "
             f"{wanted(dimension)}"
         )
-    return exact
 
 
 def _measure(figure: str, dimension: Dimension) -> Fraction:
@@ -309,9 +326,10 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         raise ValueError(f"has no unit; {wanted(dimension)}{plain}")
     unit = read_unit(names, dimension)
     if unit.powers != dimension.powers:
-        force = read_unit(re.sub(_POUND, "lbf", names), dimension)
-        if force.powers == dimension.powers:
-            return number * force.scale
+        for mass, name in _FORCES:
+            force = read_unit(re.sub(mass, name, names), dimension)
+            if force.powers == dimension.powers:
+                return number * force.scale
         names_of_kinds = (kind.name for kind in _KINDS if kind.powers == unit.powers)
         name = next(names_of_kinds, "of another dimension")
         raise ValueError(f"is {name}, but {wanted(dimension)}")
@@ -440,6 +458,7 @@ def _find_pair(name: str) -> tuple[Unit, Unit] | None:
     pairs = {
         (first, second)
         for cut in range(1, len(name))
+        if not re.fullmatch("[cdm]?ms", name[cut:])  # "kgcms2" might be kgf cm s^2
         if (first := _find(name[:cut])) and (second := _find(name[cut:]))
         if (first.powers in loads and second.powers == length)
         or (first.powers == length and second.powers in loads)

@@ -122,7 +122,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
-    sections = np.unique(z)
+    sections = list_places(z)
     ahead = find_ahead(z, sections)
     shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
     if orders is None:
@@ -151,7 +151,7 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     if (bearings := place_bearings(engine.joined_throws_m)) is not None:
         forces = compute_bearing_forces(loads, z, bearings)
         main_N, main_mm = _find_largest_along(bearings, forces)
-    moment, inner_mm = _find_largest_along(np.unique(z), compute_bending(loads, z))
+    moment, inner_mm = _find_largest_along(list_places(z), compute_bending(loads, z))
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
 
 
@@ -175,11 +175,16 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Return positions of main bearings half-way between throws and as far outside the end ones, m,
     shape (bearings,); None for throws in one place.
     """
-    places = np.unique(throws_m)
+    places = list_places(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
+
+
+def list_places(z: Array) -> Array:
+    """Return the different positions, ascending; `numpy.unique` would load `numpy.ma` for it."""
+    return np.array(sorted(set(np.ravel(z).tolist())))
 
 
 def compute_bending(loads: Phasors, z: Array) -> Phasors:
@@ -189,7 +194,7 @@ def compute_bending(loads: Phasors, z: Array) -> Phasors:
         loads: Forces, shape (orders, loads).
         z: Their positions, m, shape (loads,).
     """
-    sections = np.unique(z)
+    sections = list_places(z)
     return 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
 
 
@@ -323,7 +328,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = np.unique(np.concatenate([on_shaft, on_block, span]))
+    sections = list_places(np.concatenate([on_shaft, on_block, span]))
     reach = 2 * float(np.abs(sections).max())  # bounds what arms are differences of
 
     largest = float(np.abs(samples).max(axis=1).sum())

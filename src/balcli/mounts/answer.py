@@ -13,11 +13,10 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.figures import find_first_largest
-from ..engine.numbering import choose_assumed
 from ..errors import BalcliError, check_type
 from ..file.fields import order_number
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults, take_tables
+from ..file.plain_tables import choose_assumed, list_chapter_defaults, take_tables
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
@@ -30,7 +29,7 @@ from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
 from .loads import find_loads
 from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
-from .rigid_body import AXES, elastic_centre, roll_axis
+from .rigid_body import AXES, drop_rounding, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -107,6 +106,10 @@ def report_mounts(
     settled = settle(mounted, response.loads.mean if response else 0.0)
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
+    centre = elastic_centre(stiffness, mounted.body.centre).point
+    farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
+    shapes = drop_rounding(modes.modes.shapes, 1 / np.sqrt(np.diag(modes.mass)))
+    forces, travel = drop_rounding(settled.forces), drop_rounding(1e3 * settled.travel)
     return MountReport(
         name=title,
         assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
@@ -120,11 +123,11 @@ def report_mounts(
                 float(modes.loss[k]),
                 tuple(Meeting(order_number(order), rpm) for mode, order, rpm in met if mode == k),
             )
-            for k, (shape, share) in enumerate(zip(modes.modes.shapes, modes.shares, strict=True))
+            for k, (shape, share) in enumerate(zip(shapes, modes.shares, strict=True))
         ),
-        roll_axis=roll_axis(mounted.body),
-        elastic_centre_mm=1e3 * elastic_centre(stiffness, mounted.body.centre).point,
-        static=AtRest(tuple(map(MountAtRest, mounted.names, settled.forces, 1e3 * settled.travel))),
+        roll_axis=drop_rounding(roll_axis(mounted.body)),
+        elastic_centre_mm=1e3 * drop_rounding(centre, farthest),
+        static=AtRest(tuple(map(MountAtRest, mounted.names, forces, travel))),
         stiffness_N_per_m=stiffness,
         response=response,
         fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,

@@ -156,16 +156,16 @@ def find_loads(
         found, turns = compute_spectra(engine, wanted, kinds), 1.0
     if orders is None:
         found = found.select_orders(choose_orders(found, of_gas))
-    force, moment = found["force"], found["moment"]
+    force, moment, roll = (found[kind].drop_noise() for kind in ("force", "moment", "roll"))
     inertia = load_at_centre(
         np.stack([force.x, force.y, 0 * force.x], axis=-1),
-        np.stack([moment.x, moment.y, found["roll"].x], axis=-1),
+        np.stack([moment.x, moment.y, roll.x], axis=-1),
         np.array([float(value) for value in engine.reference_m]),
         centre,
     )
     gas, mean = np.zeros_like(inertia), 0.0
     if fired:
-        gas[:, ROLL] = -found["gas"].x
+        gas[:, ROLL] = -found["gas"].drop_noise().x
         indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
         mean = -(engine.mechanical_efficiency or 1.0) * indicated
     there = np.any((inertia != 0) | (gas != 0), axis=1)

@@ -41,7 +41,7 @@ from .records import (
     WorstForce,
     WorstMotion,
 )
-from .rigid_body import ROLL, carry_points, couple_mounts
+from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
 RESONANT = 0.05  # distance of the frequency of an order from that of the mode that it meets
@@ -336,7 +336,7 @@ def respond(
         places.append(place(name, tuple(each), peak[:, k] / unit, highest))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
-    rigid, rpm = np.abs(loads.at(omega)), omega / RPM
+    rigid, rpm, arm = np.abs(loads.at(omega)), omega / RPM, float(np.abs(arms).max(initial=1.0))
     short = np.round(rpm, 9)  # as speeds were given, which rad/s keep but for rounding
     return BodyResponse(
         no_gas_in=loads.silent.without_gas or None,
@@ -346,7 +346,7 @@ def respond(
         mounts=tuple(places[: len(mounts)]),
         points=tuple(places[len(mounts) :]),
         passed=tuple(
-            Passed(number, _name_components(rigid[n]), _name_components(on_mounts[n]))
+            Passed(number, _name_components(rigid[n], arm), _name_components(on_mounts[n], arm))
             for n, number in enumerate(numbers)
         ),
         loads=loads,
@@ -354,6 +354,11 @@ def respond(
     )
 
 
-def _name_components(load: Real) -> dict[str, Real]:
-    """Return the amplitudes by speed of a load (speeds, 6), as far as there is any."""
+def _name_components(load: Real, arm: float) -> dict[str, Real]:
+    """Return the amplitudes by speed of a load (speeds, 6), as far as there is more than rounding;
+    the forces have arms (m) up to this.
+    """
+    force, moment = (part.max(axis=1, keepdims=True) for part in (load[:, :3], load[:, 3:]))
+    size = np.repeat(np.hstack([force, np.maximum(moment, arm * force)]), 3, axis=1)
+    load = drop_rounding(load, size)
     return {key: load[:, k] for k, key in enumerate(_COMPONENTS) if load[:, k].any()}

@@ -17,10 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.vibration import Complex, Modes, Real, find_modes
+from ..core.vibration import ROUNDING, Complex, Modes, Real, find_modes
 from ..file.fields import join_words
 
 _NO_SHARE = 1e-14  # of a mode's energy, which is 1
+_UNCOUPLED = 1e-14  # of the stiffness of both motions
 _FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
 
 
@@ -174,13 +175,21 @@ def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
     """(6, 6) about the centre of gravity, complex where mounts have loss."""
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
     complex_stiffness = (mounts.stiffness * (1 + 1j * mounts.loss)).reshape(-1)
-    return np.asarray((travel.T * complex_stiffness) @ travel, complex)
+    return _decouple((travel.T * complex_stiffness) @ travel)
 
 
 def damping_matrix(body: Body, mounts: Mounts) -> Real:
     """(6, 6) about the centre of gravity, of the dashpots."""
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
-    return (travel.T * mounts.damping.reshape(-1)) @ travel
+    return _decouple((travel.T * mounts.damping.reshape(-1)) @ travel).real
+
+
+def _decouple(matrix: Complex | Real) -> Complex:
+    """Return a matrix (6, 6) whose couplings of two motions are 0 where they are rounding: else a
+    mount that nothing moves would have a force of 1e-17 N.
+    """
+    own = np.sqrt(np.abs(np.diag(matrix)))
+    return np.where(np.abs(matrix) > _UNCOUPLED * np.outer(own, own), matrix, 0j)
 
 
 # ------------------------------------------------------------------ properties
@@ -264,6 +273,18 @@ def apply_couplings(couplings: Complex | Real, motion: Complex) -> Complex:
     """Return the vectors (..., places, 3) of couplings (places, 3, 6) and a motion (..., 6)."""
     found = motion @ couplings.reshape(-1, 6).T
     return found.reshape(*motion.shape[:-1], -1, 3)
+
+
+def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
+    """Return values as an array; those that are rounding next to a size are 0.
+
+    Args:
+        values: Values, any shape.
+        size: Size, of a shape to which that of the values is broadcast; default: the largest value.
+    """
+    magnitudes = np.abs(values)
+    whole = magnitudes.max(initial=0.0) if size is None else np.asarray(size)
+    return np.where(magnitudes > ROUNDING * whole, values, 0.0)
 
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from ..core.records import to_document as document
-from ..core.vibration import Real
 from ..engine.figures import find_first_largest
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
@@ -221,8 +220,8 @@ def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
     heads = ["mount", *(f"{axis}, {system.force.name}" for axis in "xyz")]
     heads += [f"travel {axis}, {motion.unit.name}" for axis in "xyz"]
     mounts = result.static.mounts
-    force = _wipe([mount.force_N for mount in mounts]) / system.force.size
-    travel = _wipe([mount.travel_mm for mount in mounts]) / motion.unit.size
+    force = np.array([mount.force_N for mount in mounts]) / system.force.size
+    travel = np.array([mount.travel_mm for mount in mounts]) / motion.unit.size
     rows = [
         (name, *(number(v, 4) for v in force[k]), *(number(v, 3) for v in travel[k]))
         for k, name in enumerate(mount.name for mount in mounts)
@@ -236,12 +235,6 @@ def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
         leaning = f" and the reaction to the {moment}"
     note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
     return Grid("At rest", tuple(heads), tuple(rows), note)
-
-
-def _wipe(values: Sequence[Real]) -> Real:
-    """Return values as an array; those that are rounding next to the largest are 0."""
-    size = np.abs(values)
-    return np.where(size > 1e-12 * size.max(), values, 0.0)
 
 
 def _grid_meetings(result: MountReport) -> Grid:

@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, list_values, wrong_type
+from ..errors import BalcliError, InputError, list_values, refuse_more, wrong_type
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
+_MOST_GIVEN = 1_000_000  # speeds of a list, equal ones included
 _REAL = (int, float, np.integer, np.floating)
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
@@ -91,8 +92,9 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     """
     if speeds_rpm is None:
         return None
-    if isinstance(speeds_rpm, range):  # which may stand for thousands of millions
-        speeds_rpm = list_values("speeds_rpm", speeds_rpm, MOST_SPEEDS)
+    refuse_more(
+        "speeds_rpm", speeds_rpm, MOST_SPEEDS if isinstance(speeds_rpm, range) else _MOST_GIVEN
+    )
     try:
         given = np.asarray(speeds_rpm)
         if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
@@ -104,10 +106,10 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
         found = np.array([math.inf])
     if given.ndim > 1:
         raise BalcliError(f"speeds_rpm: of shape {given.shape}; give them along one axis")
-    if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
-        raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
     if found.size > MOST_SPEEDS:
         raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")
+    if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
+        raise BalcliError("speeds_rpm: give crank speeds above 0 in rpm, such as [1500, 2000]")
     return found
 
 

@@ -20,7 +20,7 @@ from ..limits import (
 )
 from ..show.formats import Format, Units
 from .file_names import format_option, parse_output
-from .values import doubt_thousands, optional, read_length, read_share, read_speed
+from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
@@ -249,7 +249,6 @@ def parse_speed(text: str | None) -> float | None:
         raise BalcliError(
             f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
         )
-    doubt_thousands("--speed", text)
     return speed
 
 

@@ -19,7 +19,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import BalcliError, warn
-from ..file.units import ANGLE, INERTIA, LENGTH, MASS, SPEED, Dimension, convert, wanted
+from ..file.units import (
+    ANGLE,
+    FORTRAN,
+    INERTIA,
+    LENGTH,
+    MASS,
+    SPEED,
+    Dimension,
+    convert,
+    refuse_thousands,
+    wanted,
+)
 from ..limits import LARGEST_INERTIA, LONGEST_SHOWN, MOST_SPEEDS, SMALLEST_POSITIVE
 from ..show.formats import Units
 
@@ -136,17 +147,12 @@ def read_speed(option: str, text: str) -> float:
 
 
 def doubt_thousands(option: str, text: str) -> None:
-    """Warn where speeds are bare numbers with the point or comma with which thousands are parted in
-    some countries: `6.000`, `6,500`.
-    """
-    for part in (text, *re.split("[:,]", text)):
-        if figure := re.fullmatch(r"([1-9]\d?)\.(\d[05]0)|([1-9]),(\d00)", part.strip()):
-            meant = "".join(filter(None, figure.groups()))
-            warn(
-                f"{_shown(option, text)}: a point parts decimals and a comma speeds, not "
-                f"thousands: was {meant} rpm meant?"
-            )
-            return
+    """Warn of two speeds that look like one with a comma between thousands: `6,500`."""
+    if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
+        warn(
+            f"{_shown(option, text)}: a comma parts speeds, not thousands: was "
+            f"{figure[1]}{figure[2]} rpm meant?"
+        )
 
 
 def read_number(option: str, text: str, needed: str) -> float:
@@ -160,7 +166,10 @@ def read_number(option: str, text: str, needed: str) -> float:
 def convert_speed(text: str) -> float:
     """Return a speed in rpm, for one of a range; ValueError for anything else."""
     value = _as_bare(text)
-    return convert(text, SPEED) if value is None else value
+    if value is None:
+        return convert(text, SPEED)
+    refuse_thousands(text, value, SPEED)
+    return value
 
 
 def read_share(option: str, text: str, needed: str) -> float:
@@ -184,6 +193,10 @@ def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
         raise BalcliError(
             f"{_shown(option, text)}: with --units imperial {dimension.name} needs its unit: {ways}"
         )
+    try:
+        refuse_thousands(text, value, dimension)
+    except ValueError as error:
+        raise BalcliError(f"{_shown(option, text)}: {error}") from None
     return value
 
 
@@ -197,7 +210,7 @@ def _convert(option: str, text: str, dimension: Dimension) -> float:
 def _as_bare(text: str) -> float | None:
     """Return the number, if there is no unit to it."""
     try:
-        return float(text)
+        return float(re.sub(FORTRAN, r"e\1", text))
     except ValueError:
         return None
 
@@ -251,8 +264,9 @@ def parse_speeds(
     try:
         ranged = ":" in text
         figures = [convert_speed(part) for part in text.split(":" if ranged else ",")]
-    except ValueError:
-        raise BalcliError(start + right) from None
+    except ValueError as error:
+        thousands = f"{error}; " if "thousands:" in str(error) else ""
+        raise BalcliError(f"{start}{thousands}{right}") from None
     if ranged and len(figures) > 3:
         raise BalcliError(start + right)
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):

@@ -47,11 +47,14 @@ def _lines(sheet: Sheet) -> Iterator[str]:
 
 def _grid_lines(grid: Grid) -> Iterator[str]:
     """Yield headings, a rule, and the rows; words to the left, figures to the right."""
-    natural = [_measure(grid, k) for k in range(len(grid.columns))]
-    widths, gap = natural, GAP
-    if sum(natural) + GAP * (len(natural) - 1) > WIDTH:
-        least, gap = [_narrow(grid, k) for k in range(len(natural))], 2
-        widths = list(share_out(WIDTH, range(len(natural)), least, natural).values())
+    every = range(len(grid.columns))
+    natural = [_measure(grid, k) for k in every]
+    narrow = [_narrow(grid, k) for k in every]
+    whole = [natural[0], *narrow[1:]]  # the headings of rows on one line
+    for gap, least in ((GAP, natural), (2, whole), (1, whole), (2, narrow)):
+        if sum(least) + gap * (len(least) - 1) <= WIDTH:
+            break
+    widths = list(share_out(WIDTH, every, least, natural, gap).values())
     yield from _row_lines(grid.columns, widths, grid.words, gap)
     yield "─" * (sum(widths) + gap * (len(widths) - 1))
     for row in grid.rows:
@@ -88,19 +91,20 @@ def longest_word(texts: Iterable[str]) -> int:
 
 
 def share_out(
-    width: int, columns: Sequence[int], least: Sequence[int], natural: Sequence[int]
+    width: int, columns: Sequence[int], least: Sequence[int], natural: Sequence[int], gap: int = 2
 ) -> dict[int, int]:
     """Return the width of each column: the least, and what is left over to the one that lacks most,
     until there is none.
 
     Args:
-        width: Width of the table, with gaps of 2.
+        width: Width of the table.
         columns: Columns in it.
         least: Least width of every column.
         natural: Width that every column likes to have.
+        gap: Blanks between columns.
     """
     widths = {k: least[k] for k in columns}
-    for _ in range(width - sum(widths.values()) - 2 * (len(columns) - 1)):
+    for _ in range(width - sum(widths.values()) - gap * (len(columns) - 1)):
         needy = max(columns, key=lambda k: natural[k] - widths[k])
         widths[needy] += natural[needy] > widths[needy]
     return widths

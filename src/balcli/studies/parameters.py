@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
-from ..errors import BalcliError, list_values, wrong_type
+from ..errors import BalcliError, refuse_more, wrong_type
 from ..file.fields import Number, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
 from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
-from ..file.units import BARE_FIGURE, convert_exactly
+from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 from ..show.sheet import count_name
 
@@ -179,8 +179,9 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
     if path not in known:
         raise BalcliError(_describe_unknown(path, known, model))
     number = known[path]
+    refuse_more(path, values, MOST_PARAMETER_VALUES)
     if isinstance(values, range):
-        values = list_values(path, values, MOST_PARAMETER_VALUES)
+        values = np.fromiter(values, float, len(values))  # a list of them takes much more memory
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError, OverflowError):
@@ -273,7 +274,11 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
     if max(abs(start), abs(start + rise * count), scale) < _EXACT:
-        return (start + rise * np.arange(count)) / scale
+        values = np.arange(count, dtype=float)  # whole numbers, which are exact
+        values *= rise
+        values += start
+        values /= scale
+        return values
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 
@@ -281,10 +286,11 @@ def _read_exactly(text: str, number: Number) -> Fraction:
     """The figure in the bare unit of its field, not rounded: three of a range that were would miss
     its end.
     """
-    figure = text.strip()
-    if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
-        return Fraction(figure)
+    figure = re.sub(FORTRAN, r"e\1", text.strip())
     try:
+        if len(figure) <= LONGEST_FIGURE and re.fullmatch(BARE_FIGURE, figure, re.ASCII):
+            refuse_thousands(figure, bare := Fraction(figure), number.dimension)
+            return bare
         return convert_exactly(figure, number.dimension)
     except ValueError as error:
         raise ValueError(f"{shorten(figure)} {error}") from None

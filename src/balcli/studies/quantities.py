@@ -10,11 +10,12 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol, cast
 
-from ..engine.numbering import choose_assumed, list_inferred
+from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
+from ..file.plain_tables import choose_assumed
 from ..file.table import FileTable, document_keys
 from ..forces.quantity import Quantity, parse_quantity
 from ..names import QUANTITIES, import_name
@@ -132,6 +133,7 @@ def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity])
 
 _MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
 _TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
+_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")  # their inertia
 _OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
 
 
@@ -151,7 +153,17 @@ def list_assumed(
         chapter = find_chapter(name) or ENGINE
         of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
         tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    return choose_assumed(list_inferred(Parts(model)), tables, tuple(varied)) or None
+    uneven = model.operation.speed_ripple
+    idle = set[str]() if uneven or any(map(_feels_throws, names)) else {"crank.throw_mass"}
+    idle |= {"rod.inertia"} if all(each.startswith(_WITHOUT_RODS) for each in names) else set()
+    tables |= {"flywheel"} if "fluctuation" in names else set()
+    idle |= set() if uneven or (tables & {"flywheel"} and model.flywheel) else {"crank.inertia"}
+    return choose_assumed(list_inferred(Parts(model)), tables, {*varied, *idle}) or None
+
+
+def _feels_throws(name: str) -> bool:
+    """Return whether a quantity depends on the masses of the throws at steady speed."""
+    return name.startswith(("force.1.", "moment.1.", "peak.", "mount.", "point."))
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:

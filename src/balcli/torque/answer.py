@@ -12,8 +12,8 @@ import numpy as np
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import Engine, check_engine, find_row
-from ..engine.numbering import STEADY
 from ..errors import BalcliError, check_number, check_type, list_words
+from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
 from ..forces.spectrum import (
@@ -84,12 +84,14 @@ def analyze_torque_of_engine(
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
     single = compute_spectra(steady, shown, KINDS_OF_TORQUE, each=True).select_place(row)
+    idle = {*(STEADY[-1:] if wanted else STEADY)}
+    idle -= set() if engine.flywheel_inertia is None else {"crank.inertia"}
     each = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
     return TorqueAnalysis(
         speed_rpm=float(engine.speed_rpm),
         no_gas_in=silent.without_gas or None,
         no_burning_in=silent.without_burning or None,
-        assumed=engine.list_assumed("gas", without=STEADY[2:] if wanted else STEADY),
+        assumed=engine.list_assumed("gas", "flywheel", without=idle),
         cycle_deg=gas.cycle_deg,
         imep_Pa=imep,
         bmep_Pa=None if efficiency is None else imep * efficiency,

@@ -13,7 +13,7 @@ from ..core.phases import RPM
 from ..core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
 from ..core.speed_ripple import surplus
 from ..errors import BalcliError
-from ..file.csv_columns import Head, read_columns
+from ..file.csv_columns import ANGLE_SYMBOLS, Head, read_columns
 from ..file.units import ANGLE, TORQUE
 from ..forces.spectrum import check_orders
 from ..limits import (
@@ -46,7 +46,8 @@ def read_curve(path: Path) -> PiecewiseCurve:
     Raises:
         BalcliError: The file is none of that kind, or angles do not rise.
     """
-    columns = read_columns(path, (Head("angle_deg", ANGLE), Head("torque_Nm", TORQUE)))
+    angles = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
+    columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
         raise BalcliError(f"{path}: has no two angles; the last row has to close the period")

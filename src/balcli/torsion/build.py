@@ -23,10 +23,10 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..engine.numbering import STEADY
 from ..errors import InputError, Problem
 from ..file.fields import counted, join_words, printable, shorten, suggest_nearest
 from ..file.model import EngineFile
+from ..file.plain_tables import STEADY
 from ..file.torsion_tables import (
     STEEL,
     Damper,
@@ -45,9 +45,9 @@ from .chain import (
     Damping,
     find_pieces,
     find_still,
-    grow_branches,
     join_chain,
     rigid_motions,
+    trace_shafts,
 )
 from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
@@ -311,17 +311,25 @@ def _find_faults(
 
 
 def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
-    """Loops of meshes alone, in which nothing says what each carries; and of shafts, which a chain
-    that turns would wind up without end.
+    """Yield loops of meshes alone, which share a torque in no known way, with their partners; and
+    of shafts, which a chain that turns would wind up without end.
     """
     group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
+    joining = np.zeros(len(chain.start), bool)
     for mesh in np.flatnonzero(np.isinf(chain.stiffness)).tolist():
-        start, end = group[chain.start[mesh]], group[chain.end[mesh]]
-        if start == end:
-            text = "closes a loop of gears and rigid shafts, fixed nodes counted as one"
-            hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-            yield Problem(paths[mesh], f"{text}: {hint}")
-        group[group == end] = start
+        start, end = int(chain.start[mesh]), int(chain.end[mesh])
+        if group[start] != group[end]:
+            group[group == group[end]], joining[mesh] = group[start], True
+            continue
+        way, held = trace_shafts(chain, [start], end, joining), np.flatnonzero(chain.clamped)
+        named = [paths[each] for each in way]
+        if not way:
+            ways = (trace_shafts(chain, held.tolist(), node, joining) for node in (start, end))
+            named = [*(paths[each] for way in ways for each in way), "the fixed nodes"]
+        hint = "nothing says how they share the torque; leave it out, or give a stiffness"
+        yield Problem(
+            paths[mesh], f"closes a loop of gears and rigid shafts with {join_words(named)}: {hint}"
+        )
     if not np.any(chain.clamped):
         yield from _find_contradiction(chain, paths, np.ones(len(chain.start), bool))
 
@@ -329,24 +337,20 @@ def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
 def _find_contradiction(
     chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
 ) -> Iterator[Problem]:
-    """The first shaft that closes a loop, of shafts of these (shafts,), whose ratios contradict
-    each other, with its partners: gears alone would lock, a chain that turns wind up its shafts.
+    """Yield the first shaft that closes a loop whose ratios contradict each other, with its
+    partners: gears alone would lock, a chain that turns wind up its shafts.
     """
     pieces = find_pieces(chain, joining)
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        branches = grow_branches(chain, [int(chain.start[shaft])], joining & ~torn)
-        led = {branch.child: branch for branch in branches}
-        node, partners = int(chain.end[shaft]), list[str]()
-        while node in led:
-            partners.append(paths[led[node].shaft])
-            node = led[node].parent
+        ends = [int(chain.start[shaft])], int(chain.end[shaft])
+        named = join_words([paths[k] for k in trace_shafts(chain, *ends, joining & ~torn)])
         yield Problem(
             paths[shaft],
-            f"closes a loop with {join_words(partners[::-1])}, and the ratios contradict each "
-            f"other: {chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give "
-            "ratios with all digits, or leave one out",
+            f"closes a loop with {named}, and the ratios contradict each other: "
+            f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give ratios with "
+            "all digits, or leave one out",
         )
 
 

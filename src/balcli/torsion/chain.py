@@ -160,13 +160,26 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
         ratio = float(chain.ratio[shaft])
         joined.setdefault(start, []).append(Branch(end, start, shaft, -1.0, ratio))
         joined.setdefault(end, []).append(Branch(start, end, shaft, ratio, -1.0))
-    reached, branches = list(roots), []
-    for parent in reached:
+    reached, branches, outward = {*roots}, list[Branch](), list(roots)
+    for parent in outward:
         for branch in joined.get(parent, ()):
             if branch.child not in reached:
                 branches.append(branch)
-                reached.append(branch.child)
+                reached.add(branch.child)
+                outward.append(branch.child)
     return branches
+
+
+def trace_shafts(
+    chain: Chain, roots: Sequence[int], node: int, joining: NDArray[np.bool_]
+) -> list[int]:
+    """Return the shafts of some (shafts,) that lead from one of these roots to a node."""
+    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
+    way = list[int]()
+    while node in led:
+        way.append(led[node].shaft)
+        node = led[node].parent
+    return way[::-1]
 
 
 _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say

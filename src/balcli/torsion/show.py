@@ -23,7 +23,7 @@ from .response import ShaftResponse, TorsionResponse
 from .system import Excitation, TorsionalSystem
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
-_MOST_CRITICALS = 12  # shown: those that do most work
+_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
 _MOST_BARE = 8  # shafts without a diameter that are named
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
 
@@ -271,7 +271,7 @@ def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | T
             number(each.phase_sum, 4),
             f"{each.work_share:.1%}",
         )
-        for each in criticals[:_MOST_CRITICALS]
+        for each in [one for one in criticals if one.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
     )
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     if len(criticals) > len(rows):
