@@ -173,15 +173,13 @@ def analyze_mounts(
     speeds = check_speeds("analyze_mounts", speeds_rpm)
     beside = {} if others is None else others
     check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
-    engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
+    engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
     steps = np.diff([] if speeds is None else speeds)
     ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
-    return report_mounts(
-        model, engine, speeds, asked, scheme, list(engines.items()), name, ranged=ranged
-    )
+    return report_mounts(model, engine, speeds, asked, scheme, engines, name, ranged=ranged)
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:

@@ -8,7 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.records import to_document as document
 from ..engine.figures import find_first_largest
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
@@ -27,8 +26,6 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
-
-__all__ = ["document", "rows", "sheet"]
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
@@ -337,4 +334,4 @@ def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tup
                 yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
