@@ -32,11 +32,6 @@ _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor
 
 
 # ------------------------------------------------------------------ for programs
-def document(result: FieldBalance) -> Node:
-    """Return the JSON document `balcli.field/1`."""
-    return to_document(result)
-
-
 def rows(result: FieldBalance, system: System) -> Rows:
     """Return every figure of corrections and readings as CSV, in the units of the file."""
     return Rows(_HEADER, _list_lines(to_document(result), result.file.planes))
@@ -274,7 +269,7 @@ def _show_polar(
     return Grid(title, ("reading", *heads), tuple(lines), note)
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 _MOST_LABELLED = 8  # readings; more names would overlap

@@ -38,11 +38,6 @@ _SHAPES = {
 }
 
 
-def document(result: Scatter) -> Node:
-    """Return `balcli.scatter/1`."""
-    return to_document(result)
-
-
 def rows(result: Scatter, _system: System) -> Rows:
     """Return CSV: a quantity a line, in SI units."""
     sizes = {name: _list_sizes(spread) for name, spread in result.quantities.items()}
@@ -108,7 +103,7 @@ def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, s
     return [(change, f"{stem} {', '.join(each)}") for (change, stem), each in groups.items()]
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 class Distribution(StrEnum):

@@ -42,11 +42,6 @@ class Line(NamedTuple):
     unit: str
 
 
-def document(result: TorsionAnalysis) -> Node:
-    """Return `balcli.torsion/1`, SI units."""
-    return to_document(result)
-
-
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Return the same figures as CSV, one a row."""
     lines, units = _list_lines(to_document(result)), _choose_units(system)
@@ -447,4 +442,4 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
