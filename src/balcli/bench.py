@@ -24,7 +24,6 @@ import numpy as np
 
 from .core.mechanisms import power_series
 from .core.phasors import Array, Complex
-from .core.records import Node, to_document
 from .engine.build import build
 from .engine.engine import Engine
 from .engine.parse import parse
@@ -384,11 +383,6 @@ def _start(*argv: str, text: str = "") -> float:
 ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
 
 
-def document(result: Bench) -> Node:
-    """Return `balcli.bench/1`."""
-    return to_document(result)
-
-
 def rows(result: Bench, _system: System) -> Rows:
     """CSV: run times in seconds and relative errors, then ratios."""
     return Rows(
@@ -449,4 +443,4 @@ def draw_bench(result: Bench) -> bytes:
         return style.save_figure(page, "svg")
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -15,10 +15,10 @@ from collections.abc import Iterable, Iterator
 from copy import copy
 from inspect import cleandoc
 from io import StringIO
-from typing import Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperCommand, TyperGroup, TyperOption
 from typer.main import get_command
 
 from .errors import BalcliError, Exit, Loudness, note, say, set_loudness, warn
@@ -26,6 +26,9 @@ from .limits import MOST_DIGITS
 from .names import import_name
 from .show.sheet import USUAL_DIGITS, set_digits
 from .version import __version__
+
+if TYPE_CHECKING:
+    from typer._click import Command, Context, HelpFormatter, Parameter
 
 # What each does in a line; the first paragraph of its own help says the same.
 GROUPS = {
@@ -116,12 +119,10 @@ IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
 class _Command(TyperCommand):
     """A command that says so where an option of one value is given more than once."""
 
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        given: list[Any] = (
-            [] if ctx.resilient_parsing else self.make_parser(ctx).parse_args([*args])[2]
-        )
-        rest: list[str] = super().parse_args(ctx, args)
-        for option in dict.fromkeys(each for each in given if each.param_type_name == "option"):
+    def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
+        given = [] if ctx.resilient_parsing else self.make_parser(ctx).parse_args([*args])[2]
+        rest = super().parse_args(ctx, args)
+        for option in dict.fromkeys(each for each in given if isinstance(each, TyperOption)):
             if given.count(option) > 1 and not (option.multiple or option.is_flag):
                 warn(f"{option.opts[0]} is given {given.count(option)} times: the last one counts")
         return rest
@@ -130,11 +131,11 @@ class _Command(TyperCommand):
 class _OnDemand(TyperGroup):
     """The commands by name; a command's module is imported when it, or its help, is asked for."""
 
-    def __init__(self, *args: Any, **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
         self.commands: dict[str, Any] = dict.fromkeys(COMMANDS)  # names, for lists and suggestions
 
-    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+    def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
         if cmd_name not in COMMANDS:
             return None
         single = typer.Typer(
@@ -147,7 +148,7 @@ class _OnDemand(TyperGroup):
         command.params += _share(self.params, cmd_name, command.params)
         return command
 
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
+    def format_commands(self, ctx: Context, formatter: HelpFormatter) -> None:
         for title, group in GROUPS.items():
             with formatter.section(title):
                 formatter.write_dl(list(group.items()))
@@ -169,7 +170,9 @@ app = typer.Typer(
 )
 
 
-def _share(options: Iterable[Any], command: str, own: Iterable[Any]) -> Iterator[Any]:
+def _share(
+    options: Iterable[Parameter], command: str, own: Iterable[Parameter]
+) -> Iterator[Parameter]:
     """Return the options of the program that also stand after a command's name, without its own
     words: `-q` of `sweep` is its --quantity.
     """
@@ -284,10 +287,10 @@ def main() -> NoReturn:
     sys.exit(Exit.BAD_INPUT)
 
 
-def _run() -> Any:
+def _run() -> int | None:
     """Return the exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
-    status = app(prog_name="balcli", standalone_mode=False)
+    status: int | None = app(prog_name="balcli", standalone_mode=False)
     note(f"{time.process_time():.2f} s of processor time, the start of Python included")
     return status
 

@@ -288,7 +288,7 @@ def _describe_error(error: Exception) -> str:
 
 
 def _list_leaves(
-    value: Any, path: tuple[str, ...] = (), parent: Node | None = None
+    value: object, path: tuple[str, ...] = (), parent: Node | None = None
 ) -> Iterator[_Leaf]:
     if isinstance(value, dict):
         for key, part in value.items():

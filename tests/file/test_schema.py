@@ -9,13 +9,14 @@ import pytest
 from pydantic import ValidationError
 from support.commands import run_python
 
-from balcli.file.messages import import_lists, import_tables
+from balcli.file.messages import CHAPTER_LISTS, DEVICES, import_table, import_tables
 from balcli.file.model import Override, Pendulum, Ripple
 from balcli.file.schema import DIALECT, describe_engine_file
 from balcli.file.table import FileTable, document_keys
 
 DOCUMENT = describe_engine_file()
-MODELS: list[type[FileTable]] = [*import_tables().values(), *import_lists().values(), *(Override, Pendulum, Ripple)]
+LISTS = [*DEVICES.values(), *map(import_table, CHAPTER_LISTS)]
+MODELS: list[type[FileTable]] = [*import_tables().values(), *LISTS, Override, Pendulum, Ripple]
 
 
 def fields() -> list[tuple[str, str, dict[str, Any]]]:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support import high_precision
-from support.rigid_bodies import press_mounts, respond_body
+from support.rigid_bodies import apply_couplings, press_mounts, respond_body
 
 from balcli.core.peaks import find_longest, largest_of_ellipse
 from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies, modal_loss
 from balcli.mounts.rigid_body import (
     Body,
     Mounts,
-    apply_couplings,
     carry_points,
     complete_axes,
     cross_matrix,

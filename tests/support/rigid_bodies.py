@@ -8,12 +8,17 @@ import numpy as np
 
 from balcli.core.vibration import solve_response
 from balcli.mounts.rigid_body import (
-    apply_couplings,
     couple_mounts,
     damping_matrix,
     mass_matrix,
     stiffness_matrix,
 )
+
+
+def apply_couplings(couplings, motion) -> np.ndarray:
+    """Return the vectors (..., places, 3) of couplings (places, 3, 6) and a motion (..., 6)."""
+    found = motion @ couplings.reshape(-1, 6).T
+    return found.reshape(*motion.shape[:-1], -1, 3)
 
 
 class BodyResponse(NamedTuple):

@@ -9,7 +9,6 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import NoneType
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from ..analysis.answer import Analysis, analyze
 from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
+from ..core.records import Node
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine
@@ -463,7 +463,7 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
         yield "\n"
 
 
-def _list_entries(device: DeviceTable) -> dict[str, Any]:
+def _list_entries(device: DeviceTable) -> Node:
     """Return keys and values of a device as TOML has them."""
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}

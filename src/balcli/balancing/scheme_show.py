@@ -8,7 +8,7 @@ from itertools import chain
 from math import isnan, nan
 from typing import Any, NamedTuple
 
-from ..core.records import find_unit, remove_unit
+from ..core.records import Node, find_unit, remove_unit
 from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
 from ..show.units import System
 from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
@@ -34,7 +34,7 @@ class _Figure(NamedTuple):
     value: Any
 
 
-def details_document(result: Balance) -> dict[str, Any]:
+def details_document(result: Balance) -> dict[str, object]:
     """Return `details` of `balcli.balance/1`: records and figures that `to_document` writes."""
     remedy = result.remedy
     lists = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
@@ -251,7 +251,7 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     return Grid("Largest values by factor", heads, rows, note=note)
 
 
-def _optima_grid(optima: Sequence[dict[str, Any]]) -> Grid:
+def _optima_grid(optima: Sequence[Node]) -> Grid:
     heads = ("design", "criterion", "engine force", "k", "μ", "largest/J", "mean/J")
     cells = ["{design}", "{criterion}", "{engine_force}", "{k:.5f}"]
     cells += ["{mu:.6f}", "{largest:.6f}", "{mean:.6f}"]

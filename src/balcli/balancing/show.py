@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -305,7 +305,7 @@ class BalanceDocument:
     devices: Annotated[Devices, INLINE]
     reasons: tuple[str, ...]
     practical: tuple[Practical, ...]
-    details: dict[str, Any]
+    details: Node
     assumed: tuple[str, ...] | None = None
     before: PeaksAndOrders
     after: PeaksAndOrders
@@ -342,9 +342,9 @@ def columns(result: Balance) -> Columns:
     is left with them is `after`, an analysis with columns of its own.
     """
     units: dict[str, str] = {"device": ""}
-    lines: list[dict[str, Any]] = []
+    lines: list[Node] = []
     for device, practical in zip(result.remedy.devices, result.practical, strict=True):
-        line: dict[str, Any] = {"device": name_kind(device)}
+        line: Node = {"device": name_kind(device)}
         figures = list_figures(to_document(practical), ("unbalance_kg_m",))
         others = ((remove_unit(name), value, unit) for name, value, unit in figures)
         for name, value, unit in (*device_rows(device, SI), *others):
@@ -362,7 +362,7 @@ def rows(result: Balance, system: System) -> Rows:
     return Rows(header, _all_rows(result, system))
 
 
-def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
+def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
     devices = number_devices(result.remedy.devices)
     for (part, device), practical in zip(devices, result.practical, strict=True):
         for figure in device_rows(device, system):
@@ -383,15 +383,15 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[Any, ...]]:
                 yield state, "bearings", "", name, value, ""
 
 
-def _rows_of(part: str, record: Any) -> Iterator[tuple[Any, ...]]:
+def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
     for name, value in _with_paths(write_each(record)):
         yield part, "", "", name, value, ""
 
 
-def _with_paths(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+def _with_paths(value: object, path: str = "") -> Iterator[tuple[str, object]]:
     """Yield members of tables and lists by their paths: `card.1.bobweight_g`."""
     if isinstance(value, dict):
-        members: Iterable[tuple[Any, Any]] = value.items()
+        members: Iterable[tuple[object, object]] = value.items()
     elif isinstance(value, list):
         members = enumerate(value, 1)
     else:

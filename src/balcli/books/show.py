@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from ..core.records import Node, to_document
 from ..show.csv import Rows
@@ -183,7 +183,7 @@ def _fold(text: str) -> str:
     return "\n".join(fold(text, WIDTH))
 
 
-def describe_errata(errata: Errata) -> list[dict[str, Any]]:
+def describe_errata(errata: Errata) -> list[Node]:
     """Return one list, each erratum with its table's name."""
     return [{"name": table, **to_document(e)} for table, e in errata]
 
@@ -218,7 +218,7 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     return Sheet("Printed tables, recomputed", (titles, printed))
 
 
-def describe_list(tables: Sequence[Table]) -> list[dict[str, Any]]:
+def describe_list(tables: Sequence[Table]) -> list[Node]:
     """One list, an entry a table."""
     return [dict(zip(_LIST_COLUMNS, line, strict=True)) for line in _list_lines(tables)]
 

@@ -44,7 +44,7 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from inspect import cleandoc
 from types import NoneType, UnionType
-from typing import Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 Node = dict[str, Any]  # an object of JSON
 
@@ -101,7 +101,7 @@ class WrittenAs(NamedTuple):
     it; what this function returns, by its annotation, is described in the schema.
     """
 
-    make: Callable[[Any], Any]
+    make: Callable[..., object]
     key: str = ""  # in JSON; empty: the name of the attribute
 
 
@@ -129,7 +129,7 @@ class _Attribute(NamedTuple):
     inline: bool
     axes: int
     split: Polar | Reached | None
-    make: Callable[[Any], Any] | None
+    make: Callable[..., object] | None
 
 
 @cache
@@ -211,9 +211,7 @@ class Figure(NamedTuple):
     unit: str
 
 
-def list_figures(
-    document: Mapping[str, Any], without: Collection[str] = (), path: str = ""
-) -> Iterator[Figure]:
+def list_figures(document: Node, without: Collection[str] = (), path: str = "") -> Iterator[Figure]:
     """Yield one figure for every number and word of a document; lists of numbers are left out.
 
     Args:
@@ -224,17 +222,17 @@ def list_figures(
     for key, value in document.items():
         if key in without:
             continue
-        if isinstance(value, Mapping):
+        if isinstance(value, dict):
             yield from list_figures(value, (), f"{path}{key}.")
         elif isinstance(value, list):
             for k, item in enumerate(value, 1):
-                if isinstance(item, Mapping):
+                if isinstance(item, dict):
                     yield from list_figures(item, (), f"{path}{key}.{k}.")
         else:
             yield Figure(f"{path}{key}", value, find_unit(key).translate(_IN_CSV))
 
 
-def list_series(document: Mapping[str, Any], place: int) -> Iterator[Figure]:
+def list_series(document: Node, place: int) -> Iterator[Figure]:
     """Yield one figure for every list of numbers in a document.
 
     Args:
@@ -242,7 +240,7 @@ def list_series(document: Mapping[str, Any], place: int) -> Iterator[Figure]:
         place: Place in each list, from 0.
     """
     for key, value in document.items():
-        if isinstance(value, list) and value and not isinstance(value[0], (Mapping, list)):
+        if isinstance(value, list) and value and not isinstance(value[0], (dict, list)):
             yield Figure(key, value[place], find_unit(key).translate(_IN_CSV))
 
 
@@ -257,7 +255,7 @@ def remove_unit(key: str) -> str:
 
 
 # ------------------------------------------------------------------ JSON Schema
-_SIMPLE = {bool: "boolean", int: "integer", str: "string", NoneType: "null"}
+_SIMPLE: dict[object, str] = {bool: "boolean", int: "integer", str: "string", NoneType: "null"}
 _NUMBER = {"type": ["number", "null"]}
 _ATTRIBUTE = re.compile(r"^ {4}(\w+): (.*(?:\n {8}.*)*)", re.MULTILINE)
 
@@ -298,11 +296,11 @@ def _describe_class(record: type, definitions: Node) -> Node:
     }
 
 
-def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
+def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
     """Return the schema of a type within the annotation of an attribute."""
     origin, arguments = get_origin(kind), get_args(kind)
-    if hasattr(kind, "__metadata__"):
-        return _describe(kind.__origin__, each, definitions)
+    if origin is Annotated:
+        return _describe(arguments[0], each, definitions)
     if origin in (Union, UnionType):
         kinds = [one for one in arguments if not (one is NoneType and each.optional)]
         nodes = [_describe(one, each, definitions) for one in kinds]
@@ -315,7 +313,7 @@ def _describe(kind: Any, each: _Attribute, definitions: Node) -> Node:
     if each.split is not None and kind is not NoneType:
         properties = dict.fromkeys(each.split, _NUMBER)
         return {"type": "object", "properties": properties, "required": [*properties]}
-    if is_dataclass(kind) or hasattr(kind, "_fields"):
+    if isinstance(kind, type) and (is_dataclass(kind) or hasattr(kind, "_fields")):
         name = kind.__name__
         if name not in definitions:
             definitions[name] = {}  # stands there while its attributes are described

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import fields, replace
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -254,7 +254,7 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
         InputError: Keys from which no cycle can be computed.
     """
     keys = [field.name for field in fields(Process) if field.name != "strokes"]
-    given: dict[str, Any] = {key: getattr(gas, key) for key in keys}
+    given = {key: getattr(gas, key) for key in keys}
     for key in ("intake", "exhaust", "max_pressure"):
         given[key] = given[key] and given[key] * BAR
     process, goal = Process(strokes=strokes, **given), _find_goal(gas, source)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -155,8 +155,7 @@ class RodFigures(NamedTuple):
         if not (said := own.given):
             return self
         rivals = {rival for choice in Rod.choices for key in said for rival in choice.rivals(key)}
-        changes: dict[str, Any] = dict.fromkeys(rivals) | said
-        return self._replace(**changes)
+        return RodFigures(**(self._asdict() | dict.fromkeys(rivals) | said))
 
 
 _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
@@ -202,14 +201,12 @@ def rod_figures(
     def take(key: str) -> Figure | None:
         return figures.take_optional(f"{path}.{prefix}{key}", getattr(table, prefix + key))
 
-    given: dict[str, Any] = {
-        key: divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]
-    }
+    found = [divide(take(key), _SI.get(key, 1.0)) for key in RodFigures._fields[:-1]]
     pendulum = getattr(table, f"{prefix}pendulum")
     if pendulum is not None and not figures.is_displaced(f"{path}.{prefix}pendulum"):
         period = figures.take(f"{path}.{prefix}pendulum.period", pendulum.period)
-        given["pendulum"] = PendulumTest(pendulum.pivot, period)
-    return RodFigures(**given)
+        return RodFigures._make((*found, PendulumTest(pendulum.pivot, period)))
+    return RodFigures._make((*found, None))
 
 
 _ROUNDING = 1e-9  # share of the largest by which rounding may set equal values apart

@@ -13,7 +13,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 
@@ -548,7 +548,7 @@ _UNNAMED = "file of runs"  # in messages, a text or dict
 
 @tell_arguments()
 def balance_rotor(
-    runs: str | Path | Mapping[str, Any],
+    runs: str | Path | Mapping[str, object],
     minimise: Literal["squares", "max"] = "squares",
     *,
     without: str | Collection[str] = (),

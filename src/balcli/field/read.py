@@ -44,7 +44,7 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
     return check_runs(parse_toml(text, file, RUNS_FILE), file)
 
 
-def check_runs(data: Mapping[str, Any], file: str = "") -> RunsFile:
+def check_runs(data: Mapping[str, object], file: str = "") -> RunsFile:
     """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
     refuse_other_kind(data, file, RUNS)
     reader = TableReader(RUNS.name, _describe)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +22,9 @@ from .answer import FieldBalance, Permitted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from matplotlib.projections.polar import PolarAxes
+
+    from ..show.plot_style import Look
 
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
@@ -29,17 +32,12 @@ _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor
 
 
 # ------------------------------------------------------------------ for programs
-def document(result: FieldBalance) -> Node:
-    """Return the JSON document `balcli.field/1`."""
-    return to_document(result)
-
-
 def rows(result: FieldBalance, system: System) -> Rows:
     """Return every figure of corrections and readings as CSV, in the units of the file."""
     return Rows(_HEADER, _list_lines(to_document(result), result.file.planes))
 
 
-def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[Any, ...]]:
+def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, ...]]:
     for each in found["corrections"]:
         yield from _list_part("correction", each, each["plane"], found["weight_unit"])
     for part in ("before", "residual"):
@@ -57,7 +55,7 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[Any, ...
 
 def _list_part(
     part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
-) -> Iterator[tuple[Any, ...]]:
+) -> Iterator[tuple[object, ...]]:
     """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
     for name, value, known in list_figures(found, ("plane",)):
         of_file = name.rpartition(".")[2] in ("weight", "amplitude")
@@ -271,7 +269,7 @@ def _show_polar(
     return Grid(title, ("reading", *heads), tuple(lines), note)
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 _MOST_LABELLED = 8  # readings; more names would overlap
@@ -297,9 +295,9 @@ def make_field(result: FieldBalance) -> Figure:
         return fig
 
 
-def _draw_readings(ax: Any, result: FieldBalance) -> None:
+def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
     """Draw each reading from a hollow dot (in the last run) to a full one (predicted)."""
-    hollow: Any = {"color": SOFT, "markerfacecolor": PAPER}
+    hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
     ends = [*zip(result.before, result.residual, strict=True)]
     for name, (start, end) in zip(name_readings(result), ends, strict=True):
         angles, sizes = [np.angle(start or end), np.angle(end or start)], [abs(start), abs(end)]
@@ -314,10 +312,10 @@ def _draw_readings(ax: Any, result: FieldBalance) -> None:
     ax.set_ylim(0, 1.25 * (float(np.abs(ends).max()) or 1.0))
 
 
-def _draw_weights(ax: Any, result: FieldBalance) -> None:
+def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
     """Draw the weight of every plane as a ray, and the pieces of which the shop makes it."""
     drilled = result.file.drill is not None
-    marks: Any = {"marker": "x" if drilled else "s", "markerfacecolor": "none", "linestyle": ""}
+    marks: Look = {"marker": "x" if drilled else "s", "markerfacecolor": "none", "linestyle": ""}
     sizes = [0.0]
     for each, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
         name = fit_name(each.plane, 30)
@@ -327,7 +325,7 @@ def _draw_weights(ax: Any, result: FieldBalance) -> None:
             rays.append((wanted, f"{name}, wanted", ":", 1.0))
         for weight, label, style, width in rays:
             text = f"{label}: {number(abs(weight), 3)} at {angle_deg(weight):.1f} deg"
-            look: Any = {"color": colour, "linestyle": style, "linewidth": width}
+            look: Look = {"color": colour, "linestyle": style, "linewidth": width}
             angle, size = np.angle(weight), abs(weight)
             ax.plot([angle, angle], [0, size], label=text, **look)
             ax.plot([angle], [size], "o", color=colour, markersize=5)

@@ -10,14 +10,18 @@ import cmath
 import math
 import re
 from contextlib import suppress
-from typing import Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 from pydantic import Field
 
+from ..core.records import Node
 from ..file.fields import Flag, Label, Number, OneOf, shorten
 from ..file.table import FileTable, Name, Size, Speed
 from ..file.units import ANGLE, BARE_FIGURE, MASS, PLAIN, UNBALANCE, Dimension, Unit, read_unit
 from ..limits import LONGEST_FIGURE, MOST_BALANCING_PLANES, MOST_PLACES, MOST_RUNS, MOST_SENSORS
+
+if TYPE_CHECKING:
+    from ..core.phasors import Complex
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
@@ -39,7 +43,7 @@ class Grade(Number):
         match = _GRADE.fullmatch(value) if isinstance(value, str) and short else None
         return super().read(float(match[1]) if match else value)
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return super().json() | {"type": ["number", "string"], "pattern": rf"^{_GRADE.pattern}$"}
 
 
@@ -90,7 +94,7 @@ class Polar(Number):
         hint = "; decimals take a point, thousands no comma" if comma else ""
         return f'is no amplitude @ angle in degrees; write it like "{self.example}"{hint}'
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}
 
 
@@ -135,7 +139,7 @@ class PlaceAngles(Number):
             f'to {MOST_PLACES}), a list of their angles, or "{FREE}" for any angle'
         )
 
-    def json(self) -> dict[str, Any]:
+    def json(self) -> Node:
         count = {"type": "integer", "minimum": 1, "maximum": MOST_PLACES}
         angles = {"type": "array", "items": super().json(), "minItems": 1, "maxItems": MOST_PLACES}
         return {"anyOf": [count, angles, {"const": FREE}]}
@@ -147,6 +151,7 @@ def read_amount_unit(name: str) -> Unit:
 
 
 T = TypeVar("T")
+Weights = TypeVar("Weights", complex, "Complex")
 ByPlane = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)]
 BySensor = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_SENSORS)]
 Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
@@ -160,7 +165,7 @@ _PHASES = "lag: phases count against rotation, as most instruments do; lead: wit
 _ANGLES = "with: their angles go the way the rotor turns; against: the other way"
 
 
-def _key(example: object, description: str, default: Any = None) -> Any:
+def _key(example: object, description: str, default: object = None) -> Any:
     """Return the declaration of a key that may be left out."""
     return Field(default, examples=[example], description=description)
 
@@ -252,7 +257,7 @@ class RunsFile(FileTable):
         phases: Sense = "against" if self.rotation == "lag" else "with"
         return phases, self.weights or phases
 
-    def turn(self, weights: Any) -> Any:
+    def turn(self, weights: Weights) -> Weights:
         """Return weights in the sense of the readings, or back in the sense of the file."""
         phases, angles = self.senses
         return weights if phases == angles else weights.conjugate()

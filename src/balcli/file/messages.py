@@ -50,11 +50,6 @@ def import_tables() -> dict[str, type[FileTable]]:
     return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
-def import_lists() -> dict[str, type[FileTable]]:
-    """Return all tables that may stand several times in a file, with those of chapters."""
-    return DEVICES | {key: import_table(key) for key in CHAPTER_LISTS}
-
-
 def join_path(start: str, parts: Iterable[int | str]) -> str:
     """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
     count from 1. The path of the file itself is empty.

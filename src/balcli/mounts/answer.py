@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import NoneType
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,7 +20,7 @@ from ..file.plain_tables import choose_assumed, list_chapter_defaults, take_tabl
 from ..file.read import check_tables
 from ..forces.spectrum import check_orders
 from ..process import Tell, tell_nobody
-from ..shell.arguments import check_mapping, check_speeds, tell_arguments
+from ..shell.arguments import check_speeds, tell_arguments
 from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
@@ -139,7 +138,7 @@ def report_mounts(
 
 @tell_arguments(speeds="speeds_rpm")
 def analyze_mounts(
-    source: Engine | str | Path | Mapping[str, Any],
+    source: Engine | str | Path | Mapping[str, object],
     speeds_rpm: ArrayLike | None = None,
     *,
     orders: Iterable[float] | None = None,
@@ -172,16 +171,15 @@ def analyze_mounts(
         >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    beside = {} if others is None else check_mapping("analyze_mounts", others, '{"V8": engine}')
-    engines = {str(name): check_engine("analyze_mounts", one) for name, one in beside.items()}
+    beside = {} if others is None else others
+    check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
+    engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
     asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
     steps = np.diff([] if speeds is None else speeds)
     ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
-    return report_mounts(
-        model, engine, speeds, asked, scheme, list(engines.items()), name, ranged=ranged
-    )
+    return report_mounts(model, engine, speeds, asked, scheme, engines, name, ranged=ranged)
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:

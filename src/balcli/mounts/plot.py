@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from itertools import combinations
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from .show import Kind, list_kinds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure, FigureBase
 
 
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
@@ -43,10 +43,9 @@ def make_mounts(result: MountReport, system: System) -> Figure:
     response = result.response
     with open_figure(11.0, 3.2 if response is None else 8.6) as fig:
         put_title(fig, f"{fit_name(result.name or NAMELESS)}: on its mounts")
-        lower: Any = fig
+        lower: FigureBase = fig
         if response is not None:
-            halves: Any = fig.subfigures(2, 1, height_ratios=(2.1, 1))
-            upper, lower = halves
+            (upper,), (lower,) = fig.subfigures(2, 1, squeeze=False, height_ratios=(2.1, 1))
             meet = any(mode.meets for mode in result.modes)
             count = 1 + meet + bool(response.points)
             axes = iter(upper.subplots(1, count, squeeze=False)[0])

@@ -5,7 +5,7 @@ up in time, at every speed.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -322,7 +322,7 @@ def respond(
     worst = find_worst(running, omega, peak, between=bounded)
     numbers = [order_number(order) for order in orders]
 
-    kinds: list[tuple[Any, Any, Any, float]] = [
+    kinds: list[tuple[type, type, type, float]] = [
         *[(MountForce, ForceOfOrder, WorstForce, 1.0)] * len(mounts),
         *[(PointMotion, MotionOfOrder, WorstMotion, 1e-3)] * len(points),
     ]

@@ -269,12 +269,6 @@ def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
     return np.asarray(mounts.axes @ springs, complex), mounts.axes @ dashpots
 
 
-def apply_couplings(couplings: Complex | Real, motion: Complex) -> Complex:
-    """Return the vectors (..., places, 3) of couplings (places, 3, 6) and a motion (..., 6)."""
-    found = motion @ couplings.reshape(-1, 6).T
-    return found.reshape(*motion.shape[:-1], -1, 3)
-
-
 def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
     """Return values as an array; those that are rounding next to a size are 0.
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from ..core.records import to_document as document
 from ..engine.figures import find_first_largest
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
@@ -27,8 +26,6 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
-
-__all__ = ["document", "rows", "sheet"]
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
@@ -297,7 +294,7 @@ def rows(result: MountReport, system: System) -> Rows:
     return Rows(_HEADER, _list_lines(result, system))
 
 
-def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]]:
+def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, ...]]:
     force, motion = list_kinds(system)
     for k, mode in enumerate(result.modes, 1):
         head = ("mode", f"mode {k}", None, None)
@@ -323,7 +320,7 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[Any, ...]
             yield from _list_curves(response, kind, label)
 
 
-def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[Any, ...]]:
+def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:
     """Yield every mount, or point, by speed and order."""
     figure, unit = kind.figure, kind.unit
     for place in kind.places(response):
@@ -337,4 +334,4 @@ def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tup
                 yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ..balancing.answer import Balance, balance_engine
 from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
+from ..core.records import Node
 from ..engine.engine import Engine
 from ..errors import BalcliError, warn
 from ..file.fields import order_number
@@ -46,6 +47,7 @@ from .pages import PageSubject, draw_panel
 from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
+    from jinja2 import Template
     from markupsafe import Markup
 
 
@@ -53,7 +55,7 @@ _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
 ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
 
 
-def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> dict[str, Any]:
+def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
     """Return the mechanism, and what shakes in each of the engines shown, by their labels; turned
     so that up is up where the file says which way that is.
     """
@@ -81,7 +83,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> dict[
     }
 
 
-def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
+def _cylinder_entries(engine: Engine) -> list[Node]:
     """One entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod,
     offset, place; knuckle pin and master's row.
     """
@@ -109,11 +111,11 @@ def _cylinder_entries(engine: Engine) -> list[dict[str, Any]]:
     return found
 
 
-def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> dict[str, Any]:
+def _variant_entry(label: str, result: Analysis, system: System, bore: float) -> Node:
     drawn = place_beside(result.engine, bore / 1e3)
     devices = enumerate(result.engine.devices)
     turn = -(result.engine.up_deg or 0.0)
-    entry: dict[str, Any] = {"force": [], "moment": []} | {
+    entry: Node = {"force": [], "moment": []} | {
         kind.name: _vector_rows(phasors.turn(turn), system.unit(kind))
         for kind, phasors in result.spectra.vectors()
         if result.moments_known or kind is not MOMENT
@@ -154,7 +156,7 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     return found
 
 
-def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> dict[str, Any]:
+def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
     """A device for the page, turned: unbalance in g mm, places in mm; `drawn`: where it is shown
     instead of its place.
     """
@@ -314,11 +316,11 @@ def _gather_chapters(
     twisted: TorsionAnalysis | None,
     turning: Engine | None,
     system: System,
-) -> dict[str, Any]:
+) -> Node:
     """What the template takes of mounts, torsion and gas; None of a chapter that is not there."""
     from markupsafe import Markup
 
-    chapters: dict[str, Any] = {"mounts": None, "torsion": None, "running": None}
+    chapters: Node = {"mounts": None, "torsion": None, "running": None}
     if turning is not None:
         chapters |= {
             "running": running(turning, system),
@@ -363,7 +365,7 @@ def kind(part: Grid | Facts | Text) -> str:
     return type(part).__name__.lower()
 
 
-def _template() -> Any:
+def _template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
@@ -381,7 +383,7 @@ def _template() -> Any:
 _SPEEDS = 48  # of the range, that the page has
 
 
-def rocking(result: MountReport) -> dict[str, Any] | None:
+def rocking(result: MountReport) -> Node | None:
     """The block and its mounts about the centre of gravity, and its motion by speed and order: six
     cosines, then six sines (mm, rad). None where no engine runs.
     """
@@ -406,13 +408,13 @@ def rocking(result: MountReport) -> dict[str, Any] | None:
 _STEP = 2.0  # deg
 
 
-def running(engine: Engine, system: System) -> dict[str, Any]:
+def running(engine: Engine, system: System) -> Node:
     """Return curves over one cycle at even crank angles, each with its name and unit."""
     gas, curves = take_gas(engine), find_torque_curves(replace(engine, ripple=()))
     at = np.radians(np.arange(0.0, gas.cycle_deg + _STEP / 2, _STEP))
     total = curves.total.at(at)
     unit = system.moment.fit(float(np.abs(total).max()))
-    shown: list[dict[str, Any]] = [
+    shown: list[Node] = [
         {
             "id": "torque",
             "unit": unit.name,

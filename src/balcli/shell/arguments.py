@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import wraps
 from inspect import signature
 from itertools import islice
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -77,22 +77,6 @@ def join_names(function: str, words: Words | None) -> str | None:
         if all(isinstance(word, str) for word in listed):
             return ",".join(listed)
     raise wrong_type(function, words, 'give names, such as ["force.2.major", "moment.1.backward"]')
-
-
-def check_mapping(function: str, value: object, example: str) -> Mapping[Any, Any]:
-    """Return an argument that must be a dict.
-
-    Args:
-        function: Name of the public function, for messages.
-        value: Value to check.
-        example: A right value, as it is typed.
-
-    Raises:
-        TypeError: It is no dict.
-    """
-    if not isinstance(value, Mapping):
-        raise wrong_type(function, value, f"give a dict, such as {example}")
-    return value
 
 
 def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:

@@ -38,7 +38,7 @@ class Rows(NamedTuple):
     """CSV of a result: names of the columns, and lines of as many cells."""
 
     header: Sequence[str]
-    lines: Iterable[Sequence[Any]]
+    lines: Iterable[Sequence[object]]
 
 
 def csv_text(results: Sequence[Rows]) -> str:
@@ -69,7 +69,7 @@ def json_text(document: object) -> str:
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 
 
-def stamp(document: Any) -> Any:
+def stamp(document: object) -> Any:
     """Return a result with the version that wrote it, after its format; anything else as it is."""
     if not isinstance(document, dict) or "format" not in document:
         return document

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Any, Generic, TypeVar, assert_never
+from typing import TYPE_CHECKING, Generic, TypeVar, assert_never
 
 from ..core.records import Node, to_document
 from .csv import csv_text, json_text
@@ -36,7 +36,7 @@ class Units(StrEnum):
 Shown = TypeVar("Shown")
 
 
-def write_named(one: NamedResult[Any]) -> Node:
+def write_named(one: NamedResult[Shown]) -> Node:
     """Return the JSON document of a result, which has the engine's own name."""
     return to_document(one.result)
 

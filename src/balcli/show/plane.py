@@ -7,7 +7,7 @@ the file says which way is up, that is up in the pictures.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -154,7 +154,7 @@ def draw_loci(
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
 
 
-def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: Any) -> None:
+def _draw_arrow(ax: Axes, start: complex, tip: complex, **look: object) -> None:
     """Draw an arrow between two places of the plane."""
     ends = (tip.imag, tip.real), (start.imag, start.real)
     ax.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "shrinkA": 0, "shrinkB": 0, **look})

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -83,7 +83,7 @@ class Result:
         write_parquet(self, path)
 
 
-def find_renderer(result: Result) -> Columnar[Any]:
+def find_renderer(result: Result) -> Columnar[Result]:
     """Return what shows an answer."""
     return import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from ..core.extrema import find_least
 from ..core.loads import share_by_lever
 from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
+from ..core.records import Node
 from ..engine.engine import Engine
 from ..engine.rods import CylinderMasses
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
@@ -350,9 +351,9 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     return tuple(sorted(set(read_planes(engine, options))))
 
 
-def _describe(engine: Engine, options: SchemeOptions, factor: float) -> dict[str, Any]:
+def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
     """Return the factor by both definitions, and what was measured."""
-    details: dict[str, Any] = {
+    details: Node = {
         "factor": factor,
         "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
         "definition": DEFINITION,

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from ..core import least_squares
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import EPS, Array, unit
+from ..core.records import Node
 from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import BalcliError
@@ -96,7 +97,7 @@ class Slot(NamedTuple):
         """
         on_crank = self.kind == "counterweight"
         angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
-        values: dict[str, Any] = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
+        values: Node = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
         x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
         if on_crank:
             return Counterweight.model_construct(**values)
@@ -306,7 +307,7 @@ class Fitting(NamedTuple):
             details["roll_with_gas_before_Nm"] = _size_total_roll(self.engine, order)
         return self.add_details(group, **details)
 
-    def add_details(self, group: str = "", /, **figures: Any) -> Fitting:
+    def add_details(self, group: str = "", /, **figures: object) -> Fitting:
         """Return the fitting with further details in the remedy: `Remedy.add_details`."""
         return self._replace(remedy=self.remedy.add_details(group, **figures))
 

@@ -143,7 +143,7 @@ def check_small(share: float) -> float:
     return share
 
 
-def _are(values: Any, kind: type, finite: bool) -> bool:
+def _are(values: object, kind: type, finite: bool) -> bool:
     """Return whether they are numbers of a kind, one at least, none with hundreds of digits."""
     if not isinstance(values, tuple) or not values:
         return False

@@ -79,7 +79,7 @@ class Remedy(NamedTuple):
             devices=tuple(device for device, _ in pairs), reasons=tuple(why for _, why in pairs)
         )
 
-    def add_details(self, group: str = "", /, **figures: Any) -> Remedy:
+    def add_details(self, group: str = "", /, **figures: object) -> Remedy:
         """Return the remedy with further details.
 
         Args:

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ..core.phasors import wrap_degrees
+from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
@@ -152,7 +153,7 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
 
 def _plan_holes(
     engine: Engine, device: DeviceTable, unbalance: float, rim: float, tools: Tools
-) -> dict[str, Any]:
+) -> Node:
     """Return as few holes as the depth allows.
 
     Raises:

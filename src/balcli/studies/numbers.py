@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from ..core.records import to_document
 from ..shell.file_names import text_format
 from ..shell.inputs import read_engine
 from ..shell.options import EnginePath, FormatOption, Output
@@ -57,11 +56,6 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
             yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
 
 
-def document(result: NamedNumbers) -> dict[str, Any]:
-    """Return `balcli.numbers/1`."""
-    return to_document(result)
-
-
 def rows(result: NamedNumbers, _system: System) -> Rows:
     """CSV: a name a line; quantities have no value."""
     return Rows(
@@ -73,7 +67,7 @@ def rows(result: NamedNumbers, _system: System) -> Rows:
     )
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:

@@ -10,10 +10,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any, get_args
+from typing import get_args
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
@@ -126,7 +126,7 @@ def _number_of(table: type[FileTable], key: str) -> Number | None:
     return next((mark for mark in marks if isinstance(mark, Number)), None)
 
 
-def _marks_of(annotation: Any) -> Iterator[object]:
+def _marks_of(annotation: object) -> Iterator[object]:
     """What an annotation is made of, but not the fields of inner tables."""
     for part in get_args(annotation):
         if isinstance(part, type) and issubclass(part, FileTable):
@@ -163,7 +163,7 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
     return Parameter(path, values, known[path].dimension.unit)
 
 
-def choose_values(path: str, values: Any, model: EngineFile) -> Parameter:
+def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
     """A number of the file by its name, and its values: numbers in the unit of the file, or texts
     with units; one, or a list or array of them; or a text as of `parse_parameter`, such as
     "0.24:0.32:0.01".
@@ -208,13 +208,13 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
     return name
 
 
-def _as_list(path: str, values: Any) -> list[Any]:
+def _as_list(path: str, values: object) -> list[object]:
     if isinstance(values, (list, tuple)):
         return list(values)
     raise wrong_type(path, values, "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01")
 
 
-def _read_one(path: str, value: Any, number: Number) -> float:
+def _read_one(path: str, value: object, number: Number) -> float:
     try:
         return number.read(value)
     except ValueError as error:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..core.records import to_document
+from ..core.records import Node, to_document
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..shell.file_names import text_format
@@ -24,7 +24,7 @@ from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
     from ..show.units import System
-    from .scatter import Scatter
+    from .scatter import Scatter, Spread
 
 
 SHOWN = 6  # sources of each quantity in a table
@@ -38,37 +38,35 @@ _SHAPES = {
 }
 
 
-def document(result: Scatter) -> dict[str, Any]:
-    """Return `balcli.scatter/1`."""
-    return to_document(result)
-
-
 def rows(result: Scatter, _system: System) -> Rows:
     """Return CSV: a quantity a line, in SI units."""
-    lines: list[dict[str, Any]] = [
-        {"quantity": name, **to_document(spread), "unit": result.units[name] or None}
-        for name, spread in result.quantities.items()
-    ]
-    header = [key for key in lines[0] if key != "sensitivity"]
-    return Rows(header, [[line[key] for key in header] for line in lines])
+    sizes = {name: _list_sizes(spread) for name, spread in result.quantities.items()}
+    header = ("quantity", *next(iter(sizes.values())), "unit")
+    lines = [(name, *each.values(), result.units[name] or None) for name, each in sizes.items()]
+    return Rows(header, lines)
+
+
+def _list_sizes(spread: Spread) -> Node:
+    """Return the figures of a spread without the changes that single tolerances make."""
+    return {key: size for key, size in to_document(spread).items() if key != "sensitivity"}
 
 
 def sheet(result: Scatter, system: System) -> Sheet:
     """Return percentiles and the tolerances that matter most, each quantity in the unit that fits
     it.
     """
-    table, lines, causes = rows(result, system), [], []
-    for (name, spread), line in zip(result.quantities.items(), table.lines, strict=True):
+    lines, causes = [], []
+    for name, spread in result.quantities.items():
         unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
         head = name_with_unit(name, unit.name)
-        lines.append((head, *(number(value / unit.size) for value in line[1:-1])))
+        lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
         parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "nothing")]
         causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
     speeds = tell_speeds(result.quantities, result.model.operation.speed)
     notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", speeds)
     spread_of_all = Grid(
         f"Spread of {count_name(result.samples)} random {result.varied}",
-        tuple(table.header[:-1]),
+        tuple(rows(result, system).header[:-1]),
         tuple(lines),
         note=" ".join(filter(None, notes)),
     )
@@ -105,7 +103,7 @@ def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, s
     return [(change, f"{stem} {', '.join(each)}") for (change, stem), each in groups.items()]
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 class Distribution(StrEnum):

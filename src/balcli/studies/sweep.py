@@ -16,16 +16,17 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice, tee
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
 from ..engine.engine import Engine, check_engine, take_model
 from ..engine.load import concerns_gas
 from ..engine.numbering import doubt_firing
 from ..engine.parse import read
-from ..errors import BalcliError, InputError, naming_file
+from ..errors import BalcliError, InputError, check_type, naming_file
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
@@ -34,23 +35,32 @@ from ..forces.quantity import Quantity, find_orders, leave_out_unknown, refuse_u
 from ..forces.spectrum import count_engine_samples
 from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS, MOST_THREADS
 from ..process import count_cores
-from ..shell.arguments import Words, check_count, check_mapping, join_names, tell_arguments
+from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..show.result import Result
 from ..show.sheet import count_name
 from .evaluator import Evaluator
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
 from .quantities import AnyQuantity, list_assumed, parse_quantities, refuse_unknown_of_chapters
 
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 Box: TypeAlias = tuple[slice, ...]
-# Yields the outcome of some work for each item, in their order.
-Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 65_536  # variants at a time, at most: enough for what they share
 BYTES = 1 << 24  # of an array that a box needs: no more than the cache holds
 _BOXES = 8  # in a block, each with a tenth of a second's work
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
+
+
+class Share(Protocol):
+    """Yields the outcome of some work for each item, in their order."""
+
+    def __call__(
+        self, work: Callable[[Item], Outcome], items: Iterable[Item], /
+    ) -> Iterator[Outcome]: ...
 
 
 class Chunk(NamedTuple):
@@ -297,7 +307,10 @@ def share_among_threads(
 
 
 def run_in_order(
-    submit: Callable[..., Any], work: Callable[[Item], Outcome], items: Iterable[Item], ahead: int
+    submit: Callable[..., Future[Outcome]],
+    work: Callable[[Item], Outcome],
+    items: Iterable[Item],
+    ahead: int,
 ) -> Iterator[Outcome]:
     """Yield the results of work that `submit` makes futures of; `ahead` of them at a time."""
     to_do = iter(items)
@@ -399,7 +412,7 @@ def compute_sweep(sweep: Sweep, threads: int) -> Swept:
 @tell_arguments(quantity="quantities", jobs="threads")
 def sweep(
     engine: Engine,
-    vary: Mapping[str, Any],
+    vary: Mapping[str, ArrayLike],
     quantities: Words | None = None,
     threads: int | None = None,
 ) -> Swept:
@@ -433,10 +446,8 @@ def sweep(
     """
     model = take_model(check_engine("sweep", engine))
     example = '{"rod.ratio": [0.24, 0.28, 0.32]}'
-    parameters = tuple(
-        choose_values(str(path), values, model)
-        for path, values in check_mapping("sweep", vary, example).items()
-    )
+    check_type("sweep", vary, Mapping, f"give a dict, such as {example}")
+    parameters = tuple(choose_values(str(path), values, model) for path, values in vary.items())
     if not parameters:
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
     wanted = min(count_cores(), MOST_THREADS) if threads is None else threads

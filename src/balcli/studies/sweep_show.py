@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import cycle, product
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     from matplotlib.figure import Figure
 
     from .parameters import Parameter
@@ -200,7 +201,11 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
 
 
 def _draw_curves(
-    axes: Any, parameter: Parameter, sweep: Sweep, values: Sequence[Array], name: str
+    axes: matplotlib.axes.Axes,
+    parameter: Parameter,
+    sweep: Sweep,
+    values: Sequence[Array],
+    name: str,
 ) -> None:
     """Draw the quantities of one unit, all in the one that fits the largest of them."""
     shown = [

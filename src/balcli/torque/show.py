@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
-from ..core.records import find_unit, list_figures, remove_unit, to_document
+from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
@@ -43,9 +42,7 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
     return Rows(header, _list_rows(result, to_document(result), system))
 
 
-def _list_rows(
-    result: TorqueAnalysis, found: dict[str, Any], system: System
-) -> Iterator[FigureRow]:
+def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[FigureRow]:
     # Torque by order of an engine is that of inertia here, as in `analyze`.
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
     places = [(0, found["orders"])]
@@ -72,7 +69,7 @@ def _list_rows(
                     yield from order_rows(name, row["order"], entry[key], system.moment, cylinder)
 
 
-def _write(quantity: str, part: Mapping[str, Any], system: System) -> Iterator[FigureRow]:
+def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
     """Yield a line for every figure: pins by their cylinder, bearings by their number in place of
     an order.
     """

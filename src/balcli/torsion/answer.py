@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -344,7 +344,7 @@ _UNNAMED = "chain file"  # in messages, a text or dict
 
 @tell_arguments(speeds="speeds_rpm")
 def analyze_torsion(
-    source: Engine | str | Path | Mapping[str, Any],
+    source: Engine | str | Path | Mapping[str, object],
     speeds_rpm: ArrayLike | None = None,
     *,
     orders: Iterable[float] | None = None,
@@ -392,7 +392,7 @@ def analyze_torsion(
     return answer_question(_read_source(source, asked), question)
 
 
-def _read_source(source: Any, orders: Array | None) -> Source:
+def _read_source(source: object, orders: Array | None) -> Source:
     if isinstance(source, Engine):
         return make_source(take_model(source), source, source.name, orders)
     wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"

@@ -21,7 +21,7 @@ from pydantic import ValidationError
 
 from ..core.extrema import ROUNDS, find_least
 from ..core.phases import RPM
-from ..core.records import HIDDEN
+from ..core.records import HIDDEN, Node
 from ..core.vibration import Real
 from ..errors import BalcliError
 from ..file.edit import set_keys
@@ -313,7 +313,7 @@ def _propose(
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
     inertia = asked.inertia or usual or float(f"{_SHARE[asked.kind] * there:.4g}")
-    figures: dict[str, Any] = {"kind": asked.kind, "inertia": float(f"{inertia * 1e6:.12g}")}
+    figures: dict[str, object] = {"kind": asked.kind, "inertia": float(f"{inertia * 1e6:.12g}")}
     if asked.kind == "viscous":
         figures["damping"] = best_viscous_damping(inertia, inertia / there, mode.omega)
     elif asked.kind == "rubber":
@@ -390,7 +390,7 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
     return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")
 
 
-def _find_table(data: Mapping[str, Any], name: str) -> str:
+def _find_table(data: Node, name: str) -> str:
     """Return the dotted name of the table of a node or part, such as `torsion.rear.2`."""
     torsion = data.get("torsion", {})
     lists = {

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from ..core.vibration import Real
 from ..engine.engine import Engine
@@ -129,7 +128,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         BalcliError: it cannot be read; all its mistakes.
     """
     name, text = name_file(path), read_bytes(path)
-    data: Mapping[str, Any] = parse_toml(text, name)
+    data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
         if misfires:
             raise BalcliError("--misfire: a chain has no cylinders")

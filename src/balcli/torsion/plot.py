@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -85,7 +85,7 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     chain, names = result.system.chain, result.system.nodes
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
-            style: Any = (0, (1, 2)) if np.isinf(stiffness) else line
+            style = (0, (1, 2)) if np.isinf(stiffness) else line
             angles = mode.shape[[start, end]]
             ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
         label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"

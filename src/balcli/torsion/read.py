@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from ..errors import Problem
 from ..file.fields import printable, shorten, suggest_nearest
@@ -19,12 +18,12 @@ KEYS = ("node", "shaft", "gear", "excitation")
 _ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",)}
 
 
-def describes_chain(data: Mapping[str, Any]) -> bool:
+def describes_chain(data: Mapping[str, object]) -> bool:
     """Whether tables of a file are those of a chain, not of an engine."""
     return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
 
 
-def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
+def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
     """The chain that the tables of a file describe; `file` is its name in messages.
 
     Raises:
@@ -43,7 +42,7 @@ def read_chain_tables(data: Mapping[str, Any], file: str = "") -> ChainFile:
     return model.model_copy(update=lists)
 
 
-def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
+def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
     """What the tables say against each other, as far as they can be read."""
     nodes = _tables(data, "node")
     if "node" not in data:
@@ -68,7 +67,7 @@ def _find_misfits(data: Mapping[str, Any]) -> Iterator[Problem]:
 
 
 def _check_ends(
-    path: str, table: Mapping[str, Any], ends: Sequence[str], known: Sequence[str]
+    path: str, table: Mapping[str, object], ends: Sequence[str], known: Sequence[str]
 ) -> Iterator[Problem]:
     named = [table.get(end) for end in ends]
     for end, name in zip(ends, named, strict=True):
@@ -84,7 +83,7 @@ def _refuse_node(name: str, known: Sequence[str]) -> str:
     return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
 
 
-def _tables(data: Mapping[str, Any], key: str) -> list[tuple[int, Mapping[str, Any]]]:
+def _tables(data: Mapping[str, object], key: str) -> list[tuple[int, Mapping[str, object]]]:
     """The tables of a list with their numbers, those that are tables."""
     value = data.get(key)
     items = enumerate(value, 1) if isinstance(value, list) else ()

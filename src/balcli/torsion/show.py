@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,19 +26,26 @@ _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
 _MOST_BARE = 8  # shafts without a diameter that are named
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
-_HEADER = ("part", "number", "speed_rpm", "order", "name", "figure", "value", "unit")
 
 
 # ------------------------------------------------------------------ for programs
-def document(result: TorsionAnalysis) -> Node:
-    """Return `balcli.torsion/1`, SI units."""
-    return to_document(result)
+class Line(NamedTuple):
+    """A line of the CSV of a torsional system; None is an empty cell."""
+
+    part: str
+    number: int | None
+    speed_rpm: float | None
+    order: float | None
+    name: str
+    figure: str
+    value: float | bool | str | None
+    unit: str
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Return the same figures as CSV, one a row."""
     lines, units = _list_lines(to_document(result)), _choose_units(system)
-    return Rows(_HEADER, lines if system == SI else (_convert(line, units) for line in lines))
+    return Rows(Line._fields, lines if system == SI else (_convert(line, units) for line in lines))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
@@ -55,12 +62,12 @@ def _choose_units(system: System) -> dict[str, ShownUnit]:
     }
 
 
-def _convert(line: tuple[Any, ...], units: dict[str, ShownUnit]) -> tuple[Any, ...]:
+def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
     """Return a row in the units of people who do not read SI."""
-    *where, value, name = line
-    if name not in units or value is None:
+    if line.unit not in units or not isinstance(line.value, (int, float)):
         return line
-    return (*where, units[name].of(value) + 0.0, units[name].name)
+    unit = units[line.unit]
+    return line._replace(value=unit.of(line.value) + 0.0, unit=unit.name)
 
 
 def _put(
@@ -71,14 +78,14 @@ def _put(
     number: int | None = None,
     speed: float | None = None,
     order: float | None = None,
-) -> Iterator[tuple[Any, ...]]:
+) -> Iterator[Line]:
     """Yield lines of CSV: what stands before figures, and these."""
     for each in figures:
         called = remove_unit(each.name)
-        yield part, number, speed, order, name_cell(name), called, each.value, each.unit
+        yield Line(part, number, speed, order, name_cell(name), called, each.value, each.unit)
 
 
-def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
+def _list_lines(found: Node) -> Iterator[Line]:
     """Yield the lines of CSV in their order."""
     for key in ("no_gas_in", "no_burning_in"):
         if key in found:
@@ -97,7 +104,7 @@ def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
     yield from _list_extras(found)
 
 
-def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
+def _list_extras(found: Node) -> Iterator[Line]:
     """Yield the lines of what was asked besides modes and criticals."""
     for k, table in enumerate(found.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
@@ -115,7 +122,7 @@ def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
         yield from _put("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
 
 
-def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
+def _list_response(response: Node) -> Iterator[Line]:
     """Yield the lines at every speed."""
     for s, speed in enumerate(response["speeds_rpm"]):
         for shaft in response["shafts"]:
@@ -129,7 +136,7 @@ def _list_response(response: Node) -> Iterator[tuple[Any, ...]]:
             yield from _put("response", [swing], each["node"], speed=speed)
 
 
-def _list_worst(response: Node) -> Iterator[tuple[Any, ...]]:
+def _list_worst(response: Node) -> Iterator[Line]:
     """Yield the lines of the largest values over all speeds."""
     for shaft in response["shafts"]:
         worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
@@ -378,7 +385,7 @@ def _show_response(
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
 
 
-def _name_span(ends: Sequence[float] | np.ndarray[Any, Any]) -> str:
+def _name_span(ends: Sequence[float] | Real) -> str:
     low, high = number(float(ends[0])), number(float(ends[-1]))
     return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
 
@@ -435,4 +442,4 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -26,7 +26,7 @@ from ...file.plain_tables import change_tables
 from ...forces.quantity import refuse_unknown
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
-from ...shell.arguments import Words, check_count, check_mapping, join_names, tell_arguments
+from ...shell.arguments import Words, check_count, join_names, tell_arguments
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
@@ -379,8 +379,8 @@ def search(
     if not isinstance(over, (str, list, tuple)):
         raise wrong_type("search", over, 'give what to arrange, such as "throws"')
     texts = (join_names("search", over) or "").split(",")
-    given = {} if limits is None else limits
-    bounds = check_mapping("search", given, '{"moment.2.major": 100}')
+    bounds = {} if limits is None else limits
+    check_type("search", bounds, Mapping, 'give a dict, such as {"moment.2.major": 100}')
     check_type("even_firing", even_firing, bool, "give True or False")
     kept = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
     objective = parse_objective(

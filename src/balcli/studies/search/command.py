@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -17,7 +17,7 @@ from ...shell.options import EnginePath, FormatOption, Output
 from ...shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
 from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stopped
 from ...shell.values import optional
-from ...show.csv import Columns, Rows
+from ...show.csv import Column, Columns, Rows
 from ...show.formats import Renderer
 from ...show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
 from ...show.units import name_with_unit, unit_of_name
@@ -35,7 +35,7 @@ _EQUAL = 1e-9  # relative difference of objectives that are equal
 def columns(result: Search) -> Columns:
     """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
     first = result.results[0]
-    found: dict[str, Any] = {}
+    found: dict[str, Column] = {}
     for key, value in first.design.items():
         settings = [one.design[key] for one in result.results]
         found[key] = list(map(_exactly, settings)) if isinstance(value, list) else settings
@@ -124,12 +124,12 @@ def _is_sum(result: Search) -> bool:
     return weights != [1.0]
 
 
-def _setting(value: Any) -> str:
+def _setting(value: float | list[float]) -> str:
     """A number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
 
 
-def _exactly(value: float | list[float] | list[int]) -> str:
+def _exactly(value: float | list[float]) -> str:
     """The setting of one key in full precision."""
     numbers = value if isinstance(value, list) else [value]
     return "-".join(repr(number).removesuffix(".0") for number in numbers)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.phases import TURN
-from ...core.phasors import Array
+from ...core.phasors import Array, Figure
 from ...core.records import HIDDEN, INLINE
 from ...engine.build import build
 from ...engine.engine import Engine
@@ -68,7 +68,7 @@ class Found:
     line: Annotated[Design | None, HIDDEN] = None
 
 
-def list_changes(design: Design) -> dict[str, Any]:
+def list_changes(design: Design) -> dict[str, object]:
     """Return a design by dotted keys, as `Engine.vary` takes them."""
     changed = {PATHS.get(key, key): value for key, value in design.items()}
     return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
@@ -194,11 +194,11 @@ class Objective:
         """Whether all quantities are orders of inertia forces, which throws contribute to."""
         return all(isinstance(q, Quantity) and q.kind not in GAS_KINDS for q in self.quantities)
 
-    def add_up(self, value: Callable[[AnyQuantity], Any]) -> Any:
+    def add_up(self, value: Callable[[AnyQuantity], Figure]) -> Figure:
         """Return the weighted sum; `value` gives each quantity."""
         return sum(weight * value(q) for q, weight in self.weights.items())
 
-    def judge(self, values: Mapping[Any, Array]) -> Merit:
+    def judge(self, values: Mapping[AnyQuantity, Array]) -> Merit:
         """Return the merits of candidates by their quantities, shape (candidates,) each."""
         total = np.asarray(self.add_up(values.__getitem__), float)
         excess = np.zeros_like(total)
