@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.engine import Engine
-from ..forces.kinds import GAS, ROLL
+from ..forces.kinds import COUPLE, GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from ..shell.output import show
 from ..show.csv import Rows, name_cell
@@ -121,8 +121,9 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
             wanted.append("guide")
     else:
         wanted = list(asked.quantities)
-        if "verdict" in asked.parts and engine.gas is not None and for_people:
-            wanted += [ROLL.name, GAS.name]  # which order rocks the engine
+        if "verdict" in asked.parts and for_people:
+            wanted.append(COUPLE.name)
+            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # what rocks the engine
     return partial(
         analyze,
         only=wanted,

@@ -37,7 +37,7 @@ from ..show.sheet import (
 )
 from ..sizing.ladder import Ladder
 from .answer import UNASKED, Analysis, analyze
-from .devices_show import ladder_grid
+from .devices_show import ladder_grid, list_ladder
 
 if TYPE_CHECKING:
     from ..forces.crankshaft import AlongCrank, InnerLoads
@@ -338,7 +338,18 @@ def rows(result: Comparison, system: System) -> Rows:
         system: System of units.
     """
     header = ("quantity", "order", "unit", *map(name_cell, result.engines))
-    return Rows(header, [_csv_line(line, system) for line in result.figures])
+    lines = [_csv_line(line, system) for line in result.figures]
+    return Rows(header, [*lines, *_list_ladders(result)])
+
+
+def _list_ladders(result: Comparison) -> Iterator[tuple[object, ...]]:
+    """Yield a line for every figure of a step, SI: empty for an engine without this step."""
+    found: dict[tuple[str, str], dict[int, object]] = {}
+    for k, ladder in enumerate(result.ladders or ()):
+        for step, name, value, unit in list_ladder(ladder):
+            found.setdefault((f"{step}: {name}", unit), {})[k] = value
+    for (name, unit), values in found.items():
+        yield name, None, unit, *map(values.get, range(len(result.engines)))
 
 
 def _csv_line(line: Line, system: System) -> tuple[object, ...]:

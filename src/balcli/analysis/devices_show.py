@@ -21,7 +21,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from ..sizing.ladder import SHAFT, Ladder, LeftOut, Scale
+from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut, Scale
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import KEYS, find_value
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 
 _ROUNDING = 1e-12  # of what one cylinder makes
+_HARDLY = 0.05  # % of one cylinder, which would be printed as 0.0
 ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
@@ -110,7 +111,8 @@ def ladder_grid(
         notes.append(_tell_later(scale, system))
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
     rows = tuple(zip(*(cells for _, cells in columns), strict=True))
-    return Grid(f"What balances it, step by step ({at})", heads, rows, " ".join(notes))
+    told = " ".join(filter(None, notes))
+    return Grid(f"What balances it, step by step ({at})", heads, rows, told)
 
 
 def _tell_later(scale: Scale, system: System) -> str:
@@ -119,15 +121,20 @@ def _tell_later(scale: Scale, system: System) -> str:
     sizes = [size_text(force, system.unit(FORCE))]
     sizes += [] if moment is None else [size_text(moment, system.unit(MOMENT))]
     of_one = f"one cylinder's first order ({', '.join(sizes)})"
-    return f"Later steps take less than {100 * WORTH_A_SHAFT:.0f} % of {of_one}."
+    return f"No part of a later step reaches {100 * WORTH_A_SHAFT:.0f} % of {of_one}."
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
-    """Return a sentence on a step that is left out, with the larger of what it would take."""
+    """Return a sentence on a step that is left out, with the larger of what it would take; none
+    where that is hardly anything.
+    """
     size = abs(ladder.measure(out))
+    if size < _HARDLY:
+        return ""
     digits = f"{size:.1f}" if round(size, 1) < 100 * ladder.small else f"{size:.3g}"
     share = "" if math.isnan(size) else f" ({digits} % of one cylinder's first order)"
     what = f"a {out.step}" if out.step == SHAFT else out.step
+    what = f"in one sense of rotation, {what}" if out.step == SHAFTS else what
     if (fall := out.main_bearing_N) is not None:
         does = "lower" if fall >= 0 else "raise"
         change = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))

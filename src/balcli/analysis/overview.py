@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ..core.cylinders import Device
+from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
@@ -33,7 +33,7 @@ from ..show.sheet import (
     small_text,
 )
 from ..show.units import ShownUnit, System
-from ..sizing.residual import Scales
+from ..sizing.residual import Scales, is_small
 from .order_tables import fit_largest, peak_facts
 
 if TYPE_CHECKING:
@@ -198,8 +198,8 @@ class _Vector(NamedTuple):
 
     def find_large(self, k: int, small: float) -> list[int]:
         """Return the senses in which something turns that is not small."""
-        sizes = {sense: self.part(k, sense) for sense in (1, -1)}
-        return [sense for sense, size in sizes.items() if size and size >= small * self.scale]
+        least = small * self.scale
+        return [sense for sense in (1, -1) if not is_small(self.part(k, sense), least)]
 
     def tell_size(self, k: int, sense: int = 0) -> str:
         """Return the largest value of an order, or of its part in one sense."""
@@ -296,7 +296,7 @@ class _Order(NamedTuple):
         everything = f"the {everything}" if self.couple and one else "it" if one else "both"
         if len(self.cures) == 1:
             ((sense, device),) = self.cures.items()
-            cancel = "cancel" if device == _WEIGHTS else "cancels"
+            cancel = "cancel" if device.endswith(_WEIGHTS) else "cancels"
             if not any(vector.part(self.k, -sense) for vector in self.large):
                 return f"{device} {cancel} {everything}"
             what = (
@@ -304,7 +304,8 @@ class _Order(NamedTuple):
             )
             return f"{device} {cancel} {what}"
         if self.order == 2:
-            return f"shafts at +2 and -2 cancel {everything}"
+            further = "further " * any("further" in device for device in self.cures.values())
+            return f"{further}shafts at +2 and -2 cancel {everything}"
         if one and sizes:
             ahead, against = (one.tell_size(self.k, sense) for sense in (1, -1))
             return f"{self.cures[1]} cancel {ahead} of it, {self.cures[-1]} the other {against}"
@@ -379,7 +380,7 @@ def verdict(
 def _list_cures(
     order: int, due: Collection[int], devices: Sequence[Device]
 ) -> Iterator[tuple[int, str]]:
-    """Yield what would cancel an order, by sense of rotation, as far as the file has none.
+    """Yield what would cancel an order, by sense of rotation; further ones where the file has some.
 
     Args:
         order: Order.
@@ -387,13 +388,15 @@ def _list_cures(
         devices: Devices of the file.
     """
     for sense in (1, -1):
-        fitted = any(
+        further = any(
             np.any(device.forward if sense > 0 else device.backward)
             for device in devices
-            if device.order == order
+            if device.order == order and device.kind in (DeviceKind.COUNTERWEIGHT, DeviceKind.SHAFT)
         )
-        if sense in due and not fitted:
-            yield sense, _WEIGHTS if order * sense == 1 else f"a shaft at {order * sense:+d}"
+        if sense in due and order * sense == 1:
+            yield sense, f"{'further ' * further}{_WEIGHTS}"
+        elif sense in due:
+            yield sense, f"a {'further ' * further}shaft at {order * sense:+d}"
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:

@@ -49,6 +49,7 @@ from .comparison import (
     list_lines,
     show_sizes,
 )
+from .devices_show import ladder_grid
 from .records import Includes, name_included
 from .sections import define_guide_moments
 
@@ -313,6 +314,9 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
     for kind in kinds:
         own = [line for line in series.lines if line.kind == kind]
         yield _kind_part(kind, own, speeds, system, whole=view.whole or view.every_order)
+    for each in series.analyses:
+        if each.ladder is not None:
+            yield ladder_grid(each.ladder, each.engine, system)
     if first.why is not None:
         yield from sections.lay_out_symmetry(first.why)
 

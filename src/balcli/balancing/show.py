@@ -27,6 +27,7 @@ from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import find_crank_loads
 from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
+from ..limits import SMALL
 from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows
 from ..show.formats import Renderer
@@ -50,6 +51,8 @@ from ..show.sheet import (
 from ..show.units import SI, ShownUnit, System
 from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
 from ..sizing.planes import find_unbalance, name_kind
+from ..sizing.residual import is_small
+from ..sizing.schemes import FIT
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
 from .scheme_show import (
@@ -73,8 +76,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
-        other = bool(remedy.step) and remedy.scheme != "auto"
-        parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=not other))
+        usual = remedy.scheme not in ("step", FIT)
+        parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
@@ -150,6 +153,10 @@ def _tell_negligible(result: Balance) -> str:
     remedy, before = result.remedy, result.before
     if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
         return ""
+    loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
+    main = [each.main_N or 0.0 for each in loads if each is not None]
+    if main and not is_small(main[0] - main[-1], SMALL * before.scales.force):
+        return ""  # the bearings are worth it
     small = not result.every_order  # an order that was not asked for is not shown if it is small
     if remedy.order in (orders := before.orders.tolist()):
         k, one = orders.index(remedy.order), before.of_one_cylinder

@@ -50,7 +50,8 @@ def engine_facts(
     if not engine.places_known:
         reference = "moments are not known: crank.spacing is missing"
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
-    devices = f"{len(engine.devices)} of the file are included" if engine.devices else ""
+    count = len(engine.devices)
+    devices = f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
     if any(map(_has_arm, engine.devices)):
         devices += "; a slider whose path misses the crank axis changes couple and roll"
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"

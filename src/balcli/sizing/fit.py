@@ -120,7 +120,7 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
     if "moment" in targets and not engine.places_known:
         raise BalcliError(f"--target moment: {MOMENTS_UNKNOWN}")
     if ROLL_TOTAL.name in targets and engine.gas is None:
-        raise BalcliError(f"--target {ROLL_TOTAL.name}: {NO_GAS}")
+        raise BalcliError(f"--target {ROLL_TOTAL.name}: the engine file {NO_GAS}")
     return tuple(dict.fromkeys(targets))
 
 

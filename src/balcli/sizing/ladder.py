@@ -44,7 +44,16 @@ from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft,
 from .options import check_small
 from .planes import find_ends, find_planes, find_unbalance
 from .remedy import Remedy
-from .residual import BACKWARD, FORWARD, Residual, ResidualPart, Scales, find_scales, find_size
+from .residual import (
+    BACKWARD,
+    FORWARD,
+    Residual,
+    ResidualPart,
+    Scales,
+    find_scales,
+    find_size,
+    is_small,
+)
 
 AS_DRAWN = "as drawn"
 WEIGHTS = "counterweights"
@@ -151,7 +160,8 @@ class Ladder:
     def _find_name(self, step: str) -> str:
         names = [one.step for one in self.steps]
         at = int(step) if step.isdecimal() and len(step) < 4 else -1
-        name = names[at] if 0 <= at < len(names) else step
+        plain = step.strip().lower().replace("−", "-")
+        name = names[at] if 0 <= at < len(names) else plain
         if name in names[1:]:
             return name
         rows = ", ".join(f"{k} {name}" for k, name in enumerate(names))
@@ -159,6 +169,8 @@ class Ladder:
             if out.step == name:
                 raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
         why = "nothing is fitted as drawn" if name == AS_DRAWN else "there is no such step"
+        if name == WEIGHTS and WEIGHTS_AT_THROWS in names:
+            why = f'"{WEIGHTS_AT_THROWS}" replaces it; --scheme {WEIGHTS} fits it'
         raise BalcliError(f'step "{step[:60]}": {why}; this engine has {rows}')
 
     def _explain(self, out: LeftOut) -> str:
@@ -254,7 +266,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     auto, shafts = listed[-1].step, {}
     for name, residual, senses in ((SHAFT, first, (-1,)), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
-        if due := [sense for sense, size in sizes.items() if _counts(size, small)]:
+        if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:
             fitting = add_shafts(fitting, residual, due)
             shafts[name] = fitting.remedy
             auto = name if max(sizes.values()) >= WORTH_A_SHAFT else auto
@@ -288,23 +300,18 @@ def _list_weights(
         fitted[WEIGHTS_AT_THROWS] = add_at_throws(drawn)
     found = meter.measure({name: fitting.remedy for name, fitting in fitted.items()})
     names, left_out = [AS_DRAWN], []
-    if _counts(turning, small):
+    if not is_small(turning, small):
         names.append(WEIGHTS)
     if step := found.get(WEIGHTS_AT_THROWS):
         load = found[names[-1]].main_bearing_N or 0.0
         fall = load - (step.main_bearing_N or 0.0)
-        if fall > LEFT * load and fall >= small * scales.force:
+        if fall > LEFT * load and not is_small(fall, small * scales.force):
             names.append(WEIGHTS_AT_THROWS)
         elif step.counterweights:
             left_out.append(_leave_out(WEIGHTS_AT_THROWS, engine, first, [1], fall))
     if turning and names == [AS_DRAWN]:
         left_out.insert(0, _leave_out(WEIGHTS, engine, first, [1]))
     return [found[name] for name in names], left_out, fitted[names[-1]]
-
-
-def _counts(size: float, least: float) -> bool:
-    """Return whether something is there, and not small."""
-    return size > 0 and size >= least
 
 
 def _leave_out(

@@ -123,6 +123,17 @@ def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
     return (size / scale if scale else math.inf) if size else 0.0
 
 
+def is_small(size: float, least: float) -> bool:
+    """Return whether a part is nothing, or small; one of the limit's size is not, but for
+    rounding.
+
+    Args:
+        size: Size of the part.
+        least: Size from which on a part is not small.
+    """
+    return not size or size < least * (1 - 1e-9)
+
+
 class NothingToBalanceError(Exception):
     """There is nothing to balance, as its text says: a scheme then fits no device.
 
@@ -212,7 +223,7 @@ def _find_lowest(
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         share = max(find_share(residual, part, scales) for part in sought)
-        if share and share >= least:
+        if not is_small(share, least):
             lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
             return residual._replace(note=lowest if rests else "")
         rest = _tell_rest(residual, kinds, senses)
@@ -257,8 +268,11 @@ def tell_small(
     senses = {part.sense for part in sought}
     parts = [part for part in (*FORWARD, *BACKWARD) if part.sense in senses]
     every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
+    if is_small(max(share for share, *_ in every), least):  # in these senses
+        parts = [*FORWARD, *BACKWARD]
+        every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
     share, one, part = max(every, key=lambda each: each[0])
-    if share < least:
+    if is_small(share, least):
         return told
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes

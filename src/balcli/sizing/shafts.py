@@ -35,6 +35,7 @@ from .residual import (
     choose_residual,
     find_scales,
     find_share,
+    is_small,
     tell_small,
 )
 
@@ -155,7 +156,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     residuals, scales = [fitting.find_residual(order) for order in (1, 2)], find_scales(engine)
     sizes = [max(find_share(one, part, scales) for part in FORCE) for one in residuals]
     least = options.read_small()
-    forces = [one for one, size in zip(residuals, sizes, strict=True) if size and size >= least]
+    forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
     if not forces and any(sizes):
         largest = residuals[sizes.index(max(sizes))]
         raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))

@@ -32,6 +32,7 @@ from .planes import (
 )
 from .remedy import Remedy
 from .residual import (
+    BACKWARD,
     FORCE,
     FORWARD,
     FORWARD_FORCE,
@@ -39,6 +40,7 @@ from .residual import (
     OnlySmallError,
     Residual,
     choose_residual,
+    find_residual,
 )
 from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
 from .single_cylinder import size_eccentric_slider, size_oldham
@@ -110,7 +112,10 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
 
 def _tell_not_needed(engine: Engine) -> str:
     what = "force or moment" if engine.places_known else "force"
-    return f"Order 1 is balanced already: counterweights change no free {what}"
+    left = find_residual(engine, 1)
+    against = any(left.parts[part] for part in BACKWARD)
+    order = "The part of order 1 that turns with the crank" if against else "Order 1"
+    return f"{order} is balanced already: counterweights change no free {what}"
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
