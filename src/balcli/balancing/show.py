@@ -291,7 +291,7 @@ class BalanceDocument:
         reasons: Why these devices.
         practical: The workshop's figures of each device.
         details: Further figures of the scheme, under names that end in the unit.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         before: Peaks and orders without the devices.
         after: Peaks and orders with the devices.
         permitted: What a balance grade permits in each plane.

@@ -279,7 +279,7 @@ class MountReport(Result):
     Attributes:
         format: Name and version of this document.
         name: Name of the engine, or of the body.
-        assumed: What is taken because the file leaves it out.
+        assumed: Values taken because the file leaves them out.
         modes: The six natural modes, lowest first.
         roll_axis: Torque roll axis: unit vector through the center of gravity about which a torque
             about the crankshaft turns the body where nothing holds it.

@@ -88,7 +88,7 @@ class Scatter(Result):
     Attributes:
         format: Name and version of the document.
         engine: The engine.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         samples: Number of random variants.
         distribution: Of each deviation.
         quantities: Spread of each quantity, by its name.

@@ -41,7 +41,7 @@ class SweepDocument:
 
     Attributes:
         engine: The engine file.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         columns: Names of the figures that vary, then of the quantities.
         rows: One row a variant.
     """

@@ -91,7 +91,7 @@ class TorqueAnalysis(Result):
         speed_rpm: Mean speed.
         no_gas_in: Cylinders without gas force.
         no_burning_in: Cylinders that compress and burn nothing.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         cycle_deg: Cycle of the engine, or period of the curve.
         imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
         bmep_Pa: Brake mean effective pressure.

@@ -175,7 +175,7 @@ class TorsionAnalysis(Result):
         name: Name of the engine or chain; null if the file gives none.
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
-        assumed: What is taken because the file leaves it out.
+        assumed: Values taken because the file leaves them out.
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.

@@ -97,7 +97,7 @@ class TorsionalSystem:
         reference: node whose speed and orders are those of the system.
         rated_rpm: speed of the file's own; None: it gives none.
         silent: cylinders of the engine that do not fire.
-        assumed: what is taken because the file leaves it out.
+        assumed: values taken because the file leaves them out.
         file: in which all this stands, for messages; may be empty.
     """
 

@@ -81,7 +81,7 @@ class Search(Result):
 
     Attributes:
         model: The engine file.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         over: What was arranged: `throws`, `firing_order`, or numbers with commas between.
         results: Arrangements, best first.
         objective: The quantities, their weights and limits.
