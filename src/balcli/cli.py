@@ -47,7 +47,7 @@ GROUPS = {
         "a balance scheme before and after.",
     },
     "Balance": {
-        "balance": "Size counterweights, balancer shafts or sliders, and show what is left "
+        "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
         "with them.",
         "field": "Balance a rotor on the machine or in its bearings: from readings with "
         "trial weights to correction weights, places or drill holes, and what is "

@@ -215,8 +215,8 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
-        "these planes are where the counterweights of the file stand; --planes throws asks what "
-        "is missing at every throw instead"
+        "these planes are where the counterweights of the file stand; --planes throws computes "
+        "weights at every throw instead"
     )
     assert asked.note == ""
     assert len(fit(FORD + ends, planes="throws").devices) == 4

@@ -254,8 +254,7 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Return orders to compute: those asked for; all if none was or the whole curve is needed.
-    """
+    """Return orders to compute: those asked for; all if none was or the whole curve is needed."""
     if asked is not None and not whole:
         return asked
     due = DEFAULT_ORDERS if asked is None else asked

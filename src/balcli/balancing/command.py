@@ -143,7 +143,7 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
-    """Return what a workshop has.
+    """Return the tools of the workshop.
 
     Args:
         units: Units of the command.
@@ -200,7 +200,7 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
 
 
 def _check_even(scheme: str, options: SchemeOptions) -> None:
-    """Raise BalcliError for --even with another scheme, and options besides it."""
+    """Raise BalcliError for --even with another scheme or further options."""
     if scheme != KNUCKLES:
         raise BalcliError(
             f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
@@ -240,7 +240,7 @@ def balance(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Size counterweights, balancer shafts or sliders, and show what is left with them.
+    """Size counterweights, balancer shafts or sliders, and show the forces left with them.
 
     \b
     Examples:

@@ -52,7 +52,7 @@ Measured = Annotated[
     str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
 ]
 Roll = Annotated[
-    str | None, optional("zero", "Place two shafts such that they cancel the roll of inertia, too.")
+    str | None, optional("zero", "Place two shafts such that they also cancel the roll of inertia.")
 ]
 
 
