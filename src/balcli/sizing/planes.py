@@ -186,6 +186,6 @@ def as_millimetres(metres: float) -> float:
 
 
 def _plain(figure: float, size: float) -> float:
-    """Return the figure with nine decimals if that is the same to an ulp of `size`, else as it is."""
+    """Return the figure with nine decimals if that changes it by less than an ulp of `size`."""
     short = round(figure, 9) + 0.0
     return short if abs(figure - short) <= size * EPS else figure
