@@ -55,7 +55,7 @@ def analyze(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Free forces and moments of an engine, order by order, and what balances them.
+    """Free forces and moments of an engine, order by order, and devices that balance them.
 
     \b
     Examples:

@@ -77,7 +77,7 @@ def parse_scheme_options(
         planes: "ends", "throws", or axial places of new devices.
         factor: Share of the reciprocating mass, or a range of shares.
         measured: Mass that balances a bare pin.
-        roll: "zero", if the roll of inertia is to vanish.
+        roll: "zero" to cancel the roll of inertia.
         units: System of units of bare numbers.
 
     Raises:

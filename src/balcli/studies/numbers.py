@@ -77,7 +77,7 @@ RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
 
 
 def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:
-    """What can be varied of an engine file, and what can be asked of it: names for `sweep`,
+    """List the numbers of an engine file that can vary, and its quantities: names for `sweep`,
     `search` and `scatter`, with values, units and meanings.
 
     \b
