@@ -53,9 +53,7 @@ Fluctuation = Annotated[
         "1/200", "Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%."
     ),
 ]
-Cylinder = Annotated[
-    int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
-]
+Cylinder = Annotated[int, typer.Option(metavar="N", help="Also the torque of cylinder N.")]
 LoadsOption = Annotated[
     str | None,
     optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),

@@ -36,13 +36,13 @@ def document(result: TorsionAnalysis) -> Node:
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
-    """Return the same figures as CSV, one a row."""
+    """Return CSV: one figure a row."""
     lines, units = _list_lines(to_document(result)), _choose_units(system)
     return Rows(_HEADER, lines if system == SI else (_convert(line, units) for line in lines))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
-    """Return what people read in place of SI units of CSV."""
+    """Return the units that replace the SI units of CSV."""
     return {
         "kg m2": system.inertia,
         "N m s/rad": system.torsional_damping,
@@ -56,7 +56,7 @@ def _choose_units(system: System) -> dict[str, ShownUnit]:
 
 
 def _convert(line: tuple[Any, ...], units: dict[str, ShownUnit]) -> tuple[Any, ...]:
-    """Return a row in the units of people who do not read SI."""
+    """Return a row in the units that replace SI units."""
     *where, value, name = line
     if name not in units or value is None:
         return line
@@ -72,7 +72,7 @@ def _put(
     speed: float | None = None,
     order: float | None = None,
 ) -> Iterator[tuple[Any, ...]]:
-    """Yield lines of CSV: what stands before figures, and these."""
+    """Yield lines of CSV: the leading cells, and one of the figures."""
     for each in figures:
         called = remove_unit(each.name)
         yield part, number, speed, order, name_cell(name), called, each.value, each.unit
@@ -98,7 +98,7 @@ def _list_lines(found: Node) -> Iterator[tuple[Any, ...]]:
 
 
 def _list_extras(found: Node) -> Iterator[tuple[Any, ...]]:
-    """Yield the lines of what was asked besides modes and criticals."""
+    """Yield the lines of further requested parts: Holzer's tables, response, damper."""
     for k, table in enumerate(found.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
         yield from _put("holzer", frequency, number=k)
@@ -148,7 +148,7 @@ def _list_worst(response: Node) -> Iterator[tuple[Any, ...]]:
 
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
-    """Return modes first, then what was asked."""
+    """Return the sheet: modes first, then the requested parts."""
     parts: list[Grid | Facts | Text] = []
     if silent := list_silent(result.system.silent):
         parts.append(Facts(tuple(silent)))
@@ -184,7 +184,7 @@ _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
 def _show_damper(sized: SizedDamper, system: System) -> Facts:
-    """Return what to make, and what it does."""
+    """Return the figures of the sized damper, and its effect."""
     kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit(max(filter(math.isfinite, (sized.before, sized.after))))
     units = _choose_units(system)
@@ -334,7 +334,7 @@ def _show_stiffness(value: float) -> str:
 
 
 def _settle(value: float, others: Sequence[float]) -> float:
-    """Return an angle or torque, 0 where it is what rounding left over of others."""
+    """Return an angle or torque, 0 where it is a rounding error of others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
 
 
