@@ -58,7 +58,7 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[Any, ...
 def _list_part(
     part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
 ) -> Iterator[tuple[Any, ...]]:
-    """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
+    """Yield a line for each figure of an object; weights and amplitudes have this unit."""
     for name, value, known in list_figures(found, ("plane",)):
         of_file = name.rpartition(".")[2] in ("weight", "amplitude")
         cells = part, speed_rpm, name_cell(sensor), name, value

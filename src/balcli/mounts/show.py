@@ -1,4 +1,4 @@
-"""What a person reads of an engine on its mounts, and the same figures as JSON and CSV."""
+"""An engine on its mounts as tables, JSON and CSV."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _SHARE = 1e-3  # of the largest free load: less is not worth a line
 
 
 class Kind(NamedTuple):
-    """What a response has by place: the force of mounts, or the motion of points.
+    """Kind of figure by place: the force of mounts, or the motion of points.
 
     Attributes:
         part, figure: "mount" and "force", or "point" and "motion".
@@ -82,12 +82,12 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 
 
 def sheet(result: MountReport, system: System) -> Sheet:
-    """Return what matters first: what the frame feels, then modes, rest and the range of speeds."""
+    """Return the sheet: loads on the frame first, then modes, rest and the range of speeds."""
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:
         told = tuple(_answer(result, response, force, motion))
-        parts += [Text("What the frame feels", told), _grid_worst(result, force)]
+        parts += [Text("Forces on the frame", told), _grid_worst(result, force)]
         parts += [_grid_worst(result, motion)] if response.points else []
     parts += [_grid_modes(result), _tell_body(result, motion), _grid_rest(result, system, motion)]
     if response is not None:
@@ -239,7 +239,7 @@ def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
 
 
 def _wipe(values: Sequence[Real]) -> Real:
-    """Return values as an array; those that are rounding next to the largest are 0."""
+    """Return values as an array; values below the rounding error of the largest are 0."""
     size = np.abs(values)
     return np.where(size > 1e-12 * size.max(), values, 0.0)
 
