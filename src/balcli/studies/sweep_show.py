@@ -110,7 +110,7 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
     """Return the table, each column in the unit that fits it.
 
     Args:
-        sweep: What the variants are of.
+        sweep: Sweep of the variants.
         figures: Parameters and quantities, shape (variants, columns).
         left_out: Number of variants that are missing after the first FIRST.
     """
@@ -145,7 +145,7 @@ LEVELS = 12
 
 
 def check_drawable(sweep: Sweep) -> None:
-    """See that there can be a picture, before anything is computed for it.
+    """Check that a picture is possible, before anything is computed for it.
 
     Raises:
         BalcliError: more than two parameters, fewer than two values of one, or too many variants.

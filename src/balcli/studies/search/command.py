@@ -33,7 +33,7 @@ _EQUAL = 1e-9  # relative difference of objectives that are equal
 
 
 def columns(result: Search) -> Columns:
-    """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
+    """Return an arrangement a row: angles as numbers, throws and firing orders with hyphens."""
     first = result.results[0]
     found: dict[str, Any] = {}
     for key, value in first.design.items():
@@ -77,7 +77,7 @@ def sheet(result: Search, _system: System) -> Sheet:
 
 
 def _title(result: Search) -> str:
-    """Return what the rows are: the best, or all equally good."""
+    """Return the title of the rows: the best, or all equally good."""
     costs = [one.objective for one in result.results]
     equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
     word = "No best" if result.constant else "Equally good" if equal else "Best"
@@ -85,7 +85,7 @@ def _title(result: Search) -> str:
 
 
 def _in_words(over: str) -> str:
-    """`bank_angle` is a bank angle; the dotted name of a number stays as one types it."""
+    """Return a key in words: `bank_angle` is a bank angle; dotted names stay as they are."""
     return over if "." in over else over.replace("_", " ")
 
 
@@ -119,18 +119,18 @@ def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[
 
 
 def _is_sum(result: Search) -> bool:
-    """Whether the objective is more than one of the figures."""
+    """Return whether the objective is more than one of the figures."""
     weights = list(result.objective.weights.values())
     return weights != [1.0]
 
 
 def _setting(value: Any) -> str:
-    """A number, or several with hyphens between them."""
+    """Return a number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
 
 
 def _exactly(value: float | list[float] | list[int]) -> str:
-    """The setting of one key in full precision."""
+    """Return the setting of one key in full precision."""
     numbers = value if isinstance(value, list) else [value]
     return "-".join(repr(number).removesuffix(".0") for number in numbers)
 
@@ -226,7 +226,7 @@ def search(
 
 
 def _doubt(doubts: Iterable[str], over: list[str], name: str) -> None:
-    """Warn of what is unlikely in the file, except of what is arranged or varies."""
+    """Warn of unlikely figures of the file, except those that are arranged or vary."""
 
     varied = [text.partition("=")[0] for text in over]
     warn_each((d for d in doubts if not any(one in d for one in varied)), name)
