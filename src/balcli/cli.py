@@ -211,7 +211,7 @@ def _options(
     version: Annotated[
         bool,
         typer.Option(
-            "-V", "--version", callback=_version, is_eager=True, help="Say which version this is."
+            "-V", "--version", callback=_version, is_eager=True, help="Print the version of balcli."
         ),
     ] = False,
     quiet: Annotated[
@@ -231,7 +231,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Also what was read and assumed, and how long it took, on standard error.",
+            help="Print also what was read and assumed, and the run time, on standard error.",
         ),
     ] = False,
     digits: Annotated[

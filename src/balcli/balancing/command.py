@@ -65,7 +65,7 @@ Scheme = Annotated[
         metavar="NAME",
         autocompletion=complete_schemes,
         show_default="auto; factor where --factor or --measured is given",
-        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
+        help=f"Scheme to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
     ),
 ]
 
@@ -108,13 +108,13 @@ Target = Annotated[
     str | None,
     optional(
         "NAME,...",
-        'What devices with unbalance = "fit" in the file cancel: force, moment, roll, roll_total; '
+        'Targets of devices with unbalance = "fit" in the file: force, moment, roll, roll_total; '
         "default: force,moment.",
     ),
 ]
-Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
+Even = Annotated[str | None, optional("dead-centres|strokes", "Quantity for --scheme knuckles.")]
 Grade = Annotated[
-    str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
+    str | None, optional("G", "Grade of ISO 21940-11 for residual unbalance, such as G16.")
 ]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[

@@ -201,7 +201,7 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
             yield number(unit.of(abs(vector)))
             yield degrees(measure_direction(vector)) if vector else "–"
 
-    title = f"What each plane has, and lacks, {unit.name}"
+    title = f"Present and missing unbalance of each plane, {unit.name}"
     return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
 
 

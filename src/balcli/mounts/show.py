@@ -292,8 +292,8 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
             shares = (f"{through[s] / load[s]:.1%}" for s in speeds)
             rows.append((order_name(passed.order), name, size, *shares))
     note = (
-        "What the mounts pass on, as a share of what the same engine would put on a frame in which "
-        "it stood rigidly; moments about the centre of gravity."
+        "Load through the mounts, as a share of the load of the same engine on rigid mounts; "
+        "moments about the centre of gravity."
     )
     return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
 

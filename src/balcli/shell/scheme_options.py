@@ -49,7 +49,7 @@ Factor = Annotated[
     optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
 ]
 Measured = Annotated[
-    str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
+    str | None, optional("MASS", 'Instead of --factor: mass that balances a pin, such as "812 g".')
 ]
 Roll = Annotated[
     str | None, optional("zero", "Place two shafts such that they also cancel the roll of inertia.")

@@ -36,7 +36,7 @@ IN_SUM = (
     "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
     "known, as moments are not"
 )
-OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
+OF_ITSELF = "nothing is missing: the masses on the pins balance each other in these planes"
 OWN_PLACES = (
     "these planes are where the counterweights of the file stand; --planes throws computes "
     "weights at every throw instead"

@@ -103,7 +103,7 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
         raise BalcliError(f"--planes throws: {MOMENTS_UNKNOWN}")
     remedy = add_at_throws(fitting).remedy
     if not remedy.devices:
-        raise NothingToBalanceError("At every throw, what turns with the crank is balanced already")
+        raise NothingToBalanceError("Forces turning with the crank are balanced already")
     return remedy
 
 

@@ -65,9 +65,9 @@ def sweep(
         Place | None,
         optional(
             "FILE|FOLDER/",
-            "Write into this file instead, its ending says the format; or into a folder, as "
+            "Write into this file, whose ending determines the format; or into a folder, as "
             "numbered Parquet files that threads or workers write; the same sweep again computes "
-            "those that are missing. - is standard output.",
+            "missing ones. - is standard output.",
             "--output",
             "-o",
             parser=read_place,
@@ -94,7 +94,7 @@ def sweep(
             min=1,
             max=MOST_THREADS,
             show_default=False,
-            help="Threads that compute what takes more than a second; default: a core each.",
+            help="Number of threads if the sweep takes more than a second; default: one a core.",
         ),
     ] = None,
     dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",

@@ -67,7 +67,7 @@ Curve = Annotated[
 Load = Annotated[
     Path | None,
     optional(
-        "CSV", "With --curve: the torque that the load takes, likewise; default: the mean, evenly."
+        "CSV", "With --curve: the torque of the load, in such a file; default: constant, the mean."
     ),
 ]
 Inertia = Annotated[

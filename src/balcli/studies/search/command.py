@@ -144,10 +144,10 @@ def search(
         list[str],
         optional(
             "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
-            "What to arrange: the file's throw angles along the crank (or those of its firing "
-            "order), the firing order, the angle of the vee, or of its split pins; or any number "
-            "of the file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles "
-            "are searched together.",
+            "Variables: the sequence of the file's throw angles (or of those of its firing order), "
+            "the firing order, the angle of the vee, or of its split pins; or any number of the "
+            "file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles are "
+            "searched together.",
             "--over",
         ),
     ],
@@ -155,8 +155,8 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be small, such as moment.1.major=1,force.2.major=0.5 (different units "
-            "need weights); any quantity that sweep has, such as shaft.flywheel.torque.",
+            "Minimize this sum, such as moment.1.major=1,force.2.major=0.5 (different units need "
+            "weights), of any quantities of sweep, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
         ),
@@ -165,7 +165,7 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be large, instead of --minimise.",
+            "Maximize this sum instead.",
             "--maximise",
             "--maximize",
         ),
@@ -174,14 +174,14 @@ def search(
         list[str] | None,
         optional(
             "WHAT<VALUE",
-            "What must stay below a value (N, N·m, Hz, Pa, or with its unit), such as "
+            "Upper limit of a quantity (N, N·m, Hz, Pa, or with its unit), such as "
             "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
             "--limit",
         ),
     ] = None,
     require: Annotated[
         str,
-        optional("even-firing", "even-firing: only what can fire at even intervals.", "--require"),
+        optional("even-firing", "even-firing: only arrangements with even intervals.", "--require"),
     ] = "",
     top: Annotated[
         int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
