@@ -1,5 +1,5 @@
-"""Engine balance: free forces and moments of reciprocating engines, order by order, and what
-cancels them.
+"""Engine balance: free forces and moments of reciprocating engines, order by order, and devices
+that cancel them.
 
     from balcli import load, analyze, balance
 
@@ -81,7 +81,7 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    """What the library promises, for completion."""
+    """Return the public names of the library, for completion."""
     return __all__
 
 

@@ -89,11 +89,11 @@ _SHORTEST = 1e-7  # s; no run is taken as quicker
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """One way to one figure.
+    """Run time and error of one method for one task.
 
     Attributes:
-        task: What is computed.
-        method: How.
+        task: Name of the task.
+        method: Name of the method.
         seconds: Run time; in a sweep, of each variant.
         error: Largest relative error.
     """
@@ -109,7 +109,7 @@ class Ratio:
     """A run time as a multiple of another.
 
     Attributes:
-        what: Which run, and by which it is divided.
+        what: Names of both runs.
         value: The ratio.
     """
 
@@ -119,7 +119,7 @@ class Ratio:
 
 @dataclass(frozen=True, kw_only=True)
 class Bench:
-    """All that was measured in one run.
+    """Results of one run of the benchmark.
 
     Attributes:
         rows: Run time and error of every method.

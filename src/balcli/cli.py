@@ -1,8 +1,7 @@
-"""The command line: which commands there are, and the one place where errors become text and exit
-codes.
+"""The command line: the commands, and the one place where errors become text and exit codes.
 
-Only the module of the command that is called is imported; what a command does is in the `command`
-of its chapter.
+Only the module of the called command is imported; commands are in the module `command` of their
+packages.
 """
 
 from __future__ import annotations
@@ -30,34 +29,35 @@ from .version import __version__
 if TYPE_CHECKING:
     from typer._click import Command, Context, HelpFormatter, Parameter
 
-# What each does in a line; the first paragraph of its own help says the same.
+# Summary of each command; the first paragraph of its own help is the same.
 GROUPS = {
     "Analyse": {
-        "analyze": "Free forces and moments of an engine, order by order, and what balances them.",
+        "analyze": "Free forces and moments of an engine, order by order, and devices that "
+        "balance them.",
         "compare": "Engines side by side: free forces and moments by order, peaks, and their "
         "ratios to the first engine's.",
         "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
         "layouts": "Free forces and moments of common engines at a glance, as multiples of "
         "one cylinder's.",
         "torque": "Torque of gas and inertia on the crank: by order and over the cycle, "
-        "mean torque and power, the uneven speed and the flywheel; or what a "
-        "given torque curve does.",
+        "mean torque and power, the uneven speed and the flywheel; or the "
+        "effect of a given torque curve.",
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
-        "report": "Write one self-contained page: the engine in motion, what it shakes, and "
-        "a balance scheme before and after.",
+        "report": "Write one self-contained page: the engine in motion, its free forces and "
+        "moments, and a balance scheme before and after.",
     },
     "Balance": {
-        "balance": "Size counterweights, balancer shafts or sliders, and show what is left "
+        "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
         "with them.",
         "field": "Balance a rotor on the machine or in its bearings: from readings with "
-        "trial weights to correction weights, places or drill holes, and what is "
-        "left.",
+        "trial weights to correction weights, places or drill holes, and the "
+        "residual readings.",
     },
     "Study": {
-        "numbers": "What can be varied of an engine file, and what can be asked of it: names "
+        "numbers": "List the numbers of an engine file that can vary, and its quantities: names "
         "for `sweep`, `search` and `scatter`, with values, units and meanings.",
         "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
         "as a table, CSV, JSON or Parquet.",
@@ -65,8 +65,8 @@ GROUPS = {
         "mirror images and rotations once.",
         "scatter": "How free forces and moments spread when masses (rod lengths, throw "
         "angles) vary, and which tolerance matters most.",
-        "mounts": "What the frame feels of an engine on its mounts: natural modes, rest, "
-        "forces of the mounts and motion of points over a range of speeds.",
+        "mounts": "Vibration of an engine on its mounts: natural modes, rest, forces of the "
+        "mounts on the frame and motion of points over a range of speeds.",
         "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, "
         "critical speeds, Holzer tables, vibratory torque and stress over a range "
         "of speeds, dampers, barred speeds.",
@@ -76,12 +76,12 @@ GROUPS = {
         "chain file, for `torsion`) to start from.",
         "engines": "List the example engines that come with balcli, print one, or copy it.",
         "schema": "Print the JSON Schema of the engine file, a file of runs or a chain "
-        "file, for editors; or of what a command prints as JSON.",
+        "file, for editors; or of a command's JSON output.",
         "check": "Recompute engines and compare with their recorded results; exit status 1 "
         "if anything moved.",
         "tables": "The printed coefficient tables of five books and papers, recomputed, and "
         "their errata by class: misprints, roundings, errors of equations.",
-        "bench": "Run time against error of every way to the same figures, on this "
+        "bench": "Measure run time and error of several methods for the same figures, on this "
         "machine; with -o X.svg also as a picture.",
     },
 }
@@ -117,7 +117,7 @@ IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
 
 
 class _Command(TyperCommand):
-    """A command that says so where an option of one value is given more than once."""
+    """A command that rejects an option of one value that is given more than once."""
 
     def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
         given = [] if ctx.resilient_parsing else self.make_parser(ctx).parse_args([*args])[2]
@@ -214,7 +214,7 @@ def _options(
     version: Annotated[
         bool,
         typer.Option(
-            "-V", "--version", callback=_version, is_eager=True, help="Say which version this is."
+            "-V", "--version", callback=_version, is_eager=True, help="Print the version of balcli."
         ),
     ] = False,
     quiet: Annotated[
@@ -234,7 +234,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Also what was read and assumed, and how long it took, on standard error.",
+            help="Print also what was read and assumed, and the run time, on standard error.",
         ),
     ] = False,
     digits: Annotated[
@@ -252,8 +252,8 @@ def _options(
         ),
     ] = None,
 ) -> None:
-    """Engine balance: which free forces and moments an engine makes, order by order, and what
-    cancels them.
+    """Engine balance: free forces and moments of an engine, order by order, and devices that cancel
+    them.
 
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
     `balcli analyze i4.toml`.
@@ -262,8 +262,8 @@ def _options(
 
 
 def main() -> NoReturn:
-    """Run the command of `sys.argv` and exit. Whatever a user can mend becomes a message on
-    standard error and exit status 2.
+    """Run the command of `sys.argv` and exit. A mistake that the user can correct becomes a message
+    on standard error and exit status 2.
     """
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):

@@ -159,7 +159,7 @@ def schema(
     output: Output = None,
 ) -> None:
     """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
-    what a command prints as JSON.
+    a command's JSON output.
 
     \b
     Examples:
@@ -331,8 +331,8 @@ def _write_junit(checked: Sequence[CheckedEngine]) -> str:
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:
-    """Run time against error of every way to the same figures, on this machine; with -o X.svg also
-    as a picture.
+    """Measure run time and error of several methods for the same figures, on this machine; with -o
+    X.svg also as a picture.
 
     \b
     Example:

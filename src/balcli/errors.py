@@ -25,14 +25,14 @@ CONTROL_CHARACTERS = (
 
 
 def legible(text: str) -> str:
-    """Return a text for a terminal: of all control characters only line ends and tabs stay, so that
-    nobody's file name can command it.
+    """Return a text for a terminal without control characters other than line ends and tabs, so
+    that no file name can control the terminal.
     """
     return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:
-    """Print a message on standard error, whether somebody reads it or not."""
+    """Print a message on standard error, even if it has no reader."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 
@@ -92,9 +92,9 @@ class Problem(NamedTuple):
     Attributes:
         path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
         message: the mistake, and then the remedy.
-        missing: paths of keys that are not there, without which it is a mistake; empty: of none.
-        meant: path of the key that was probably meant by an unknown one, "" if none comes to mind;
-            None: the key is known.
+        missing: paths of the missing keys that make it a mistake; empty: none.
+        meant: path of the key that was probably meant by an unknown one, "" if none is near; None:
+            the key is known.
     """
 
     path: str
@@ -117,7 +117,7 @@ class Problem(NamedTuple):
 
 
 class BalcliError(Exception):
-    """Anything a user can mend; `cli.py` prints its text and exits with status 2."""
+    """A mistake that the user can correct; `cli.py` prints its text and exits with status 2."""
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
@@ -158,7 +158,7 @@ class OtherKindError(InputError):
 
 @contextmanager
 def naming_file(file: str) -> Iterator[None]:
-    """Give mistakes that are found within the name of a file."""
+    """Add the name of a file to the mistakes that are found within this context."""
     try:
         yield
     except InputError as error:
@@ -172,7 +172,7 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
         function: Name of the function or argument.
         value: Value to check.
         kind: Allowed types.
-        wanted: What would be right, in words.
+        wanted: A right value, in words.
 
     Raises:
         TypeError: It is not.
@@ -187,7 +187,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
     Args:
         name: Name of the argument.
         value: Value to check.
-        wanted: What would be right, in words.
+        wanted: A right value, in words.
 
     Raises:
         TypeError: It is no number.
@@ -259,12 +259,12 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """Return the error for an argument of the library: what was given, and what would be right.
+    """Return the error for an argument of the library, with the value and a right one.
 
     Args:
         function: Name of the function or argument.
         value: Rejected value.
-        wanted: What would be right, in words.
+        wanted: A right value, in words.
     """
     try:
         text = repr(value)

@@ -1,8 +1,8 @@
 """Every "at most" that a user can run into, with its reason.
 
 All are far beyond any engine. They are there so that whatever is fed to balcli ends soon, in little
-memory, as a result or as a message that names the limit. What only steers a method (samples of a
-search, results computed at a time) stands beside the method.
+memory, as a result or as a message that names the limit. Parameters of a method (samples of a
+search, results computed at a time) are defined with the method.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Modules by name: the one place where modules stand in strings.
 
-Whatever is imported only when somebody asks for it, from a module below it,
-has its line here: the package's public names, what shows a result, the types of documents, the
-tables of chapters in an engine file, and their quantities. Loads no library.
+It lists objects that modules below them import on demand: the package's public names, renderers of
+results, types of documents, tables of chapters in an engine file, and their quantities. It loads no
+library.
 """
 
 from __future__ import annotations

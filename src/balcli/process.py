@@ -40,7 +40,7 @@ def ignore_matplotlib_settings() -> None:
 
 
 def has_no_reader(error: OSError) -> bool:
-    """Whether a pipe was closed by its reader; Windows reports this as an invalid argument."""
+    """Return whether a pipe was closed by its reader (on Windows, an invalid argument)."""
     return isinstance(error, BrokenPipeError) or (WINDOWS and error.errno == errno.EINVAL)
 
 

@@ -150,7 +150,7 @@ def find_engine_file(record: Path) -> Path:
 
 
 def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
-    """Yield what differs of each record among `files` whose engine file is missing."""
+    """Yield a difference for each record among `files` whose engine file is missing."""
     for record in files:
         engine_file = find_engine_file(record)
         if not engine_file.exists() and _is_record(record):
@@ -357,7 +357,7 @@ def _compare(
 
 
 def _differ_by_rounding(old: _Leaf | None, new: _Leaf | None, allowed: float) -> bool:
-    """Return whether what two leaves belong to is not the same, and rounding in both."""
+    """Return whether the amplitudes of two leaves differ, and are all rounding errors."""
     sizes = [() if leaf is None else _find_sizes(leaf) for leaf in (old, new)]
     return sizes[0] != sizes[1] and all(abs(size) <= allowed for each in sizes for size in each)
 

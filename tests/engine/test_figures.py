@@ -197,7 +197,7 @@ def test_half_of_an_alternative_is_refused():
     ],
 )
 def test_two_figures_that_say_the_same_do_not_vary_together(first, second):
-    with pytest.raises(BalcliError, match=f"^{first} and {second} say the same; vary one of them$"):
+    with pytest.raises(BalcliError, match=f"^{first} and {second} give the same figure; vary one of them$"):
         build(parse(VEE), {first: 0.3, second: 0.3})
 
 

@@ -64,8 +64,8 @@ def test_force_roll_and_gas(name):
 def test_a_crank_that_all_but_stops_or_trembles_is_refused(line, slowest):
     engine = build_text(make_uneven([line]))
     said = (
-        f"operation.speed_ripple: the crank slows down to {slowest} of its mean speed; what "
-        "vibrates there in time takes more samples than are computed; give a smaller amplitude or "
+        f"operation.speed_ripple: the crank slows down to {slowest} of its mean speed; its "
+        "orders of the time need more samples than are computed; give a smaller amplitude or "
         "lower orders"
     )
     with pytest.raises(BalcliError, match=re.escape(said)):

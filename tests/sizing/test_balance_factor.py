@@ -215,8 +215,8 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
-        "these planes are where the counterweights of the file stand; --planes throws asks what "
-        "is missing at every throw instead"
+        "these planes are where the counterweights of the file stand; --planes throws computes "
+        "weights at every throw instead"
     )
     assert asked.note == ""
     assert len(fit(FORD + ends, planes="throws").devices) == 4
@@ -263,7 +263,7 @@ def test_what_is_there_counts_in_sum_where_moments_are_not_known():
 @pytest.mark.parametrize("form", ["table", "card"])
 def test_pins_that_balance_each_other_are_not_called_a_balanced_engine(form, tmp_path):
     """A flat-plane crank needs no weight in two planes, whatever its engine's second order."""
-    told = "nothing is missing: what the pins carry balances itself in these planes"
+    told = "nothing is missing: the masses on the pins balance each other in these planes"
     assert fit(FLAT_PLANE, planes="ends").note == told
     assert len(fit(FLAT_PLANE).devices) == 4
     (path := tmp_path / "flat.toml").write_text(FLAT_PLANE)

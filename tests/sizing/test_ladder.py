@@ -280,5 +280,5 @@ def test_the_command_that_fits_the_same_is_named():
 def test_a_scheme_is_not_told_to_take_what_is_small():
     """With --small 50% most is: then no other scheme is named for it."""
     told = refusal("balance", ROOT / "engines" / "i5.toml", "--scheme", "couple-shaft", "--small", "50%")
-    assert "small beside one cylinder" in told
+    assert "small compared with one cylinder's" in told
     assert " takes the " not in told

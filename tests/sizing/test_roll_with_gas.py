@@ -75,8 +75,8 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     growth = abs(gas) - abs(inertia + gas)
     assert growth > 0
     assert (
-        f"The roll of order 2 with gas grows by {growth:.4g} N·m: what they take of the roll of "
-        "inertia stood against that of the gas at this speed." in " ".join(table.split())
+        f"The roll of order 2 with gas grows by {growth:.4g} N·m: the devices cancel inertia roll "
+        "that opposes the gas roll at this speed." in " ".join(table.split())
     )
     assert "with gas," in table
     second = next(line for line in table.splitlines() if line.startswith("2  "))

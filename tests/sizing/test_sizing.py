@@ -231,7 +231,7 @@ def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
     assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
     assert remedy.reasons[-2] == (
         "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; "
-        "one eccentric on a shaft at -1 times crank speed can; a moment stays, which takes "
+        "one eccentric on a shaft at -1 times crank speed can; a moment stays, which needs "
         "eccentrics in two planes"
     )
     assert "radius ratio" not in figures(remedy, "order 1")
@@ -307,7 +307,7 @@ def star(cylinders):
 def test_the_lowest_order_that_is_there_up_to_8():
     """Of a star of k cylinders, order k - 1 is the first that turns against the crank."""
     assert size_scheme(star(9), "single-shaft", small=0).order == 8
-    with pytest.raises(BalcliError, match=r"against the crank is .* N \(order 8\), small beside one cylinder"):
+    with pytest.raises(BalcliError, match=r"against the crank is .* N \(order 8\), small compared with one cylinder's"):
         size(star(9), "single-shaft")
     assert size(star(11), "single-shaft").note.startswith(
         "there is no free force turning against the crank of orders 1 to 8: nothing to balance"

@@ -110,4 +110,4 @@ def test_no_weight_at_a_throw_where_none_is_needed():
     engine = build_text(FOUR)
     fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
     again = size(fitted, "counterweights", AT_THROWS)
-    assert (again.devices, again.note) == ((), "At every throw, what turns with the crank is balanced already")
+    assert (again.devices, again.note) == ((), "Forces turning with the crank are balanced already")

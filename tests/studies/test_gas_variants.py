@@ -148,7 +148,7 @@ def test_where_all_cylinders_have_diagrams_no_number_is_of_the_cycle(tmp_path):
 @pytest.mark.parametrize(
     ("vary", "told"),
     [
-        (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat say the same; vary one of them"),
+        (("gas.imep=8,9", "gas.heat=900"), "gas.imep and gas.heat give the same figure; vary one of them"),
         (("gas.bmep=8",), "{}: gas.bmep = 8: gas: has bmep without mechanical_efficiency; give both, or imep"),
     ],
 )

@@ -318,7 +318,7 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
     for command, *options in commands:
         far = tmp_path / "far" / "out.toml"
         told = refusal(command, path, *options, "--write", far)
-        assert f'{far}: the engine file names "p.csv", which stands beside it in {tmp_path}' in told
+        assert f'{far}: the engine file names "p.csv", a file in {tmp_path}' in told
         assert f"or copy p.csv into {far.parent} first" in told
         assert not far.exists()
         near = tmp_path / f"{command}.toml"

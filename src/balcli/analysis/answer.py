@@ -64,8 +64,8 @@ class Analysis(Result):
         spectra: Orders shown.
         assumed: Values taken because the engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
-        sizing: Devices of the scheme `auto`, and what is left with them.
-        ladder: What balances the engine, step by step.
+        sizing: Devices of the scheme `auto`, and the forces left with them.
+        ladder: Devices that balance the engine, step by step.
         cylinders: Each cylinder alone, without devices.
         inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
             bearings and in the block as well.
@@ -126,7 +126,7 @@ class Analysis(Result):
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """What one cylinder makes at most, by kind, beside which a value is judged to be small."""
+        """Largest force and moment of one cylinder, by kind: the scale that makes a value small."""
         scales = self.scales
         return {
             "force": scales.force,
@@ -136,7 +136,7 @@ class Analysis(Result):
 
     @property
     def scales(self) -> Scales:
-        """What one cylinder makes at most."""
+        """Largest first-order force of one cylinder, and its moments."""
         return find_scales(self.engine)
 
 
@@ -181,8 +181,7 @@ def analyze(
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
             moment; default: the rods' lengths.
-        beside: engines that are analysed by the same orders: half orders have to be this one's, or
-            one of theirs.
+        beside: further engines analyzed by the same orders; half orders may be theirs as well.
         small: share of one cylinder's first order below which ladder and sizing leave a part.
 
     Raises:
@@ -255,9 +254,7 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
 
 
 def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Return orders to compute: those asked for; all there are where the whole curve is needed, or
-    none was asked for.
-    """
+    """Return orders to compute: those asked for; all if none was or the whole curve is needed."""
     if asked is not None and not whole:
         return asked
     due = DEFAULT_ORDERS if asked is None else asked
@@ -268,9 +265,9 @@ def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Arr
 def _compute_visible_and_whole(
     engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
 ) -> tuple[Spectra, Spectra]:
-    """Return the spectra that may be shown, and those that have the peaks. Near its lock an engine
-    has tens of thousands of orders, all of which its peaks need: its gas is computed for the few
-    that may be shown.
+    """Return the spectra that may be shown, and those from which peaks are found. An engine near
+    its lock has tens of thousands of orders. Its peaks need all of them; its gas is computed only
+    for the few that may be shown.
     """
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)

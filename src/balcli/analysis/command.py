@@ -55,7 +55,7 @@ def analyze(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Free forces and moments of an engine, order by order, and what balances them.
+    """Free forces and moments of an engine, order by order, and devices that balance them.
 
     \b
     Examples:
@@ -118,10 +118,10 @@ def compare(
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
-    """Parts of `analyze` that say something of one engine, and cannot stand side by side.
+    """Reject parts of `analyze` that describe one engine alone.
 
     Raises:
-        BalcliError: with the command that shows them.
+        BalcliError: Names the command that shows them.
     """
     if of_one := [word for word in words if word in PARTS]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
@@ -146,7 +146,7 @@ def curves(
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
 
-    With [gas] over the whole cycle, its torque too.
+    With [gas] the curves span the whole cycle and include its torque.
 
     \b
     Examples:

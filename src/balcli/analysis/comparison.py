@@ -79,7 +79,7 @@ class Line:
         values: One an engine; null for moments that are not known.
         ratios: Ratios to the first engine's value; null where that is 0.
         kind: Kind of force or moment.
-        single: What one cylinder of each engine makes, next to which a value may be negligible; 0
+        single: Value for one cylinder of each engine, against which a value may be negligible; 0
             where there is no such measure.
     """
 
@@ -99,12 +99,12 @@ class Comparison(Result):
         format: Name and version of the document.
         engines: Names of the engines.
         speeds_rpm: Speed at which each is compared.
-        assumed: What is taken because the files leave it out; after the name of one where it does
-            not hold for all.
+        assumed: Values taken because the files leave them out; with the engine's name where one
+            does not hold for all.
         figures: Figures of all engines.
-        ladders: What balances each engine, step by step.
+        ladders: Devices that balance each engine, step by step.
         compared: The engines.
-        whole: Whether people are shown negligible orders as well.
+       whole: Whether tables show negligible orders as well.
     """
 
     format: Literal["balcli.compare/1"] = "balcli.compare/1"
@@ -138,8 +138,7 @@ def compare_engines(
         orders: default: all that `analyze` shows for one of them.
         only: as in `analyze`; of sizing, the peaks that are left with the devices; default: the
             usual ones, and gas where all engines have some.
-        whole: whether people are shown orders that are negligible, too; they are if orders are
-            given.
+        whole: whether tables show negligible orders as well; they do if orders are given.
         small: as in `analyze`.
 
     Raises:
@@ -188,7 +187,7 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     """Return every figure of analyses by the same orders side by side.
 
     Args:
-        every_order: also orders above 2 of which all of them are free.
+        every_order: also orders above 2 that are balanced in all of them.
     """
     guides = _list_guides(analyses)
     tables = [

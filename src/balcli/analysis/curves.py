@@ -54,7 +54,7 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: What is taken because the engine file leaves it out: with `crank.spacing = 0`,
+        assumed: Values taken because the engine file leaves them out: with `crank.spacing = 0`,
             moments are those of throws in one plane.
     """
 
@@ -117,7 +117,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
-    """Return curves by their parts. What lies within the rounding error of its parts is 0.
+    """Return the sum of the parts of each curve; a sum within their rounding error is 0.
 
     Args:
         compute: parts at some angles, by name, each of shape (parts, angles).
@@ -244,7 +244,7 @@ def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Return what `add_cylinder_gas` adds for the cylinder in a row, each of shape (angles,).
+    """Return the curves that `add_cylinder_gas` adds for the cylinder in a row, each (angles,).
 
     Forces across count to the side to which the crank pin moves after top dead centre, which seen
     from a cylinder that turns lies behind it.
@@ -282,18 +282,18 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
     Args:
         engine: Engine from `load`.
-        step_deg: of the crank angle, which begins at 0; with gas it runs over the whole cycle.
-        cylinder: number of the one whose piston's travel, speed, acceleration and rod angle are
-            wanted, with its pressure if there is gas; default: the whole engine.
+        step_deg: Step of the crank angle, which begins at 0; with gas it runs over the whole cycle.
+        cylinder: Number of the cylinder whose piston travel, speed, acceleration and rod angle are
+            wanted, with its pressure if it has gas; default: the whole engine.
 
     Returns:
         `crank_deg` and, by name with unit (`force_x_N`), `curves` of the same shape (angles,).
-        Those of a cylinder count along it, outward, and across it, to the side to which the crank
-        pin moves after top dead centre; travel towards the crank (docs/json.md).
+        Forces of a cylinder count along it, outward, and across it, to the side to which the crank
+        pin moves after top dead centre; travel counts towards the crank (docs/json.md).
 
     Raises:
         BalcliError: a step that is too small or too large; no such cylinder.
-        TypeError: what is no engine.
+        TypeError: `engine` is not an Engine.
 
     Example:
         >>> curves(load("i4.toml"), 10).to_pandas()

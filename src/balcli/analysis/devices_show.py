@@ -72,7 +72,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
 def ladder_grid(
     ladder: Ladder, engine: Engine, system: System, *, tell_fitted: bool = True
 ) -> Grid:
-    """Return one row a step of the ladder, with sentences on what is left out.
+    """Return a table with one row for each step of the ladder, and sentences on omitted steps.
 
     Args:
         ladder: Ladder to show.
@@ -116,7 +116,7 @@ def ladder_grid(
 
 
 def _tell_later(scale: Scale, system: System) -> str:
-    """Return why the steps after the fitted one are not: what they take, beside one cylinder."""
+    """Return a sentence that compares the steps after the fitted one with one cylinder."""
     force, moment = scale.force_N, scale.moment_Nm
     sizes = [size_text(force, system.unit(FORCE))]
     sizes += [] if moment is None else [size_text(moment, system.unit(MOMENT))]
@@ -125,9 +125,7 @@ def _tell_later(scale: Scale, system: System) -> str:
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
-    """Return a sentence on a step that is left out, with the larger of what it would take; none
-    where that is hardly anything.
-    """
+    """Return a sentence on an omitted step, with the larger of the force and moment it removes."""
     size = abs(ladder.measure(out))
     if size < _HARDLY:
         return ""
@@ -148,7 +146,7 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """Yield what to know of shafts: how they stand, and where, if nobody has given a place."""
+    """Yield notes on shafts and sliders: how angles count, and where a shaft may stand."""
     if any(isinstance(device, Shaft) for device in devices):
         yield (
             "Shafts stand so at crank angle 0; angles of those that turn against the crank count "

@@ -32,7 +32,7 @@ AnalysisFormatOption = Annotated[
     format_option(
         AnalysisFormat,
         "How to write the result; default: by the ending of -o, else table. marine: external "
-        "forces and moments, guide moments and torque by order; with -f csv beside it, so written.",
+        "forces and moments, guide moments and torque by order; with -f csv as well, in CSV.",
     ),
 ]
 SpeedsOption = Annotated[
@@ -46,7 +46,7 @@ SpeedsOption = Annotated[
     ),
 ]
 By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
-Why = Annotated[bool, typer.Option("--why", help="Print what is balanced by symmetry or chance.")]
+Why = Annotated[bool, typer.Option("--why", help="Print why each order is balanced or not.")]
 
 
 class Request(NamedTuple):

@@ -240,14 +240,14 @@ _SENSES = {1: "with the crank", -1: "against the crank"}
 
 
 class _Order(NamedTuple):
-    """An order, and what is to be said of it.
+    """An order, and the parts of its sentence in the verdict.
 
     Attributes:
         k, order: Its index, and the order.
-        large: Those of force and moment that are not small.
-        rest: The others.
+        large: Force and moment, as far as they are not small.
+        rest: Force and moment, as far as they are small.
         couple: Its roll couple in words, where the moment is balanced and the couple is not.
-        cures: What would cancel the parts that are not small, by sense of rotation.
+        cures: Devices that would cancel the parts that are not small, by sense of rotation.
     """
 
     k: int
@@ -267,7 +267,7 @@ class _Order(NamedTuple):
 
     @property
     def balanced(self) -> bool:
-        """Whether force and moment are."""
+        """Whether force and moment are balanced."""
         return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
     def tell(self) -> str:

@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 
 
 _OPEN_END = (
-    "Without bearings: what stands at the last place is the free moment of all these loads about "
-    "it, which the mounts bear."
+    "Without bearings: the value at the last place is the free moment of all these loads about it, "
+    "which the mounts carry."
 )
 _TOGETHER = (
     "Of inertia: gas presses on throw and head alike, so that it shears and bends crankshaft and "

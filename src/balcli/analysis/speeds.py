@@ -179,12 +179,12 @@ class MarineSheet:
         axes: Axes that are called vertical and horizontal.
         height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
             number.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
         force_of_one: Force of one cylinder at each speed, N, next to which an external force may be
             negligible, shape (speeds,).
         moment_of_one: Moment of one cylinder, N m, shape (speeds,).
-        every_order: Whether people are shown orders that are negligible as well.
+       every_order: Whether tables show negligible orders as well.
     """
 
     format: Literal["balcli.marine/1"] = "balcli.marine/1"
@@ -429,8 +429,8 @@ def _find_least(name: str, result: MarineSheet) -> Array:
 
 
 def _find_orders_that_matter(name: str, result: MarineSheet) -> Array:
-    """Return which orders do at one of the speeds, shape (orders,); all that are not 0 if every
-    one is asked for.
+    """Return which orders matter at one of the speeds, shape (orders,); if every order is wanted,
+    all that are not 0.
     """
     least = 0.0 if result.every_order else _find_least(name, result)
     return np.asarray(np.any(np.nan_to_num(result.figures[name]) > least, axis=0))

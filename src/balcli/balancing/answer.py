@@ -1,5 +1,6 @@
-"""Engine -> Balance: what a scheme fits, and the analyses without and with it; knuckle angles that
-make strokes or dead centers of articulated rods even; a remedy written into an engine file.
+"""Engine -> Balance: the devices of a scheme, and the analyses without and with them; knuckle
+angles that make strokes or dead centers of articulated rods even; a remedy written into an engine
+file.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ _UNEVEN = "sized for steady mean speed; before and after are those of the uneven
 
 @dataclass(frozen=True, kw_only=True)
 class PermittedUnbalance:
-    """What a grade of ISO 21940-11 permits.
+    """Residual unbalance that a grade of ISO 21940-11 permits.
 
     Attributes:
         grade: Permitted speed of the centre of mass, mm/s.
@@ -60,18 +61,18 @@ class PermittedUnbalance:
 
 @dataclass(frozen=True, repr=False)
 class Balance(Result):
-    """A remedy, and what the engine does without and with it.
+    """A remedy, and the analyses of the engine without and with it.
 
     Attributes:
-        remedy: New devices, and why these.
+        remedy: New devices, and the reasons for them.
         before: Analysis of the engine without them.
         after: Analysis with them, of the same orders.
         practical: The workshop's figures of each device, in the order of `remedy.devices`.
         tools: Tools of the workshop.
         speed_note: How remedy and analyses differ in speed; empty if they do not.
-        permitted: What a grade permits, if one was asked for.
-        every_order: Whether orders were asked for, so that none of them is left out.
-        ladder: What balances the engine, step by step; None where articulated rods are changed.
+        permitted: Residual unbalance that a grade permits, if one was given.
+        every_order: Whether orders were given, so that none of them is left out.
+        ladder: Ladder of the engine; None where articulated rods are changed.
     """
 
     remedy: Remedy
@@ -86,7 +87,7 @@ class Balance(Result):
 
     @property
     def summary(self) -> str:
-        """The scheme, what it fits, and to what."""
+        """Name of the scheme, its devices and the engine, in words."""
         count = len(self.remedy.devices) + len(self.remedy.beyond)
         devices = f"{count} device{'s' * (count != 1)}"
         return f"{self.remedy.scheme}: {devices} for {self.before.engine.summary}"
@@ -99,21 +100,21 @@ def balance_engine(
     orders: Iterable[float] | None = None,
     tools: Tools | None = None,
 ) -> Balance:
-    """What a scheme fits and what it leaves.
+    """Return the devices that a scheme fits, and the analyses without and with them.
 
     Devices are sized for a steady speed; under uneven speed both analyses include it.
 
     Args:
         engine: without trailing axes.
-        scheme: its name, such as "counterweights" or "factor"; the message for one that is not
-            there has them all, and `balcli balance --schemes` says what each does.
+        scheme: its name, such as "counterweights" or "factor"; `balcli balance --schemes` lists and
+            explains all schemes.
         options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
         orders: which to show; default: 1 and 2 and all that are not negligible before or after.
         tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
 
     Raises:
         BalcliError: an unknown scheme, or options that cannot be met, with the reason.
-        TypeError: what is no engine; options or tools that are none.
+        TypeError: an argument of another type.
 
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
@@ -150,9 +151,9 @@ def balance_fit(
     Args:
         engine: The engine without them (`sizing.fit.remove_to_fit`).
         model: The file with them.
-        targets: What is to vanish, of "force", "moment", "roll" and "roll_total".
-        orders: As of `balance_engine`.
-        tools: As of `balance_engine`.
+        targets: Quantities to cancel, of "force", "moment", "roll" and "roll_total".
+        orders: Orders to show, as in `balance_engine`.
+        tools: Tools of the workshop, as in `balance_engine`.
         small: Share of one cylinder's first order below which the ladder leaves a part.
 
     Raises:
@@ -169,7 +170,7 @@ def _answer(
     tools: Tools | None,
     ladder: Ladder,
 ) -> Balance:
-    """Return what a remedy leaves, and what the workshop has to know."""
+    """Return a remedy with its analyses and its figures for the workshop."""
     tools = tools or Tools()
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
@@ -194,7 +195,7 @@ def analyze_both(
 def permit_unbalance(
     remedy: Remedy, grade: float | None, mass: float | None, speed_rpm: float
 ) -> PermittedUnbalance | None:
-    """Return what a grade permits next to each counterweight; None without a grade.
+    """Return the unbalance that a grade permits at each counterweight; None without a grade.
 
     Args:
         remedy: Remedy with counterweights.
@@ -247,7 +248,7 @@ class Knuckles:
         model: the engine file with the new `articulation.knuckle_angles`.
         angles_deg: the angle of each bank's knuckle pin.
         before, after: strokes and dead centres of all cylinders.
-        reasons: what was done, and for which banks nothing can be.
+        reasons: The changes, and the banks that cannot be made even.
     """
 
     model: EngineFile
@@ -262,9 +263,9 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     even.
 
     "dead-centres": every articulated piston is at the top when the crank pin stands as the master
-    piston's did; "strokes": every stroke is the master piston's. Both at once would need a radius
-    for each pin too. A bank of several rows is set by the first of them. Banks that no angle within
-    30 degrees makes even keep theirs.
+    piston's did; "strokes": every stroke is the master piston's. Both at once would also need a
+    radius for each pin. A bank of several rows is set by the first of them. Banks that no angle
+    within 30 degrees makes even keep their angle.
 
     Raises:
         BalcliError: the engine has no articulated rods, or this is no goal.
@@ -364,7 +365,7 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
 
 
 def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
-    """Row of the first cylinder of each bank."""
+    """Return the row of the first cylinder of each bank."""
     cells = plan_cylinders(model).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
     return [numbers.index(first[bank]) for bank in sorted(first)]
@@ -373,7 +374,7 @@ def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
 def _explain(
     goal: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
-    """What was done, and for which banks nothing can be; all arrays by banks."""
+    """Return the changes in words, and the banks that cannot be made even; all arrays by banks."""
     result = "strokes equal to the master's"
     if goal == "dead-centres":
         result = "top dead centres as even as the master's"
@@ -388,8 +389,8 @@ def _explain(
 
 
 def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
-    """The text of an engine file with the devices of a remedy after it, or with its knuckle angles
-    in place of older ones.
+    """Return the text of an engine file with the devices of a remedy appended, or with new knuckle
+    angles.
 
     Args:
         text: of the file, UTF-8. file: its name in messages.
@@ -431,8 +432,8 @@ def _fill_in(text: str, remedy: Remedy, file: str) -> str:
 
 
 def _insert_devices(text: str, remedy: Remedy) -> str:
-    """Return the text with the tables at the end; where the file has its devices as an inline list,
-    which cannot be added to, it is written anew, without its comments.
+    """Return the text with the tables at the end. A file with devices in an inline list, which
+    cannot be extended, is written anew without its comments.
     """
     end_of_line = "" if text.endswith("\n") or not text else "\n"
     tables = end_of_line + "".join(_write_tables(remedy))

@@ -65,7 +65,7 @@ Scheme = Annotated[
         metavar="NAME",
         autocompletion=complete_schemes,
         show_default="auto; factor where --factor or --measured is given",
-        help=f"What to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
+        help=f"Scheme to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
     ),
 ]
 
@@ -108,13 +108,13 @@ Target = Annotated[
     str | None,
     optional(
         "NAME,...",
-        'What devices with unbalance = "fit" in the file cancel: force, moment, roll, roll_total; '
+        'Targets of devices with unbalance = "fit" in the file: force, moment, roll, roll_total; '
         "default: force,moment.",
     ),
 ]
-Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
+Even = Annotated[str | None, optional("dead-centres|strokes", "Quantity for --scheme knuckles.")]
 Grade = Annotated[
-    str | None, optional("G", "Balance grade of ISO 21940-11, such as G16: what may be left.")
+    str | None, optional("G", "Grade of ISO 21940-11 for residual unbalance, such as G16.")
 ]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[
@@ -143,7 +143,7 @@ def show_balance(result: Balance, form: BalanceFormat, output: Path | None, unit
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
-    """Return what a workshop has.
+    """Return the tools of the workshop.
 
     Args:
         units: Units of the command.
@@ -200,7 +200,7 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
 
 
 def _check_even(scheme: str, options: SchemeOptions) -> None:
-    """Raise BalcliError for --even with another scheme, and options besides it."""
+    """Raise BalcliError for --even with another scheme or further options."""
     if scheme != KNUCKLES:
         raise BalcliError(
             f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
@@ -240,7 +240,7 @@ def balance(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Size counterweights, balancer shafts or sliders, and show what is left with them.
+    """Size counterweights, balancer shafts or sliders, and show the forces left with them.
 
     \b
     Examples:

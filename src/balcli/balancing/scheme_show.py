@@ -1,4 +1,4 @@
-"""What a scheme reports besides its devices: figures, bobweight card, factors."""
+"""Further figures of a scheme: details, bobweight card, factors."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def details_document(result: Balance) -> dict[str, object]:
 
 
 def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
-    """Yield all that the scheme reports besides its devices and its note."""
+    """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
     if details := _choose_figures(result):
         remarks = _list_remarks(result)
@@ -176,7 +176,7 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
             continue
         order = group.replace("_", " ") or f"order {remedy.order}"
         why = f"where they stand, the devices' forces have levers about {pivot}"
-        took = "what they take of the roll of inertia stood against that of the gas at this speed"
+        took = "the devices cancel inertia roll that opposes the gas roll at this speed"
         why = took if grown[0] < 0 else why
         gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
         yield f"The roll of {order}{gas} grows by {size}: {why}."
@@ -189,7 +189,7 @@ def _find_growth(before: float, left: float) -> float:
 
 # ------------------------------------------------------------------ tables
 def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
-    """Return what the file has in each plane, and what is missing."""
+    """Return the unbalance that the file has in each plane, and the missing one."""
     rows = [(need.position_mm, (need.wanted, need.present, need.missing)) for need in needs]
     unit = system.unbalance.fit(max(abs(vector) for _, vectors in rows for vector in vectors))
     at = "at, deg"
@@ -201,7 +201,7 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
             yield number(unit.of(abs(vector)))
             yield degrees(measure_direction(vector)) if vector else "–"
 
-    title = f"What each plane has, and lacks, {unit.name}"
+    title = f"Present and missing unbalance of each plane, {unit.name}"
     return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
 
 
@@ -245,8 +245,8 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         for row in sweep
     )
     note = (
-        "Bobweight of the first pin; weight: the largest counterweight to add. What is left: the "
-        "largest force, along and across the first bank; all orders."
+        "Bobweight of the first pin; weight: the largest counterweight to add. Forces that remain: "
+        "the largest, along and across the first bank; all orders."
     )
     return Grid("Largest values by factor", heads, rows, note=note)
 

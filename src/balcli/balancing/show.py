@@ -1,4 +1,4 @@
-"""A balance: devices, their practical figures, and what shakes before and after."""
+"""A balance: devices, their practical figures, and free forces before and after."""
 
 from __future__ import annotations
 
@@ -81,15 +81,15 @@ def sheet(result: Balance, system: System) -> Sheet:
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
     if remedy.reasons and not remedy.devices and not remedy.beyond:
-        parts.append(Text("What is changed, and why", remedy.reasons))
+        parts.append(Text("Changes and reasons", remedy.reasons))
     elif remedy.reasons:
-        parts.append(Text("What is fitted, and why", tuple(dict.fromkeys(remedy.reasons))))
+        parts.append(Text("Fitted devices and reasons", tuple(dict.fromkeys(remedy.reasons))))
         parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
     elif remedy.beyond:
         parts.append(
-            Text("What is fitted", ("Shafts that no engine file describes; see Details.",))
+            Text("Fitted devices", ("Shafts that no engine file describes; see Details.",))
         )
     else:
         parts.append(Text("Nothing is fitted", ()))
@@ -113,7 +113,7 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return what a step leaves of orders 1 and 2, and the couple."""
+    """Return words on the forces, moments and couple of orders 1 and 2 that a step leaves."""
     known, left = result.after.moments_known, []
     kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
@@ -167,8 +167,8 @@ def _tell_negligible(result: Balance) -> str:
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield what a grade permits, if one was asked for: of planes that have counterweights already,
-    and what they lack of it; of new ones, and how exactly each must be made.
+    """Yield the unbalance that a grade permits, if one was given: for existing counterweights with
+    the missing unbalance, for new ones with the accuracy that each needs.
     """
     if result.permitted is None:
         return
@@ -288,7 +288,7 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 # ------------------------------------------------------------------ JSON and CSV
 @dataclass(frozen=True, kw_only=True)
 class BalanceDocument:
-    """Devices that a scheme fits, and what shakes without and with them.
+    """Devices that a scheme fits, and the free forces without and with them.
 
     Attributes:
         scheme: Name of the scheme.
@@ -298,11 +298,11 @@ class BalanceDocument:
         reasons: Why these devices.
         practical: The workshop's figures of each device.
         details: Further figures of the scheme, under names that end in the unit.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         before: Peaks and orders without the devices.
         after: Peaks and orders with the devices.
-        permitted: What a balance grade permits in each plane.
-        ladder: What balances the engine, step by step.
+        permitted: Residual unbalance that a balance grade permits in each plane.
+        ladder: Devices that balance the engine, step by step.
     """
 
     format: Literal["balcli.balance/1"] = "balcli.balance/1"

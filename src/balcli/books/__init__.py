@@ -1,3 +1,1 @@
-"""The name of a printed coefficient table in, the table recomputed beside its print out, with
-every printed figure that is wrong.
-"""
+"""Printed coefficient tables, recomputed and compared with their prints, with their errata."""

@@ -171,15 +171,14 @@ def _find_name(name: str) -> str:
 def tables(
     name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
 ) -> Table:
-    """A printed coefficient table, recomputed, beside its print.
+    """Return a printed coefficient table, recomputed, with its print.
 
     Args:
-        name: of the table, such as "tsinghua-1-2" or "series"; the message for one that is not
-            there has them all, and so has `balcli tables`.
-        ratios: other crank ratios (crank radius over rod length) than the printed ones, where the
+        name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
+        ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
             table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: other crank angles, deg, likewise.
-        power: highest power of the crank ratio in "series", 0 to 200.
+        angles: Other crank angles than the printed ones, deg, in the same form.
+        power: Highest power of the crank ratio in "series", 0 to 200.
 
     Returns:
         The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every

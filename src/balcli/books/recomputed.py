@@ -33,7 +33,7 @@ CLASSES: dict[ErratumClass, str] = {
     "misprint": "the print contradicts its own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",
     "approximation": "a rounded constant or a shortened series of the author gives the print",
-    "method": "the author's method does not find what it looks for",
+    "method": "the author's method does not find the value that it searches for",
     "error": "the statement itself is wrong, not its print",
     "copy": "wrong in the scanned copy that was read; the print may be right",
 }
@@ -62,8 +62,8 @@ class Erratum:
     Attributes:
         row: Number of the row in its table, from 0.
         column: Heading of the column.
-        printed: What the source prints.
-        exact: What would be right.
+        printed: Text in the source.
+        exact: Right value or statement.
         kind: How the print came about, or how the right form of a statement is known.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.

@@ -1,4 +1,4 @@
-"""Exact coefficients in powers of lambda, beside those that the five sources print.
+"""Exact coefficients in powers of lambda, compared with those that the five sources print.
 
 Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
 
@@ -44,8 +44,8 @@ PRINTED: dict[str, Generator] = {  # other forms, where a source has them
 
 
 def tabulate_series(printed: Print, ranges: Ranges) -> Table:
-    """One row a coefficient, repeated for every source that prints it; what no source prints stands
-    without one.
+    """Return one row a coefficient, repeated for every source that prints it; unprinted ones have a
+    row without a source.
     """
     power = POWER if ranges.power is None else ranges.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]

@@ -1,8 +1,8 @@
 """Printed tables as sheets, JSON and CSV.
 
-One table is laid out as the print is, each figure rounded to the printed digits or to as many as
-are asked for; where the print deviates it follows: `.4313 ≠ .4312`. JSON and CSV hold full
-precision. Besides: all errata, the list of tables, and the table of common layouts.
+A table is laid out like its print, each figure rounded to the printed or requested number of
+digits. Deviating prints follow the figure: `.4313 ≠ .4312`. JSON and CSV have full precision. The
+module also shows all errata, the list of tables, and the table of common layouts.
 """
 
 from __future__ import annotations
@@ -171,7 +171,7 @@ def _lay_out_statement(e: Erratum) -> Text:
 
 
 def _explain(errata: Sequence[Erratum]) -> Grid:
-    """Return the classes of these errata, with their numbers and what they mean."""
+    """Return the classes of these errata, with their numbers and meanings."""
     counts = Counter(e.category for e in errata)
     rows = tuple((name, str(counts[name]), text) for name, text in CLASSES.items() if counts[name])
     figures = sum(e.column != STATEMENT for e in errata)
@@ -206,7 +206,7 @@ _LIST_COLUMNS = ("name", "title", "source", "errata")
 
 
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
-    """A table a row, and what to ask next; where they were printed, by their names' first word."""
+    """Return one row a table, their sources, and further commands."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = [e for t in tables for e in t.errata]
     misprints = sum(e.category == "misprint" for e in errata)

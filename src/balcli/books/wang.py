@@ -22,8 +22,8 @@ FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
-    """The true optimum, the printed search, and what the printed choice really leaves over the
-    whole revolution.
+    """Return the true optimum, the printed search, and the force that the printed choice leaves
+    over the whole revolution.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     lams, k0, alpha0 = (

@@ -1,5 +1,5 @@
-"""Worked examples of crank torque and flywheels in textbooks: the exact answers, and what the
-authors took instead.
+"""Worked examples of crank torque and flywheels in textbooks: the exact answers, and the authors'
+answers with their reasons.
 
 Liang Shoupan, Engine Dynamics, 1948: the worked examples, in inches, pounds and seconds.
 
@@ -32,7 +32,7 @@ def _load_uicker() -> Array:
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
-    """Exact answers beside the printed ones."""
+    """Return the exact answers with the printed ones."""
     uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_load_uicker(), _load_uicker()[0]])
     energy = surplus(uicker).energy
     answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
@@ -94,7 +94,7 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 
 
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
-    """Exact answers next to the printed ones, in the order of the book."""
+    """Return the exact answers with the printed ones, in the order of the book."""
     rounded = _round(1.79 * 37400 / 32.2)
     others: list[tuple[ErratumClass, str, int, float]] = [
         ("approximation", "omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),

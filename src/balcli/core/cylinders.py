@@ -1,4 +1,4 @@
-"""What moves in an engine: its cylinders, one row each, and its balancing devices. SI units.
+"""Moving parts of an engine: its cylinders, one row each, and its balancing devices. SI units.
 
 Stroke and dead centres of every piston; those of articulated ones differ from the crank's throw
 and angle.
@@ -36,9 +36,9 @@ class Cylinders:
         radius: crank radius, m.
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
-        couple: `H` of the rods, kg m2 (docs/theory.md: what two point masses lack of the rod's
-        moment of inertia, with the sign changed).
-        linkage: of cylinders that are more than slider-cranks; its masses come on top of these.
+        couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
+        that of the rod).
+        linkage: linkage of cylinders that are more than slider-cranks, with additional masses.
     """
 
     axis_deg: Array
@@ -56,7 +56,7 @@ class Cylinders:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Number of cylinders."""
         return len(self.pin_deg)
 
     @property
@@ -99,7 +99,7 @@ class Cylinders:
         return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
 
     def find_highest_order(self) -> int:
-        """Return the order beyond which nothing that moves exceeds rounding errors."""
+        """Return the order beyond which no moving part exceeds rounding errors."""
         return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
 
     def count_all_samples(self) -> tuple[int, int]:
@@ -124,11 +124,11 @@ class Device(NamedTuple):
     Figures are numbers, or arrays of variants.
 
     Attributes:
-        order: turns for each of the crank.
-        forward, backward: mass x radius that turns with the crank, and against it, kg m.
-        place: x + iy of its axis, m.
-        z: m.
-        kind: what it is.
+        order: Turns for each turn of the crank.
+        forward, backward: Mass x radius that turns with the crank, and against it, kg m.
+        place: Position x + iy of its axis, m.
+        z: Position along the crank, m.
+        kind: Kind of the device.
     """
 
     order: int

@@ -22,8 +22,8 @@ def find_highest(
 ) -> tuple[Real, Real]:
     """Return place and height of each function's maximum, also between places, (functions,).
 
-    Searched is every interval between neighbouring places that may hold it: whose higher end is
-    near the level, and no farther below it than the function rises or falls thereabouts.
+    Every interval between neighbouring places that may contain the maximum is searched: its higher
+    end is near the level, and no farther below it than the function changes nearby.
 
     Args:
         judge: as of `find_peaks_between`.
@@ -52,14 +52,14 @@ def find_peaks_between(
     round and its interval no wider than the peak; intervals that do not have it are given up.
 
     Every peak that shows at an eighth of its interval and may be the highest is enclosed ever
-    closer; the last place is the vertex of a parabola. What rises and falls between two of these
-    places, more than the function does beside them, is not seen.
+    closer; the last place is the vertex of a parabola. A narrower peak between two of these places
+    is missed.
 
     Args:
-        judge: places (places, some), each column in an interval, and the functions these belong to
-            (some,) -> the values there.
-        low, high: (intervals,), their ends.
-        which: (intervals,), the function of each.
+        judge: Function of places (places, some), each column in an interval, and of the numbers of
+            their functions (some,), to the values there.
+        low, high: Ends of the intervals, shape (intervals,).
+        which: Number of the function of each interval, shape (intervals,).
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
     best, highest = low.copy(), np.full(len(low), -np.inf)

@@ -43,7 +43,7 @@ GOALS = {
 # ---------------------------------------------------------------- what is given
 @dataclass(frozen=True)
 class Process:
-    """All of a cycle but its heat: absolute pressures in Pa, cycle angles in deg.
+    """Figures of a cycle without its heat: absolute pressures in Pa, cycle angles in deg.
 
     Attributes:
         cycle: How it burns: "otto", all heat at the dead centre; "diesel", at the constant pressure

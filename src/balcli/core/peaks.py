@@ -5,8 +5,8 @@ such curve for each of its components. Orders are multiples of 1/2, so that a cy
 have the orders first, then any axes of curves, then the components of vectors.
 
 A trigonometric polynomial of degree h that swings by R about its middle is above `R cos(h d)` at a
-distance d from its top (M. Riesz). So of 16 samples for each period of the highest order, those
-beside the highest peak are among the highest, and Newton's method climbs the curve from there.
+distance d from its top (M. Riesz). With 16 samples for each period of the highest order, those next
+to the highest peak are among the highest, and Newton's method climbs the curve from there.
 """
 
 from __future__ import annotations

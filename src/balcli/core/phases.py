@@ -48,12 +48,12 @@ class Vectors(NamedTuple):
 
 
 class Phases:
-    """The phases of an engine's cylinders for some orders, which sum what cylinders do.
+    """The phases of an engine's cylinders for some orders, and sums over the cylinders.
 
     Attributes:
         orders: shape (orders,).
-        n: the same as a column before cylinders and trailing axes.
-        count: how many cylinders there are.
+        n: the orders as a column before cylinders and trailing axes.
+        count: number of cylinders.
         rounding: bound of the error of a sum over cylinders relative to its terms, shape as `n`.
     """
 
@@ -105,7 +105,7 @@ class Phases:
         return Phasors(self.orders, sums, noise)
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Sum of what the cylinders do about z."""
+        """Sum of the cylinders' scalars about z."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
         if self.n.ndim > 2 and len(series.c[0]) == 1 and np.all(self.orders):
             (turned,) = self._add_turned(self._scalar, None)
@@ -186,7 +186,7 @@ class Phases:
 
 
 class SeparatePhases(Phases):
-    """Not summed: what each cylinder does by itself, shape (orders, cylinders).
+    """Phases that are not summed: terms of each cylinder, shape (orders, cylinders).
 
     For engines without trailing axes.
     """

@@ -81,7 +81,7 @@ def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
-    """Return the same directions in (-turn/2, turn/2], in their shape, nan for nan.
+    """Return directions wrapped to (-turn/2, turn/2], in their shape, nan for nan.
 
     Args:
         degrees: Directions, deg, any shape.
@@ -262,11 +262,11 @@ class Phasors:
 
 
 class FactoredPhasors(Phasors):
-    """Phasors whose vectors are products of what varies along some axes (what each of equal
-    cylinders does) and what varies along others (where they point).
+    """Phasors whose vectors are products of a factor (amplitude of equal cylinders) and a vector
+    (their direction), which vary along different axes.
 
     The size of a product is the product of the sizes, so that amplitudes of many variants need no
-    complex number for each of them; vectors are multiplied where somebody reads them.
+    complex numbers; vectors are multiplied only when they are read.
 
     Args:
         orders: shape (orders,).

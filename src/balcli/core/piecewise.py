@@ -75,7 +75,7 @@ class PiecewiseCurve:
 
     @cached_property
     def integral(self) -> float:
-        """Integral over one period; 0 if it is what rounding leaves of panels that cancel."""
+        """Integral over one period; 0 if panels cancel to rounding."""
         panels = self.series[0] * np.diff(self.breaks)
         total = float(np.sum(panels))
         return 0.0 if abs(total) <= _ROUNDING * float(np.sum(np.abs(panels))) else total

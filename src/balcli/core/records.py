@@ -17,7 +17,7 @@ Rules:
 * A complex number becomes a list of its real and imaginary part.
 * Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
   its value and its crank angle, `WrittenAs` a value as the record that a function makes of it,
-  `Axes(2)` is an array of two axes (no mark: one), `INLINE` puts the keys of a value beside those
+  `Axes(2)` is an array of two axes (no mark: one), `INLINE` puts the keys of a value among those
   of the other attributes (of a dict, any keys), `HIDDEN` keeps an attribute for Python alone.
 
 Example::

@@ -7,9 +7,9 @@ omega omega')`, docs/theory.md). In Fourier coefficients all of these are short 
 that every order stays as exact as at steady speed. Orders are whole, or multiples of 1/2 for a
 speed that repeats itself after two revolutions.
 
-How a torque that varies makes the speed of a shaft vary, without a differential equation.
+Speed of a shaft under a varying torque, without a differential equation.
 
-Energy: `1/2 I omega^2` grows by what the torque does above the load, W. So `omega^2 = (C + 2 W)/I`
+Energy: `1/2 I omega^2` grows by the work W of the torque above the load. So `omega^2 = (C + 2 W)/I`
 at every angle, I the inertia with all that moves, and C follows from the mean speed over the angle
 (as `speed_ripple` counts it). Angles of the shaft in radians; a period may be any number of turns.
 """
@@ -81,11 +81,11 @@ class Timetable(NamedTuple):
     """When uneven speed passes the crank angles of a cycle, and how long each takes.
 
     Attributes:
-        clock: (samples,) of equally spaced angles of the cycle, from 0 on: what a steady crank of
-            as many turns has reached by then, rad; where it began is nobody's matter.
-        stay: (samples,) time that an angle takes, over its mean.
-        step: of the orders: 1 for a cycle of one turn, 1/2 for one of two.
-        turns: revolutions in a time, over those that the mean over the angle would make of it.
+        clock: Angle of a steady crank with the same number of turns when the crank passes equally
+            spaced angles of the cycle, from 0 on, rad, up to a constant, shape (samples,).
+        stay: Time that each angle takes, over its mean, shape (samples,).
+        step: Step of the orders: 1 for a cycle of one turn, 1/2 for one of two.
+        turns: Revolutions per time, over those at the mean speed over the angle.
     """
 
     clock: Array
@@ -128,8 +128,8 @@ def find_reach(timetable: Timetable, order: float) -> float:
 
 
 def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Return curves over the crank angle by orders of the time: how often something happens while
-    the crank turns once on an average.
+    """Return curves over the crank angle by orders of the time: cycles for each mean revolution of
+    the crank.
 
     Args:
         curves: without trailing axes, each of all orders that count.
@@ -159,11 +159,12 @@ def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
     """Return the force, moment or couple under W.
 
     Args:
-        steady: the same at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
-        w: from `find_speed` with the same step, up to order k.
-        mean: mean momentum (for the couple: of what turns), which a steady speed does not show.
+        steady: Force at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
+        w: Coefficients from `find_speed` with the same step, up to order k.
+        mean: Mean momentum (for the couple: mean moment of momentum), which has no effect at a
+            steady speed.
 
-    Returns: for the same orders, correct up to n - 2k.
+    Returns: the force for the same orders, correct up to n - 2k.
     """
     return _apply(steady, w, mean, rate_last=False)
 
@@ -275,7 +276,7 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
 
 
 def energy(torque: PiecewiseCurve) -> PiecewiseCurve:
-    """Return what the torque (N m) has done above its mean from the first breakpoint on, J."""
+    """Return the work of the torque (N m) above its mean from the first breakpoint on, J."""
     return torque.antiderivative(torque.mean)
 
 

@@ -1,7 +1,5 @@
-"""How deep a radial hole must be to remove a given unbalance, or to add it with a slug of heavier
-metal: the shop's arithmetic for counterweights and for rotors on a machine.
-
-And the permitted residual unbalance by ISO 21940-11.
+"""Depth of a radial hole that removes a given unbalance, or adds it with a slug of heavier metal;
+and the permitted residual unbalance by ISO 21940-11.
 """
 
 from __future__ import annotations
@@ -21,8 +19,9 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
     `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
 
     Args:
-        unbalance: kg m. drill: diameter, m.
-        density: of what is taken out, or of a slug less the steel in whose place it is put, kg/m3.
+        unbalance: Unbalance to remove, kg m.
+        drill: Diameter of the drill, m.
+        density: Density of the rotor, or that of a slug less that of the steel it replaces, kg/m3.
     """
     unbalance_per_square = density * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
     share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2

@@ -169,7 +169,7 @@ def solve_response(
 
     Args:
         stiffness: K (dof, dof), complex where it has loss; or (*frequency, dof, dof).
-        damping: C (dof, dof), likewise.
+        damping: C (dof, dof), or (*frequency, dof, dof).
         mass: M (dof, dof), positive definite.
         frequency: w in rad/s, any shape.
         load: f that broadcasts to (*frequency, dof).

@@ -197,8 +197,8 @@ def _list_idle(gas: Gas, strokes: int, *, measured: bool) -> Iterator[str]:
         yield "gas.crankcase changes nothing with harmonics, which are of the torque"
     if strokes == 2 and "exhaust" in gas.model_fields_set:
         yield (
-            "gas.exhaust changes nothing in a two-stroke cycle: while its ports are open the "
-            "pressure is that of intake"
+            "gas.exhaust changes nothing in a two-stroke cycle: while the ports are open the "
+            "pressure is gas.intake"
         )
 
 

@@ -172,7 +172,7 @@ class Engine:
         return float(self.speed_rpm) == self.model.operation.speed
 
     def list_assumed(self, *chapters: str, without: Collection[str] = ()) -> tuple[str, ...] | None:
-        """Return what is taken because the file leaves it out, of `inferred`; None: nothing.
+        """Return the values taken because the file leaves them out, of `inferred`; None: none.
 
         Args:
             chapters: Tables that count in addition to those of every engine: gas, torsion, body,
@@ -216,7 +216,7 @@ class Engine:
 
     @property
     def cycle_revolutions(self) -> int:
-        """Revolutions after which everything in a cylinder repeats, gas included."""
+        """Number of revolutions after which a cylinder's forces repeat, gas included."""
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
 
     # -------------------------------------------------------------- cylinders and crank pins

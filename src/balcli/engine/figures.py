@@ -104,7 +104,7 @@ def _find_rivals(
     """Yield names of other keys in a table (at `start`) that exclude its varying `key`."""
     for other in varied:
         if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
-            raise BalcliError(f"{start}.{key} and {other} say the same; vary one of them")
+            raise BalcliError(f"{start}.{key} and {other} give the same figure; vary one of them")
     given = [other for other, value in table if value is not None]
     for choice in table.choices:
         rivals = choice.rivals(key)

@@ -171,8 +171,8 @@ def choose_speeds(
 
 
 class EngineVariants:
-    """Builds variants of an engine one by one, and keeps the last ones: a variant that returns is
-    not built again, nor the gas of one that has only other masses or another speed.
+    """Builds variants of an engine one by one, and caches the last ones. The gas is computed again
+    only for variants that differ in more than masses or speed.
 
     Args:
         model: Engine file.

@@ -197,7 +197,7 @@ class Candidate:
         return f"on {bank}, throw {cell.throw + 1}"
 
     def rank(self, position: int) -> tuple[float, ...]:
-        """Return the key to sort lines by: less of what counterweights leave, less splay, and the
+        """Return the key to sort lines by: force and moment that counterweights leave, splay, and
         position in the tier; with one rod a throw, odd and even numbers before bank by bank.
         """
         if self.parts.plan.rods_on_throw == 1:
@@ -279,8 +279,8 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
 
 def check_numbering(parts: Parts) -> Iterator[Problem]:
-    """Find a firing order that does not fit the crank, or that could mean several engines; which
-    engine is meant does not depend on what varies.
+    """Find a firing order that does not fit the crank, or that could mean several engines. Varying
+    figures do not affect this.
     """
     missed = find_missed(parts)
     if is_open(parts):
@@ -547,7 +547,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
 
 
 def _doubt_splay(model: EngineFile) -> Iterator[str]:
-    """Yield a warning if the splay of split pins leaves what its opposite would balance."""
+    """Yield a warning if split pins leave a part that the opposite splay would balance."""
     splay = model.crank.splay
     opposite = model.with_table("crank", splay=-splay)
     here, there = (Candidate(each, []).backward_share for each in (model, opposite))

@@ -185,9 +185,9 @@ class Places(NamedTuple):
     """Places along the crank, m.
 
     Attributes:
-        z: Of each cylinder.
-        throws: Of each throw, in the middle of its rods, shape (throws, *trailing).
-        pins: The same as [crank] gives them; where it does not, those of the rods.
+        z: Position of each cylinder.
+        throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
+        pins: Position of each throw as [crank] gives it, else that of the middle of its rods.
         reference: x, y, z of the point of moments: the file's, or on the crank axis half-way
             between the first and the last throw.
     """

@@ -1,5 +1,5 @@
-"""Piston and rod of one cylinder: masses, lengths and moment of inertia from what a file says of
-them (docs/theory.md).
+"""Piston and rod of one cylinder: masses, lengths and moment of inertia from the figures of a file
+(docs/theory.md).
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Readings of a rotor on a machine in, correction weights and what they leave out."""
+"""Field balancing: readings of a rotor on a machine in, correction weights and residuals out."""

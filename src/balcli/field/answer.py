@@ -1,5 +1,5 @@
 """Correction weights of a rotor, the readings that they leave, whether its grade is reached, and
-what is doubtful of the runs: `balance_rotor`.
+warnings of doubtful runs: `balance_rotor`.
 
 The corrections x make the readings `|V + alpha x|` small: the sum of their squares, or the largest
 of them (`minimise`), where V are the readings from which balancing goes on and alpha the influence
@@ -189,7 +189,7 @@ _G_MM = 1e-6  # kg m
 
 @dataclass(frozen=True, kw_only=True)
 class Sensor:
-    """What one reading is: a sensor at a speed.
+    """Identity of a reading: a sensor at a speed.
 
     Attributes:
         sensor: Name of the sensor, or its number.
@@ -292,7 +292,7 @@ class FieldBalance(Result):
         weight_unit: Unit of the weights.
         phases: Sense in which phases of readings count: with or against rotation.
         weights: Sense in which angles of weights count: with or against rotation.
-        minimise: What was minimized: the sum of squares, or the largest, of the readings.
+        minimise: Minimized quantity: the sum of squares, or the largest, of the readings.
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
@@ -302,9 +302,8 @@ class FieldBalance(Result):
         rms: Root mean square of the weighted readings after the corrections.
         condition: Condition number of the influence coefficients; null if it is infinite.
         bound: Proven bound: no weights leave a smaller largest reading; left out for squares.
-        trimmed: Name of the last run with a correction in; left out if there is none.
-        permitted: Permitted residual unbalance; left out if the file has no grade, or not all that
-            its judgment needs.
+        trimmed: Name of the last run with a correction in; left out without such a run.
+        permitted: Permitted residual unbalance; left out without a grade or keys that it needs.
         file: The file of runs.
         runs: Readings, coefficients and weights by state.
     """
@@ -348,7 +347,7 @@ class FieldBalance(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What is valid but suspicious of runs and weights, each with its value and a remedy."""
+        """Warnings of valid but suspicious runs and weights, each with its value and a remedy."""
         return tuple(find_doubts(self))
 
 
@@ -467,7 +466,7 @@ def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
     dead = [plane for plane, column in zip(planes, matrix.T, strict=True) if not column.any()]
     if more > 0:
         message = (
-            f"{counted(len(planes), 'plane')} cannot be told apart by "
+            f"{counted(len(planes), 'plane')} cannot be distinguished by "
             f"{counted(readings, 'reading')}; add sensors or speeds, or leave "
             f"{counted(more, 'plane')} out with --without"
         )
@@ -494,7 +493,7 @@ def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
 
 
 def list_missing(file: RunsFile) -> dict[str, str]:
-    """Return what the file lacks to judge its unbalance: an example by key."""
+    """Return the missing keys that the file needs to judge its unbalance, each with an example."""
     needed = {"grade": "grade = 6.3", "mass": "mass = 120", "speed": "speed = 3000"}
     if file.weighs_masses:
         radius = f"radius = {[200] * len(file.planes)}"
@@ -505,7 +504,7 @@ def list_missing(file: RunsFile) -> dict[str, str]:
 def _find_permitted(
     file: RunsFile, runs: Influence, used: list[int], factors: Array, step: Complex
 ) -> Permitted | None:
-    """Return permitted and present unbalance; None without a grade, or what belongs to it.
+    """Return permitted and present unbalance; None without a grade or keys that it needs.
 
     Args:
         file: Runs.

@@ -48,7 +48,7 @@ def field(
     output: Output = None,
 ) -> None:
     """Balance a rotor on the machine or in its bearings: from readings with trial weights to
-    correction weights, places or drill holes, and what is left.
+    correction weights, places or drill holes, and the residual readings.
 
     `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
     with a trial weight in each plane. Weights and readings have the units of the file.

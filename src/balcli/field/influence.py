@@ -53,7 +53,7 @@ class Series(NamedTuple):
 
 
 class Influence(NamedTuple):
-    """Readings of all speeds, one speed after the other, and what weights do to them.
+    """Readings of all speeds, one speed after the other, and the effects of weights on them.
 
     Attributes:
         speeds_rpm: Speed of every reading, rpm; None if the file gives none.
@@ -64,7 +64,7 @@ class Influence(NamedTuple):
             without such a run.
         start: Readings from which balancing goes on, shape (readings,): those with the weights
             `weights_on`, computed from `latest` where other weights were on.
-        trimmed: Name of the last run with a correction in, at any speed; empty if there is none.
+        trimmed: Name of the last run with a correction in, at any speed; empty without one.
         weights_on: Weights that were on in that run, shape (planes,); otherwise 0.
     """
 
@@ -223,8 +223,8 @@ def count_needed(series: Series, used: Collection[int]) -> int | None:
 
 
 def find_last_correction(series: Series, count: int) -> int | None:
-    """Return the place of the last run after the first `count` whose weights none of these had, or
-    that no weights had either; None: there is none.
+    """Return the index of the last run whose weights differ from those of each of the first `count`
+    runs; None: no such run.
     """
     states = series.weights
     apart = np.abs(states[:, np.newaxis] - states[:count]).max(axis=2)

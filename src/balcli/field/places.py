@@ -1,4 +1,4 @@
-"""What can be done in a plane: weights at places or at any angle, or holes in the rim.
+"""Corrections that a plane allows: weights at places or at any angle, or holes in the rim.
 
 Weights at given angles, each from 0 to a largest one, make together any weight in a convex polygon
 (`find_region`). `split_weight` finds the lightest set of weights that makes a given one.
@@ -117,8 +117,8 @@ def split_weight(
     """Return the lightest weights at given angles that together make a given weight.
 
     This is the optimum of a linear program: all places of an arc of less than half a turn are full,
-    its two neighbors take what remains, all others are empty. Proof: price the two components of
-    the weight so that the two neighbors are worth what they weigh; then the places between them are
+    its two neighbors take the remainder, all others are empty. Proof: price the two components of
+    the weight so that the two neighbors are worth their weight; then the places between them are
     worth more and all others less.
 
     Args:
@@ -186,7 +186,7 @@ def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
 def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
     """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
 
-    If `other` is half a turn or more on from `one`, `one` has to do alone; what cannot be is -1.
+    If `other` is half a turn or more ahead of `one`, only `one` is used; impossible weights are -1.
     """
     across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
     parts = np.array([-(np.conj(other) * wanted).imag, miss])

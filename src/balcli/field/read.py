@@ -30,7 +30,7 @@ RUNS_FILE = (
 
 
 def read_runs(source: str | Path) -> RunsFile:
-    """The runs in a file, or on standard input for "-".
+    """Return the runs in a file, or on standard input for "-".
 
     Raises BalcliError if there is nothing to read, InputError with every mistake of the text.
     """
@@ -38,14 +38,14 @@ def read_runs(source: str | Path) -> RunsFile:
 
 
 def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
-    """The runs that a TOML text describes; `file` is its name in messages. Raises InputError with
-    every mistake.
+    """Return the runs that a TOML text describes; `file` is its name in messages. Raises InputError
+    with every mistake.
     """
     return check_runs(parse_toml(text, file, RUNS_FILE), file)
 
 
 def check_runs(data: Mapping[str, object], file: str = "") -> RunsFile:
-    """The runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
+    """Return the runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
     refuse_other_kind(data, file, RUNS)
     reader = TableReader(RUNS.name, _describe)
     stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
@@ -87,12 +87,12 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
 
 
 def _find_misfits(file: RunsFile, runs: Sequence[Run | None], tables: Any) -> Iterator[Problem]:
-    """Yield what does not fit together, as far as the file can be read.
+    """Yield contradictions, as far as the file can be read.
 
     Args:
-        file: everything but the runs.
-        runs: the runs; None for each that has mistakes.
-        tables: the runs as TOML is read.
+        file: The file without its runs.
+        runs: The runs; None for each with mistakes.
+        tables: The runs as TOML is read.
     """
     yield from _check_lists(file)
     yield from _check_holes(file)
@@ -145,7 +145,7 @@ def _find_kth(values: Sequence[float] | None, k: int) -> float:
 
 
 def _check_runs(file: RunsFile, runs: Mapping[int, Run], whole: bool) -> Iterator[Problem]:
-    """Yield what does not fit in runs, which come by their numbers; `whole`: these are all."""
+    """Yield contradictions in runs, given by their numbers; `whole`: whether these are all."""
     first, pattern = next(iter(runs.items()))
     sensors = len(file.sensors or pattern.readings)
     whose = "sensors names" if file.sensors else f"run.{first} has"

@@ -56,7 +56,7 @@ def _list_lines(found: Node, planes: tuple[str, ...]) -> Iterator[tuple[object, 
 def _list_part(
     part: str, found: Node, sensor: str = "", unit: str = "", speed_rpm: float | None = None
 ) -> Iterator[tuple[object, ...]]:
-    """Yield a line for each figure of an object; `unit` is that of weights and amplitudes."""
+    """Yield a line for each figure of an object; weights and amplitudes have this unit."""
     for name, value, known in list_figures(found, ("plane",)):
         of_file = name.rpartition(".")[2] in ("weight", "amplitude")
         cells = part, speed_rpm, name_cell(sensor), name, value
@@ -125,7 +125,7 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     yield "Weights to add, counted from the rotor as found, all trial weights off."
     if result.trimmed:
         yield f"Add now: on top of what was on in '{result.trimmed}'."
-    yield f"Own effect: what no other plane can do; condition {number(result.condition, 3)}."
+    yield f"Own effect: share that no other planes have; condition {number(result.condition, 3)}."
     for each in result.corrections:
         if each.wanted is not None:
             best = _weight_text(result, each.wanted)
@@ -169,11 +169,11 @@ def _explain_pieces(result: FieldBalance) -> Iterator[str]:
         as_much = "Each does as much as this weight at the rim; its steel, further in, weighs more."
         yield as_much if file.weighs_masses else "Each removes this unbalance."
     else:
-        yield "Together they do what the corrections do."
+        yield "Together they are equal to the corrections."
     if drilled and result.trimmed:
         yield "Depths are of new holes: those drilled before are not in the file."
     elif result.trimmed and file.most is not None:
-        yield "The limit is for these alone: what a place carries already is not in the file."
+        yield "The limit is for these alone: weights already at a place are not in the file."
     if result.limited:
         yield "Places and limits allow no better: see the readings below."
     if result.limited and drilled and file.places is None:

@@ -1,4 +1,4 @@
-"""What a file of runs may say: readings as amplitude and phase, weights as amount and angle.
+"""Tables of a file of runs: readings as amplitude and phase, weights as amount and angle.
 
 Readings keep the unit in which they were read, weights the unit of the file (`weight_unit`).
 Lengths are in mm, speeds in rpm, the mass of the rotor in kg, angles in degrees.
@@ -51,8 +51,9 @@ class Polar(Number):
     """A complex number written as amplitude and angle in degrees: `"170 @ 112"`.
 
     Args:
-        example: for messages. zero: whether the amplitude may be 0.
-        unit: key of the file that names the unit of all such values, if there is one.
+        example: A right value, for messages.
+        zero: Whether the amplitude may be 0.
+        unit: Key of the file that names the unit of all such values, if there is one.
     """
 
     def __init__(self, example: str, *, zero: bool, unit: str = "") -> None:
@@ -83,7 +84,7 @@ class Polar(Number):
         return make_polar(amplitude, angle)
 
     def _describe_misfit(self, text: str) -> str:
-        """What is wrong with a text that is not amplitude and angle."""
+        """Return the mistake in a text that is not amplitude and angle."""
         if self.unit and (found := _WITH_UNIT.fullmatch(text)):
             figure, unit, angle = found.groups()
             return (
@@ -99,7 +100,7 @@ class Polar(Number):
 
 
 def make_polar(amplitude: float, angle_deg: float) -> complex:
-    """The complex number; exact on the axes, where shops like to put their trial weights."""
+    """Return the complex number, exact on the axes, where trial weights are often put."""
     quarter, rest = divmod(angle_deg, 90)
     turned = cmath.rect(amplitude, math.radians(rest)) if rest else complex(amplitude)
     return turned * (1, 1j, -1, -1j)[int(quarter) % 4]
@@ -146,7 +147,7 @@ class PlaceAngles(Number):
 
 
 def read_amount_unit(name: str) -> Unit:
-    """The unit of a weight; ValueError if it is unknown."""
+    """Return the unit of a weight; ValueError if it is unknown."""
     return read_unit(name, _AMOUNTS)
 
 

@@ -1,6 +1,6 @@
 """Valid but suspicious: figures that no ordinary engine has, most often a slip of the unit.
 
-The limits are wide: engines from models to ships pass. Each warning has the value, what is usual
+The limits are wide: engines from models to ships pass. Each warning has the value, the usual range
 and a remedy.
 """
 
@@ -69,12 +69,12 @@ class Figure(NamedTuple):
     """A figure of a file, and its usual range.
 
     Attributes:
-        name: with its verb, such as "rod.cg is".
-        value: as the file has it.
-        least, most: between which it is usual.
-        unit: of these three, with a space before it; empty: a plain number.
-        hint: what may be wrong.
-        digits: of the value that are shown.
+        name: Name with its verb, such as "rod.cg is".
+        value: Value in the file.
+        least, most: Usual range.
+        unit: Unit of value and range, with a space before it; empty: a plain number.
+        hint: Probable mistake.
+        digits: Number of digits of the value that are shown.
     """
 
     name: str
@@ -97,10 +97,10 @@ def find_suspicious(model: EngineFile) -> list[str]:
 
 
 def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
-    """Yield warnings for loss factors that nothing has: in percent, most likely.
+    """Yield warnings for impossible loss factors, most likely given in percent.
 
     Args:
-        losses: each with its path in the file; None: not given.
+        losses: Loss factors by their paths in the file; None: not given.
     """
     hint = "{0:g} % is {1:g}, and of a relative damping psi the loss factor is psi/(2 pi)"
     yield from _doubt(

@@ -310,9 +310,10 @@ class Choice(NamedTuple):
     """Groups of keys that exclude each other.
 
     Attributes:
-        groups: of these one may be given.
-        required: one must be given.
-        complete: a group that is begun must be finished: every one, or the one that is named.
+        groups: Groups of keys, of which one may be given.
+        required: Whether one must be given.
+        complete: Whether a group must be given in full once begun; or the one group for which
+            this holds.
     """
 
     groups: tuple[tuple[str, ...], ...]

@@ -138,7 +138,7 @@ class Gas(FileTable):
         others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
         if others and self.cycle is None and (self.indicator or self.harmonics):
             what = "indicator" if self.indicator else "harmonics"
-            yield f"has {join_words(others)} beside {what}; these belong to a computed cycle"
+            yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
     def _check_wiebe(self) -> Iterator[str]:
         wiebe = [key for key in self.wiebe_keys if key in self.model_fields_set]

@@ -211,8 +211,7 @@ def format_heading(path: str) -> str:
 
 
 def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:
-    """Return what to write instead of an unknown key, in words, and the key that was probably
-    meant, or "".
+    """Return the remedy for an unknown key, in words, and the key that was probably meant, or "".
 
     Args:
         key: as it is written.

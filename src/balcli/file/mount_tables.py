@@ -89,7 +89,7 @@ def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
     for name, value, square in (("xy", d, a * b), ("yz", e, b * c), ("zx", f, c * a)):
         if value**2 >= square:
             yield (
-                f"inertia {name} is {as_written(value, UNIT)}; beside {2 * name[0]} "
+                f"inertia {name} is {as_written(value, UNIT)}; with {2 * name[0]} "
                 f"and {2 * name[1]} it must be within {math.sqrt(square):g} {UNIT}"
             )
             return

@@ -38,12 +38,12 @@ def normalize_tables(tables: Mapping[Any, object]) -> Node:
 
 
 def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, object], str]:
-    """Return the tables of what a user of Python gives: a path ("-": standard input), the text of a
-    file, of several lines, or a dict; and the file's name, empty without a file.
+    """Return the tables of a source, and the file's name, empty without a file. A source is a path
+    ("-": standard input), the text of a file, of several lines, or a dict.
 
     Args:
-        function: that was given it, for messages.
-        wanted: what would be right, likewise.
+        function: Function that was given the source, for messages.
+        wanted: A right source in words, for messages.
 
     Raises:
         BalcliError: there is nothing to read.
@@ -102,9 +102,9 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
 
     Args:
         model: the file.
-        changes: by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`); None
-            leaves a key out. What says the same otherwise (`rod.ratio` beside `rod.length`) is left
-            out, unless it is changed itself.
+        changes: Values by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`);
+            None removes a key. Equivalent keys (`rod.ratio` of `rod.length`) are removed, unless
+            they are changed as well.
 
     Raises:
         InputError: a name of a member of a list that the file does not have.

@@ -47,9 +47,9 @@ class RefusedTable(NamedTuple):
 
     Attributes:
         broken: keys that cannot be read.
-        draft: the table without these, with examples of those that have to be there; None where
-            that is none, either.
-        is_consistent: whether what could be read has no contradictions.
+        draft: the table without these, with examples of those that are required; None if this
+            table is refused as well.
+        is_consistent: whether the readable keys have no contradictions.
     """
 
     broken: set[str]
@@ -58,8 +58,8 @@ class RefusedTable(NamedTuple):
 
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
-    """Return mistakes as one error: the first are listed, of the others there is the number. A key
-    that is missing is left out where it is there, misspelt.
+    """Return mistakes as one error that lists the first ones and the number of the others. A
+    missing key is not listed if it is misspelt.
 
     Args:
         problems: all mistakes of a file.
@@ -191,9 +191,7 @@ class TableReader:
     def _translate(
         self, path: str, table: type[FileTable], value: Mapping[str, object], error: ValidationError
     ) -> None:
-        """Collect what the keys say against each other, as far as they can be read, and pydantic's
-        findings in them.
-        """
+        """Collect contradictions of the readable keys, and pydantic's findings."""
         findings = [found for found in error.errors(include_url=False) if found["loc"]]
         broken = {str(finding["loc"][0]) for finding in findings}
         draft = _read_without(table, value, broken)
@@ -240,7 +238,7 @@ def _find_conflicts(
     broken: set[str],
     draft: FileTable | None,
 ) -> Iterator[Problem]:
-    """Yield what the keys, and the values of those that can be read, say against each other."""
+    """Yield contradictions between keys, and between the values of those that can be read."""
     for choice in table.choices:
         missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
         for mistake in choice.mistakes(value):
@@ -263,11 +261,10 @@ class Draft(NamedTuple):
     """The readable part of an engine file.
 
     Attributes:
-        model: the file. Where there are mistakes, tables that could not be read are left out of it:
-            their defaults stand there, or nothing where there is none.
-        readable: keys of the file that can be relied on: what they say, or do not say, was read,
-            and none that was probably meant is misspelt; those of [crank] and [layout] one by one,
-            too, as crank.throws.
+        model: the file. Tables with mistakes are replaced by their defaults, or left out.
+        readable: keys of the file that were read, or are certainly not given: no misspelt key
+            stands for one of them. Keys of [crank] and [layout] are listed singly as well, such as
+            crank.throws.
         problems: mistakes of the text.
     """
 
@@ -322,7 +319,7 @@ def check_tables(
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:
-    """Return what stands under a key at the head of the file; None: it has mistakes."""
+    """Return the value of a key at the head of the file; None: it has mistakes."""
     if key in TEXTS:
         return _read_text(reader, key, value)
     if key == "cylinder":
@@ -342,7 +339,7 @@ def change_figures(
         tables: kinds of tables that change (`mount`); figures of all others are left alone.
 
     Raises:
-        InputError: what a table then says against itself, such as a bore wider than its shaft.
+        InputError: a contradiction in a changed table, such as a bore wider than its shaft.
     """
     own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
     data = change_tables(model, own)
@@ -356,8 +353,8 @@ def change_figures(
 
 
 def _refuse_strangers(reader: TableReader, data: Mapping[str, object]) -> None:
-    """Refuse keys of the file itself that no engine file has. Of a table such as `[engine]`, which
-    is like none that there is, each of its keys: they have their places elsewhere.
+    """Refuse keys of the file itself that no engine file has. For an unknown table such as
+    `[engine]`, each of its keys is refused, with the table that has it.
     """
     for key in data:
         if key in KNOWN:

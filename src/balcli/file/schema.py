@@ -74,7 +74,7 @@ def tidy_schema(schema: Node) -> Node:
 
 
 def _tidy_member(value: object) -> object:
-    """Return a schema, or what holds schemas, tidied; anything else as it is."""
+    """Return a tidied schema, or dict or list of schemas; anything else as it is."""
     if isinstance(value, dict):
         return tidy_schema(value)
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value

@@ -1,4 +1,4 @@
-"""What every table of a file shares: types of its figures, rules among its keys."""
+"""Base class of all tables of a file: types of figures, and rules for keys."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ class Reading:
 
 class FileTable(BaseModel):
     """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
-    with `_check_` are its rules: each yields what the keys say against each other, in words.
+    with `_check_` are its rules: each yields contradictions between keys, in words.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -145,11 +145,11 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield what the keys of this table say against each other."""
+        """Yield the contradictions between the keys of this table."""
         yield from (message for message, _ in self.find_conflicts(frozenset()))
 
     def find_conflicts(self, broken: Set[str]) -> Iterator[tuple[str, Set[str]]]:
-        """Yield what the keys say against each other, and which keys were read for it.
+        """Yield contradictions between keys, each with the keys that were read for it.
 
         Args:
             broken: keys that cannot be read; no rule that reads one is applied.
@@ -165,7 +165,7 @@ class FileTable(BaseModel):
         return key in self.model_fields_set
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Return the keys that exclude this one, since they say the same."""
+        """Return the keys that exclude this one, because they give the same figure."""
         return tuple(rival for choice in self.choices for rival in choice.rivals(key))
 
     @classmethod

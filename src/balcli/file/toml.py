@@ -89,7 +89,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
     Args:
         text: Text of the file.
         file: Name of the file, for messages.
-        right: What a text of another format is not, and what would be right.
+        right: Words for a text of another format: that it is none of the wanted kind.
 
     Raises:
         InputError: It is no TOML, or larger than any file is.

@@ -58,7 +58,7 @@ kcal = 4184 J, or 4186.8 J?
 
 
 def read_rows(rows: str) -> dict[str, str]:
-    """Return what stands behind the names in a table such as "metre meter = 1 m; yard = 3 ft"."""
+    """Return the definitions of names in a table such as "metre meter = 1 m; yard = 3 ft"."""
     parts = (row.split(" = ") for row in re.split(r"[;\n]", rows.strip()))
     return {name: meaning for names, meaning in parts for name in names.split()}
 
@@ -261,7 +261,7 @@ def convert(text: str, dimension: Dimension) -> float:
         dimension: that the figure has to have.
 
     Raises:
-        ValueError: what is wrong, and what would be right.
+        ValueError: the text is no such figure; the message has the mistake and the remedy.
     """
     return float(convert_exactly(text, dimension))
 
@@ -390,7 +390,7 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
         dimension: for the examples in errors.
 
     Raises:
-        ValueError: a part is unknown, or might be two units.
+        ValueError: a part is unknown or ambiguous.
     """
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
@@ -478,7 +478,7 @@ def ask_unit(unit: str, *others: str) -> str:
 
 
 def wanted(dimension: Dimension) -> str:
-    """Return what would be right, with examples."""
+    """Return the wanted kind of figure in words, with examples."""
     if dimension is PLAIN:
         return "a plain number is wanted, without quotes"
     examples = " or ".join(f'"{e}"' for e in dimension.examples)

@@ -8,8 +8,8 @@ the bending moment is linear, so that its largest values are at loads.
 Gas and inertia: the shaft counts as cut in each main bearing. The shaft carries the forces of the
 rods, of the masses that turn with the throws and of counterweights, and the bearings hold it. The
 block carries the gas on each head, the piston on each cylinder wall, the shaft on each bearing, and
-balancer shafts and sliders. The gas presses on throw and head alike: in every section, the sum of
-shaft and block is that of inertia alone, with the block's own devices.
+balancer shafts and sliders. The gas presses on throw and head alike: in every section, the loads
+of shaft and block add up to those of inertia alone, with the block's own devices.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class CrankLoads:
 
     Attributes:
         main_N: Largest load of a main bearing; left out where all throws stand in one plane.
-        main_mm: Axial place of this bearing, likewise.
+        main_mm: Axial place of this bearing; left out where all throws stand in one plane.
         inner_moment_Nm: Largest bending moment.
         inner_mm: Axial place of this moment.
     """

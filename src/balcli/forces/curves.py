@@ -206,7 +206,7 @@ class TorqueCurves(NamedTuple):
     Attributes:
         gas: Torque of all cylinders' gas.
         total: Torque of gas and inertia.
-        gas_once: Gas torque until everything repeats, inertia included: over one interval of equal
+        gas_once: Gas torque until gas and inertia torque repeat: over one interval of equal
             cylinders that fire evenly, else over the cycle.
     """
 
@@ -230,8 +230,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
 
 def count_repeats(engine: Engine) -> int:
-    """Return how often everything repeats in a cycle: once for each firing if the cylinders are
-    equal and fire evenly to the last digit. One interval takes a quarter of the time of a cycle.
+    """Return how often the torque repeats in a cycle: once for each firing if the cylinders are
+    equal and fire evenly to the last digit. One interval is computed in a quarter of the time.
     """
     gas, c = take_gas(engine), engine.cylinders
     columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)

@@ -53,7 +53,7 @@ def compute_guide_moments(
     """Return the guide-force moments of an engine's cylinders; devices have none.
 
     The roll moment of a cylinder is taken about the crank axis, wherever the point of reference
-    stands in x and y. The X-type is that of the project guides of MAN B&W two-stroke engines,
+    stands in x and y. The X-type is defined as in the project guides of MAN B&W two-stroke engines,
     section 17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
 
     Args:

@@ -39,8 +39,8 @@ class Quantity:
         kind: Kind of force or moment.
         order: Order; 0 for a peak.
         part: Part of the phasor, or "peak".
-        called: First word of its name where it differs from the kind: `torque` of an engine with
-            gas is that of gas and inertia.
+        called: First word of its name where it differs from the kind: for an engine with gas,
+            `torque` is the torque of gas and inertia.
     """
 
     kind: str

@@ -14,7 +14,7 @@ end b and the rod's angular acceleration alpha
 
 (derivatives by time; p'' has a part across the axis where the cylinder itself turns). K are the
 forces of the articulated rods on a master rod's knuckle pins, S their moment about its crank pin.
-The torque of the crank pins, `Im(conj(c) (-Q))`, is that of virtual work.
+The torque of the crank pins is `Im(conj(c) (-Q))`, as by virtual work.
 """
 
 from __future__ import annotations

@@ -264,8 +264,8 @@ def _compute_inertia(
 
 
 def _find_crankshaft(engine: Engine) -> Figure:
-    """Return what `crank.inertia` has beyond the unbalanced masses of the throws, which turn with
-    the pins, times the square of the speed, N m; 0 where the file does not give it.
+    """Return the part of `crank.inertia` beyond the unbalanced masses of the throws, which turn
+    with the pins, times the square of the speed, N m; 0 where the file does not give it.
     """
     if engine.crank_inertia is None or engine.rotary:
         return 0.0

@@ -1,1 +1,1 @@
-"""An engine on its mounts: modes, statics, and what reaches the frame."""
+"""An engine on its mounts: modes, statics, and loads on the frame."""

@@ -1,4 +1,4 @@
-"""Engine file -> what its body does on its mounts: `analyze_mounts`."""
+"""Engine file -> vibration of its body on its mounts: `analyze_mounts`."""
 
 from __future__ import annotations
 
@@ -145,8 +145,8 @@ def analyze_mounts(
     scheme: str | None = None,
     others: Mapping[str, Engine] | None = None,
 ) -> MountReport:
-    """What the frame feels of an engine on its mounts: natural modes, rest, forces of the mounts
-    and motion of points over a range of speeds.
+    """Return the vibration of an engine on its mounts: natural modes, rest, forces of the mounts on
+    the frame and motion of points over a range of speeds.
 
     Args:
         source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
@@ -183,7 +183,7 @@ def analyze_mounts(
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
-    """The file, its engine if it has one, and its name."""
+    """Return the file, its engine if it has one, and its name."""
     if isinstance(source, Engine):
         return take_model(source), source, ""
     wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"

@@ -1,6 +1,7 @@
 """Tables of an engine file -> a rigid body on its mounts, SI, checked; its natural modes.
 
-An engine file with a body on mounts, or of these alone: read, checked, every mistake told.
+Engine files with a body on mounts, or with these alone, are read and checked, and all mistakes are
+reported.
 """
 
 from __future__ import annotations
@@ -51,12 +52,12 @@ class MountedBody(NamedTuple):
     """A body on its mounts, in the engine's axes.
 
     Attributes:
-        body: with its centre of gravity and tensor.
-        static, dynamic: the mounts with their stiffness at rest and in vibration.
-        names: of the mounts.
-        weight: (3,) N.
-        point_names, points: (points, 3) m, whose motion is wanted.
-        carries_load: whether what takes the engine's torque stands on the body, too.
+        body: Body with its centre of gravity and inertia tensor.
+        static, dynamic: Mounts with their stiffness at rest and in vibration.
+        names: Names of the mounts.
+        weight: Weight of the body, N, shape (3,).
+        point_names, points: Names and positions, m, shape (points, 3), of points with motion.
+        carries_load: Whether the machine that takes the engine's torque is on the body as well.
     """
 
     body: Body
@@ -122,7 +123,7 @@ def _find_axes(mount: Mount) -> Real:
 def find_mounting_faults(
     model: EngineFile, legible: frozenset[str] = frozenset({"body", "mount", "point"})
 ) -> Iterator[Problem]:
-    """Yield what is missing of a body on its mounts, and names that come twice.
+    """Yield missing tables of a body on its mounts, and repeated names.
 
     Args:
         model: Engine file.
@@ -201,7 +202,7 @@ SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines ha
 
 
 class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine if it has one, and what is doubted of it."""
+    """A file with [body] and [[mount]], its engine if it has one, and warnings."""
 
     model: EngineFile
     engine: Engine | None
@@ -209,18 +210,18 @@ class MountedFile(NamedTuple):
 
 
 def read_mounted(path: str | Path) -> MountedFile:
-    """The file at a path, or on standard input for "-".
+    """Read the file at a path, or standard input for "-".
 
     Raises:
-        BalcliError: there is nothing to read.
-        InputError: every mistake that it has.
+        BalcliError: The file cannot be read.
+        InputError: The file has mistakes; the error lists all of them.
     """
     name = name_file(path)
     return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
 
 
 def check_mounted(draft: Draft, name: str) -> MountedFile:
-    """The same of what could be read of a file; `name` is that of the file, for messages."""
+    """Check the readable part of a file; `name` is the name of the file for messages."""
     faults = list(find_mounting_faults(draft.model, draft.readable))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
@@ -233,7 +234,7 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
-    """Yield what no body and no mounts have: most likely a figure in another unit."""
+    """Yield warnings of impossible figures of body and mounts, most likely in another unit."""
     body, mounts = model.body, model.mount
     if body is None:
         return
@@ -251,8 +252,8 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
     if across < SMALL_BODY * farthest:
         yield (
-            f"body.inertia: {largest:g} kg mm^2 is that of {body.mass:g} kg within {across:.2g} "
-            f"mm, and a mount stands {farthest:.3g} mm away; "
+            f"body.inertia: {largest:g} kg mm^2 is too small: it means {body.mass:g} kg within "
+            f"{across:.2g} mm, and a mount is {farthest:.3g} mm away; "
             f"{ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
         )
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)

@@ -49,12 +49,12 @@ def mounts(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """What the frame feels of an engine on its mounts: natural modes, rest, forces of the mounts
+    """Vibration of an engine on its mounts: natural modes, rest, forces of the mounts on the frame
     and motion of points over a range of speeds.
 
     The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
-    mounts` writes one to start from. Without an engine in it, modes and rest are told. Engines of
-    further files are put on the same mounts and shown next to it.
+    mounts` writes one to start from. Without an engine in it, only modes and rest are printed.
+    Engines of further files are put on the same mounts and shown next to it.
 
     \b
     Example:

@@ -1,10 +1,8 @@
-"""What an engine does to the body that stands on mounts: free forces, moments and gas torque as a
-load about the center of gravity, by order.
+"""Load of an engine on a body on mounts: free forces, moments and gas torque about the center of
+gravity, by order.
 
-Orders of the time at uneven speed, which are what makes things vibrate.
-
-By the crank angle an order is how often something happens in a turn; at uneven speed that is no
-frequency: a force of order 1 over the angle comes early and late, and has sidebands over the time.
+At uneven speed, orders of the time excite vibration. An order of the crank angle, cycles in a turn,
+is then no frequency: a force of order 1 over the angle has sidebands over the time.
 """
 
 from __future__ import annotations
@@ -47,14 +45,14 @@ _MOST_COUNTED = 1 << 26  # samples, each for every order: seconds
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
-    """As `compute_spectra`, by orders of the time, for an engine with uneven speed.
+    """Return the spectra of an engine with uneven speed by orders of the time; arguments as for
+    `compute_spectra`.
 
     Returns:
-        The spectra, and revolutions in a time over those that the mean speed over the angle would
-        make of it.
+        The spectra, and the mean speed over the time, as a multiple of that over the angle.
 
     Raises:
-        BalcliError: a crank that all but stops; a kind of gas is asked of an engine without.
+        BalcliError: The crank almost stops; a kind of gas for an engine without gas.
     """
     mixed = [*(line.order for line in engine.ripple), *orders]
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
@@ -73,16 +71,16 @@ def compute_spectra_in_time(
 
 
 def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Timetable:
-    """Of so many samples that the fastest of so many waves in a cycle is followed where the crank
-    is slowest, and the clock runs fastest; each is counted for so many orders.
+    """Return a timetable with enough samples to resolve the highest of these orders where the crank
+    is slowest. Raise BalcliError if these are too many samples for the number of orders.
     """
     slowest = find_slowest(engine.ripple).value
     samples = 1 << math.ceil(math.log2(16 * waves / slowest))
     if samples > MOST_SAMPLES or samples * orders > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
-            "what vibrates there in time takes more samples than are computed; give a smaller "
-            "amplitude or lower orders"
+            "its orders of the time need more samples than are computed; give a smaller amplitude "
+            "or lower orders"
         )
     return find_timetable(find_speed(engine.ripple, step), step, samples)
 

@@ -70,8 +70,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     """
     if model.body is None or not model.mount:
         raise BalcliError(
-            f"{quantities[0].name}: the file has no [body] on a [[mount]]; balcli mounts --help "
-            "says what it needs"
+            f"{quantities[0].name}: the file has no [body] on a [[mount]]; see balcli mounts --help"
         )
     names = _name_targets(model)
     for q in quantities:
@@ -79,7 +78,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
+    """Evaluates quantities of variants of a file one by one; constant parts are computed once.
 
     Args:
         model: File with [body] and [[mount]].
@@ -99,7 +98,7 @@ class Variants:
         """Return the value of each quantity for one variant, by the figures that vary.
 
         Raises:
-            InputError, BalcliError: The variant cannot be.
+            InputError, BalcliError: No engine can have these figures.
         """
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
         modes, mean, largest = find_mounted_modes(mounted), 0.0, {}

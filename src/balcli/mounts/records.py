@@ -122,7 +122,7 @@ class WorstForce:
         order: Largest single order at this speed.
         order_force_N: Force of this order.
         mode: Number of the mode that makes most of the force, from 0.
-        resonance: Order in resonance there; left out if there is none.
+        resonance: Order in resonance there; left out without a resonance.
     """
 
     force_N: float
@@ -173,7 +173,7 @@ class WorstMotion:
         order: Largest single order at this speed.
         order_motion_mm: Motion of this order.
         mode: Number of the mode that makes most of the motion, from 0.
-        resonance: Order in resonance there; left out if there is none.
+        resonance: Order in resonance there; left out without a resonance.
     """
 
     motion_mm: float
@@ -203,8 +203,8 @@ class PointMotion:
 
 @dataclass(frozen=True, eq=False)
 class Passed:
-    """What reaches the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and
-    of the moment about the center of gravity (`moment_x_Nm` ...), as far as there are any.
+    """Load on the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and of the
+    moment about the center of gravity (`moment_x_Nm` ...), as far as there are any.
 
     Attributes:
         order: Order.
@@ -246,7 +246,7 @@ class BodyResponse:
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """The same engine with the devices of a balance scheme.
+    """Response of the engine with the devices of a balance scheme.
 
     Attributes:
         scheme: Name of the scheme.
@@ -279,14 +279,14 @@ class MountReport(Result):
     Attributes:
         format: Name and version of this document.
         name: Name of the engine, or of the body.
-        assumed: What is taken because the file leaves it out.
+        assumed: Values taken because the file leaves them out.
         modes: The six natural modes, lowest first.
         roll_axis: Torque roll axis: unit vector through the center of gravity about which a torque
             about the crankshaft turns the body where nothing holds it.
         elastic_centre_mm: Point x, y, z at which forces move the body with the least turning.
         static: The body at rest.
         stiffness_N_per_m: Dynamic stiffness about the center of gravity, N/m, N, N·m.
-        response: Response to the engine; left out where there is none.
+        response: Response to the engine; left out without an engine.
         fitted: Response with a balance scheme, if one was asked for.
         others: Responses to other engines.
         mounted: The body on its mounts.

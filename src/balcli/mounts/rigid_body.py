@@ -29,9 +29,9 @@ class Body(NamedTuple):
     """A rigid body.
 
     Attributes:
-        mass: kg.
-        centre: (3,) centre of gravity, m.
-        inertia: (3, 3) tensor about it, kg m2, as a matrix: products of inertia stand with minus.
+        mass: Mass, kg.
+        centre: Centre of gravity, m, shape (3,).
+        inertia: Inertia tensor about it, kg m2, shape (3, 3), products of inertia negative.
     """
 
     mass: float
@@ -43,11 +43,11 @@ class Mounts(NamedTuple):
     """Springs along three axes each, that hold a body to the ground.
 
     Attributes:
-        at: (mounts, 3) m, in the axes and from the origin of the body's centre.
-        axes: (mounts, 3, 3), columns: the mount's own axes.
-        stiffness: (mounts, 3) N/m along these, static or dynamic, as what is computed wants it.
-        loss: (mounts, 3) loss factors.
-        damping: (mounts, 3) N s/m.
+        at: Positions in the coordinates of the body's centre, m, shape (mounts, 3).
+        axes: Axes of each mount as columns, shape (mounts, 3, 3).
+        stiffness: Static or dynamic stiffness along these, N/m, shape (mounts, 3).
+        loss: Loss factors, shape (mounts, 3).
+        damping: Damping along the axes, N s/m, shape (mounts, 3).
     """
 
     at: Real
@@ -72,7 +72,7 @@ class Screw(NamedTuple):
 
 
 class ElasticCentre(NamedTuple):
-    """Where forces move a body with the least turning.
+    """Point at which forces move a body with the least turning.
 
     Attributes:
         point: (3,) m.
@@ -100,20 +100,20 @@ class Settled(NamedTuple):
 
 # ------------------------------------------------------------------ geometry
 def cross_matrix(vectors: ArrayLike) -> Real:
-    """(..., 3, 3) with `cross_matrix(a) @ b = a x b`, of vectors (..., 3)."""
+    """Return matrices (..., 3, 3) with `cross_matrix(a) @ b = a x b` for vectors (..., 3)."""
     return np.cross(np.eye(3), np.asarray(vectors, float)[..., None, :])
 
 
 def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
-    """(3, 3), columns: unit vectors along two perpendicular axes of any length and the third by the
-    right-hand rule.
+    """Return unit vectors along two perpendicular axes of any length, and the third by the
+    right-hand rule, as columns (3, 3).
     """
     one, two = (np.asarray(axis) / np.linalg.norm(axis) for axis in (first, second))
     return np.stack([one, two, np.cross(one, two)], axis=1)
 
 
 def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
-    """(3, 3), columns: axes turned by these angles (rad) about x, then y, then z: `Rz Ry Rx`."""
+    """Return axes turned by these angles (rad) about x, then y, then z, `Rz Ry Rx`, as columns."""
 
     def turn(angle: float, axis: int) -> Real:
         c, s = np.cos(angle), np.sin(angle)
@@ -123,8 +123,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
 
 
 def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
-    """(points, 3, 6): displacement of points of the body for a unit of each of its motions,
-    `[1, -(p - c) x]`. Transposed, it makes a load of forces at the points.
+    """Return the displacement of points of the body for a unit of each of its motions, shape
+    (points, 3, 6): `[1, -(p - c) x]`. The transpose turns forces at the points into a load.
     """
     arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
     still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
@@ -134,15 +134,15 @@ def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
 def load_at_centre(
     force: Complex, moment: Complex, reference: ArrayLike, centre: ArrayLike
 ) -> Complex:
-    """The load (..., 6) of a force (..., 3) through a reference point and a moment (..., 3) about
-    it: about the centre of gravity the moment is `M + (reference - centre) x F`.
+    """Return the load (..., 6) of a force (..., 3) through a reference point and a moment (..., 3)
+    about it: about the centre of gravity the moment is `M + (reference - centre) x F`.
     """
     arm = np.asarray(reference, float) - np.asarray(centre, float)
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
 def find_screw(motion: Real, centre: ArrayLike) -> Screw:
-    """The line about which a small motion (6,) of a body turns it."""
+    """Return the screw of a small motion (6,) of a body."""
     shift, turn = motion[:3], motion[3:]
     if np.linalg.norm(turn) <= _FREE * np.linalg.norm(shift):
         return Screw(_direction(shift), None, 0.0)
@@ -152,14 +152,14 @@ def find_screw(motion: Real, centre: ArrayLike) -> Screw:
 
 
 def _direction(vector: Real) -> Real:
-    """The unit vector whose largest component is positive."""
+    """Return the unit vector whose largest component is positive."""
     largest = vector[np.argmax(np.abs(vector))]
     return vector / np.copysign(np.linalg.norm(vector), largest)
 
 
 # ------------------------------------------------------------------ matrices
 def mass_matrix(body: Body) -> Real:
-    """(6, 6) about the centre of gravity: kg, kg m2."""
+    """Return the mass matrix (6, 6) about the centre of gravity: kg, kg m2."""
     result = np.zeros((6, 6))
     result[:3, :3] = body.mass * np.eye(3)
     result[3:, 3:] = body.inertia
@@ -167,19 +167,19 @@ def mass_matrix(body: Body) -> Real:
 
 
 def stretch_mounts(body: Body, mounts: Mounts) -> Real:
-    """(mounts, 3, 6): travel of every mount along its own axes for a unit of each motion."""
+    """Return the travel of every mount along its axes for a unit of each motion, (mounts, 3, 6)."""
     return np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, body.centre)
 
 
 def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
-    """(6, 6) about the centre of gravity, complex where mounts have loss."""
+    """Return the stiffness (6, 6) about the centre of gravity, complex where mounts have loss."""
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
     complex_stiffness = (mounts.stiffness * (1 + 1j * mounts.loss)).reshape(-1)
     return _decouple((travel.T * complex_stiffness) @ travel)
 
 
 def damping_matrix(body: Body, mounts: Mounts) -> Real:
-    """(6, 6) about the centre of gravity, of the dashpots."""
+    """Return the damping (6, 6) of the dashpots about the centre of gravity."""
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
     return _decouple((travel.T * mounts.damping.reshape(-1)) @ travel).real
 
@@ -194,8 +194,8 @@ def _decouple(matrix: Complex | Real) -> Complex:
 
 # ------------------------------------------------------------------ properties
 def find_free_motions(body: Body, mounts: Mounts) -> Real:
-    """(count, 6): independent motions that no mount holds, each as simple as can be: displacements
-    first, then turns. Empty for a body that is held.
+    """Return independent motions that no mount holds, shape (count, 6), each as simple as possible:
+    displacements first, then turns. Empty for a body that is held.
     """
     springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
     root = np.linalg.cholesky(mass_matrix(body))
@@ -209,8 +209,8 @@ def find_free_motions(body: Body, mounts: Mounts) -> Real:
 
 
 def find_body_modes(body: Body, mounts: Mounts) -> Modes:
-    """Six natural modes without damping, of a body that is held in every way; shapes (6, 6) about
-    the centre of gravity.
+    """Return the six natural modes without damping of a body that is held in every way; shapes
+    (6, 6) about the centre of gravity.
     """
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
     stiff = mounts.stiffness.reshape(-1) > 0
@@ -218,27 +218,28 @@ def find_body_modes(body: Body, mounts: Mounts) -> Modes:
 
 
 def share_energy(modes: Modes, body: Body) -> Real:
-    """(modes, 6): share of each mode's kinetic energy in each motion, `x_i (M x)_i`; sums are 1.
-    Products of inertia may make some of them negative; what is rounding alone is 0.
+    """Return the share of each mode's kinetic energy in each motion, `x_i (M x)_i`, shape (modes,
+    6); sums are 1. Products of inertia may make some negative; rounding errors are 0.
     """
     shares = modes.shapes * (modes.shapes @ mass_matrix(body))
     return np.where(np.abs(shares) < _NO_SHARE, 0.0, shares)
 
 
 def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:
-    """(3,) unit vector of the axis through the centre of gravity about which a torque about the
-    crankshaft turns a body that nothing holds.
+    """Return the unit vector (3,) of the axis through the centre of gravity about which a torque
+    about the crankshaft turns a free body.
     """
     axis = np.linalg.solve(body.inertia, np.asarray(crank, float))
     return axis / np.linalg.norm(axis)
 
 
 def elastic_centre(stiffness: Real, centre: ArrayLike) -> ElasticCentre:
-    """Of a stiffness (6, 6) about the centre of gravity: the point about which the spring forces of
-    pure displacements have the least moments, in mean square over the directions of a unit force.
+    """Return the point about which the spring forces of pure displacements have the smallest
+    moments, in mean square over the directions of a unit force, by the stiffness (6, 6) about the
+    centre of gravity.
 
-    A displacement u takes the force `K_uu u` and the moment `K_ru u` = `N F`; a force at p has the
-    moment `p x F`, so that p is the antisymmetric part of N, and the rest is what no point mends.
+    A displacement u needs the force `K_uu u` and the moment `K_ru u` = `N F`. A force at p has the
+    moment `p x F`. So p is the antisymmetric part of N; the symmetric part remains for any point.
     """
     moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
     skew, rest = (moments - moments.T) / 2, (moments + moments.T) / 2
@@ -249,7 +250,7 @@ def elastic_centre(stiffness: Real, centre: ArrayLike) -> ElasticCentre:
 
 # ------------------------------------------------------------------ loads
 def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
-    """Statics of a body that is held in every way, under a steady load (6,), without loss."""
+    """Return the rest of a body that is held in every way, under a steady load (6,)."""
     travel = stretch_mounts(body, mounts)
     springs = np.sqrt(mounts.stiffness)[..., None] * travel
     stiffness = springs.reshape(-1, 6).T @ springs.reshape(-1, 6)
@@ -340,7 +341,8 @@ PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 
 
 def find_corners(body: Body) -> Real:
-    """(8, 3) m, about the centre of gravity; those whose numbers differ in one bit share an edge.
+    """Return the corners of the block, m, about the centre of gravity, shape (8, 3); corners whose
+    numbers differ in one bit share an edge.
 
     Sides lie along the engine's axes; products of inertia are left out.
     """

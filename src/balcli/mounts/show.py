@@ -1,4 +1,4 @@
-"""What a person reads of an engine on its mounts, and the same figures as JSON and CSV."""
+"""An engine on its mounts as tables, JSON and CSV."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _SHARE = 1e-3  # of the largest free load: less is not worth a line
 
 
 class Kind(NamedTuple):
-    """What a response has by place: the force of mounts, or the motion of points.
+    """Kind of figure by place: the force of mounts, or the motion of points.
 
     Attributes:
         part, figure: "mount" and "force", or "point" and "motion".
@@ -78,12 +78,12 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 
 
 def sheet(result: MountReport, system: System) -> Sheet:
-    """Return what matters first: what the frame feels, then modes, rest and the range of speeds."""
+    """Return the sheet: loads on the frame first, then modes, rest and the range of speeds."""
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:
         told = tuple(_answer(result, response, force, motion))
-        parts += [Text("What the frame feels", told), _grid_worst(result, force)]
+        parts += [Text("Forces on the frame", told), _grid_worst(result, force)]
         parts += [_grid_worst(result, motion)] if response.points else []
     parts += [_grid_modes(result), _tell_body(result, motion), _grid_rest(result, system, motion)]
     if response is not None:
@@ -282,8 +282,8 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
             shares = (f"{through[s] / load[s]:.1%}" for s in speeds)
             rows.append((order_name(passed.order), name, size, *shares))
     note = (
-        "What the mounts pass on, as a share of what the same engine would put on a frame in which "
-        "it stood rigidly; moments about the centre of gravity."
+        "Load through the mounts, as a share of the load of the same engine on rigid mounts; "
+        "moments about the centre of gravity."
     )
     return Grid("Passed on to the frame", tuple(heads), tuple(rows), note, words=(0, 1))
 

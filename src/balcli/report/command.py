@@ -52,8 +52,8 @@ def report(
     orders: Orders = None,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Write one self-contained page: the engine in motion, what it shakes, and a balance scheme
-    before and after.
+    """Write one self-contained page: the engine in motion, its free forces and moments, and a
+    balance scheme before and after.
 
     \b
     Example:

@@ -1,6 +1,6 @@
-"""A page of its own: what the engine is and does, drawn, in tables, and in motion. Nothing in it is
-loaded from elsewhere. The scripts of the page get plain figures: the mechanism and its vectors (mm,
-deg), the body on its mounts (mm, rad), torque and pressure over the cycle.
+"""A self-contained page on an engine, with pictures, tables and animation. It loads nothing from
+elsewhere. Its scripts get plain figures: the mechanism and its vectors (mm, deg), the body on its
+mounts (mm, rad), torque and pressure over the cycle.
 """
 
 from __future__ import annotations
@@ -56,8 +56,8 @@ ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to b
 
 
 def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
-    """Return the mechanism, and what shakes in each of the engines shown, by their labels; turned
-    so that up is up where the file says which way that is.
+    """Return the mechanism, and the forces and moments of each engine shown, by their labels;
+    turned upright if the file gives `frame.up`.
     """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
@@ -84,7 +84,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 
 
 def _cylinder_entries(engine: Engine) -> list[Node]:
-    """One entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod,
+    """Return one entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod,
     offset, place; knuckle pin and master's row.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
@@ -133,12 +133,12 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Return places on the page for shafts within the circle of the crank pins, where none can
-    stand: those that turn with the crank to the right of the engine, the others to its left;
-    upwards + i to the right (m) by rows of the devices.
+    """Return places on the page for shafts whose place is within the circle of the crank pins, by
+    rows of the devices: upwards + i to the right, m. Shafts that turn with the crank are to the
+    right of the engine, the others to its left.
 
     Args:
-        bore: m.
+        bore: Cylinder bore, m.
     """
     c = engine.cylinders
     r = float(c.radius)
@@ -157,8 +157,8 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
 
 
 def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
-    """A device for the page, turned: unbalance in g mm, places in mm; `drawn`: where it is shown
-    instead of its place.
+    """Return a device for the page, turned: unbalance in g mm, places in mm; `drawn` is the place
+    at which it is shown instead.
     """
     vectors = np.array([device.forward, device.backward, device.place])
     forward, backward, place = (unit(turn_deg) * vectors).tolist()
@@ -193,7 +193,7 @@ _COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("s
 
 
 class Answers(NamedTuple):
-    """What a report shows of an engine; None of a chapter that its file does not have."""
+    """Results in a report on an engine; None for a chapter that its file does not have."""
 
     result: Analysis
     balanced: Balance
@@ -213,12 +213,12 @@ def find_answers(
     """Compute the chapters that the file of an engine has.
 
     Args:
-        model: What the file says.
-        engine: The engine of it.
-        orders: Those to be shown; None: the usual ones.
-        scheme: Which devices are fitted.
-        options: Of that scheme.
-        name: Of the file, for messages.
+        model: Tables of the file.
+        engine: Engine of the file.
+        orders: Orders to show; None: the usual ones.
+        scheme: Scheme of the devices to fit.
+        options: Options of the scheme.
+        name: Name of the file, for messages.
 
     Raises:
         BalcliError: The scheme does not fit the engine.
@@ -234,7 +234,7 @@ def find_answers(
 
 
 def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
-    """How its crankshaft twists; None, with a warning, where that cannot be told."""
+    """Return the torsional vibration; None, with a warning, if it cannot be computed."""
     try:
         source = make_source(model, engine, name)
         return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
@@ -246,7 +246,7 @@ def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | No
 def _put_on_mounts(
     model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
 ) -> MountReport | None:
-    """What the body does on its mounts; None, with a warning, where that cannot be told."""
+    """Return the vibration on mounts; None, with a warning, if it cannot be computed."""
     try:
         return report_mounts(model, engine, scheme=scheme, name=name, options=options)
     except BalcliError as error:
@@ -263,9 +263,9 @@ def page(
     turning: Engine | None = None,
     tell: Tell = tell_nobody,
 ) -> str:
-    """The report of an engine, of a remedy for it, of what it does on its mounts, of how its
-    crankshaft twists, and of what its gas does. Whatever comes from the engine file is escaped.
-    `tell` is told which share of the pictures of forces and moments is drawn.
+    """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
+    gas. All text from the engine file is escaped. `tell` is called with the share of the pictures
+    of forces and moments that is drawn.
     """
     from markupsafe import Markup
 
@@ -317,7 +317,7 @@ def _gather_chapters(
     turning: Engine | None,
     system: System,
 ) -> Node:
-    """What the template takes of mounts, torsion and gas; None of a chapter that is not there."""
+    """Return the data of mounts, torsion and gas for the template; None for a missing chapter."""
     from markupsafe import Markup
 
     chapters: Node = {"mounts": None, "torsion": None, "running": None}
@@ -342,7 +342,7 @@ def _gather_chapters(
 
 
 def _read(name: str) -> Markup:
-    """A script or style of the page, as it is."""
+    """Return a script or style of the page, unchanged."""
     from markupsafe import Markup
 
     return Markup((FOLDER / name).read_text(encoding="utf-8"))
@@ -351,7 +351,7 @@ def _read(name: str) -> Markup:
 def _choose_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
 ) -> list[tuple[PageSubject, str, str]]:
-    """Those of the quantities that are told; of one without a picture the first, which says so."""
+    """Return the panels of the shown quantities; of one without a picture, the first panel."""
     chosen: list[tuple[PageSubject, str, str]] = []
     for what, quantity in panels:
         is_first = all(quantity != other for _, _, other in chosen)
@@ -361,7 +361,7 @@ def _choose_panels(
 
 
 def kind(part: Grid | Facts | Text) -> str:
-    """Which macro of the template shows a part."""
+    """Return the macro of the template that shows a part."""
     return type(part).__name__.lower()
 
 
@@ -384,8 +384,8 @@ _SPEEDS = 48  # of the range, that the page has
 
 
 def rocking(result: MountReport) -> Node | None:
-    """The block and its mounts about the centre of gravity, and its motion by speed and order: six
-    cosines, then six sines (mm, rad). None where no engine runs.
+    """Return the block and its mounts about the centre of gravity, and its motion by speed and
+    order: six cosines, then six sines (mm, rad). None without a running engine.
     """
     response = result.response
     if response is None:

@@ -1,4 +1,4 @@
-"""The pages of an engine: which pictures each one has, and where they stand.
+"""The pages of an engine: the pictures on each page, and their layout.
 
 A force or moment that is balanced, negligible or unknown has no picture; a line below the page says
 so.

@@ -86,8 +86,8 @@ def plot(
             part.
 
     Raises:
-        BalcliError: there is no such picture of it, with those that there are.
-        TypeError: what has no picture.
+        BalcliError: There is no such picture; the error lists those there are.
+        TypeError: `shown` has no picture.
 
     Example:
         >>> plot(load("v8.toml"), "polar").savefig("v8.png")
@@ -167,7 +167,7 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     once for all others.
 
     Raises:
-        BalcliError: an option does not suit a page, or the file lacks what a page shows.
+        BalcliError: an option does not suit a page, or the file lacks the subject of a page.
     """
     found: dict[str, Figure] = {}
     of_torsion = [page for page in pages if page in OF_TORSION]

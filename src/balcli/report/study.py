@@ -1,5 +1,5 @@
-"""What a picture shows: an engine as it is or with a scheme's devices, over the balance factor, or
-over the bank angle.
+"""Data of pictures: an engine as it is or with a scheme's devices, over the balance factor, or over
+the bank angle.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ class Banks(NamedTuple):
     """Free force of one order over the bank angle of a vee, all else unchanged.
 
     Attributes:
-        angles_deg: shape (angles,).
-        own_deg: the engine's bank angle.
-        force: N, shape (1, angles).
+        angles_deg: Bank angles, shape (angles,).
+        own_deg: Bank angle of the engine.
+        force: Force, N, shape (1, angles).
     """
 
     order: float
@@ -46,16 +46,16 @@ class Banks(NamedTuple):
 
 
 class Study(NamedTuple):
-    """What a page shows.
+    """Data of a page.
 
     Attributes:
-        now, before: the engine, and without the devices that were fitted, if any were.
-        remedy: those devices.
-        factors: rows of peaks over the balance factor, ascending; the best of all among them.
-        banks: an order over the bank angle.
-        bent: what bends the crankshaft now, and before.
-        steps: the engine with the devices of each step of the ladder, by name.
-        gas: pressures, torque or loads of an engine with gas.
+        now, before: Analysis of the engine, and of the engine without fitted devices, if any.
+        remedy: Fitted devices.
+        factors: Rows of peaks over the balance factor, ascending, with the best of all.
+        banks: One order over the bank angle.
+        bent: Loads along the crankshaft now, and before.
+        steps: Engine with the devices of each step of the ladder, by name.
+        gas: Pressures, torque or loads of an engine with gas.
     """
 
     now: Analysis
@@ -89,7 +89,7 @@ def compute_study(
     scheme: str | None = None,
     options: SchemeOptions | None = None,
 ) -> Study:
-    """Return what the page `what` shows.
+    """Return the data of the page `what`.
 
     Args:
         engine: without trailing axes.

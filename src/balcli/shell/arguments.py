@@ -28,11 +28,11 @@ Answer = TypeVar("Answer")
 
 
 def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P, Answer]]:
-    """Decorator of a function whose errors come from rooms that name options of the command line:
-    they name its arguments instead, `damper_inertia` for `--damper-inertia`.
+    """Decorate a function so that errors that name options of the command line name its arguments
+    instead: `damper_inertia` for `--damper-inertia`.
 
     Args:
-        others: arguments whose option is called otherwise, by that (`speeds="speeds_rpm"`).
+        others: Arguments by options with another name (`speeds="speeds_rpm"`).
     """
 
     def decorate(function: Callable[P, Answer]) -> Callable[P, Answer]:

@@ -1,4 +1,4 @@
-"""Names of files and formats: `-` is standard output, and an ending says the format of a file."""
+"""Names of files and formats: `-` is standard output; the ending determines the format."""
 
 from __future__ import annotations
 

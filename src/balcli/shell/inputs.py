@@ -56,9 +56,9 @@ def read_engine(
 
     Args:
         speed_rpm: crank speed of the engine instead of the file's.
-        asked: names of quantities and tables that a user asked for; None: whatever the command
-            shows. What says nothing of moments needs no warning that they are not known.
-        prepare: makes the file of which the engine is built.
+        asked: names of requested quantities and tables; None: all that the command shows. Without
+            moments among them, no warning of unknown moments is printed.
+        prepare: Function of the file to the file of which the engine is built.
 
     Raises:
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
@@ -99,8 +99,8 @@ def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engin
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
-    """Warn that moments are not known, where something of them was asked for; an error where it was
-    one of them by name.
+    """Warn that moments are not known if some were requested; an error if one was requested by
+    name.
     """
     words = ABOUT_MOMENTS if asked is None else asked
     if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
@@ -110,7 +110,7 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
 
 
 def warn_of_unknown_moments(name: str) -> None:
-    """Say on standard error that the moments of this file are not known, and why."""
+    """Print on standard error that the moments of this file are not known, and why."""
     warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 

@@ -61,7 +61,7 @@ Output = Annotated[
     Path | None,
     optional(
         "FILE",
-        "Write into this file instead; its ending says the format. - is standard output.",
+        "Write into this file; its ending determines the format. - is standard output.",
         "--output",
         "-o",
         callback=parse_output,
@@ -70,7 +70,7 @@ Output = Annotated[
 ProgressAtOnce = Annotated[
     bool,
     typer.Option(
-        "--progress", help="Say on a terminal how far it is from the start, not after two seconds."
+        "--progress", help="Show progress on a terminal from the start, not after two seconds."
     ),
 ]
 Target = Annotated[

@@ -218,7 +218,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
             if (folder / name).read_bytes() == (target.parent / name).read_bytes():
                 continue
         raise BalcliError(
-            f'{target}: the engine file names "{name}", which stands beside it in {folder}; '
+            f'{target}: the engine file names "{name}", a file in {folder}; '
             f"write into that folder, or copy {name} into {target.parent} first"
         )
 

@@ -49,10 +49,10 @@ Factor = Annotated[
     optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
 ]
 Measured = Annotated[
-    str | None, optional("MASS", 'Instead of --factor: what balances a bare pin, such as "812 g".')
+    str | None, optional("MASS", 'Instead of --factor: mass that balances a pin, such as "812 g".')
 ]
 Roll = Annotated[
-    str | None, optional("zero", "Place two shafts such that they cancel the roll of inertia, too.")
+    str | None, optional("zero", "Place two shafts such that they also cancel the roll of inertia.")
 ]
 
 
@@ -77,7 +77,7 @@ def parse_scheme_options(
         planes: "ends", "throws", or axial places of new devices.
         factor: Share of the reciprocating mass, or a range of shares.
         measured: Mass that balances a bare pin.
-        roll: "zero", if the roll of inertia is to vanish.
+        roll: "zero" to cancel the roll of inertia.
         units: System of units of bare numbers.
 
     Raises:

@@ -1,12 +1,11 @@
 """Lengths, angles, speeds, masses and shares as users type them on the command line: as in an
 engine file, `40`, `2.5 in`, `1/7 turn`, `9000 rpm`, and shares as `0.51` or `51%`.
 
-A bare number is in mm, kg, degrees or rpm. With `--units imperial` nobody means mm, kg or kg mm2
-by it, nor is it certain that they mean inches or pounds: it has to say.
+A bare number is in mm, kg, degrees or rpm. With `--units imperial` bare numbers for mm, kg and
+kg mm2 are ambiguous and need a unit.
 
-How options are declared: one that may be left out is a line.
-
-Ranges of crank speeds, of `--speeds` and of `analyze --speed`.
+Also the declaration of optional options, and ranges of crank speeds (`--speeds`, `analyze
+--speed`).
 """
 
 from __future__ import annotations
@@ -220,13 +219,13 @@ def _shown(option: str, text: str) -> str:
 
 
 def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
-    """Return an option that says nothing of a default, as it is left out unless it is asked for.
+    """Return an option whose help shows no default, because it is normally left out.
 
     Args:
-        metavar: what stands for its value in help.
-        text: its help.
-        names: as typed, such as --scheme; by default that of the parameter.
-        more: of `typer.Option`.
+        metavar: Placeholder of its value in help.
+        text: Help of the option.
+        names: Names as typed, such as --scheme; default: that of the parameter.
+        more: Further arguments of `typer.Option`.
     """
     return typer.Option(*names, metavar=metavar, show_default=False, help=text, **more)
 

@@ -38,12 +38,12 @@ _TURNING = '"with the crank" is with the cylinders here, and counterweights stan
 def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
-    """Return cylinders, crank, firing, speed, masses that the figures include, devices; and, of the
-    whole, how high orders go, the reference of moments and the source.
+    """Return cylinders, crank, firing, speed, masses that the figures include, devices; and, if the
+    whole engine is shown, the highest order, the reference of moments and the source.
 
     Args:
-        higher: whether there may be orders above those that are shown unless they are asked for.
-        speeds_rpm: which there are figures of, ascending, where there are several.
+        higher: Whether there may be orders above those that are shown by default.
+        speeds_rpm: Speeds of the figures, ascending, where there are several.
     """
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     reference = f"moments about x, y, z = {about} {system.length.name}"
@@ -162,7 +162,7 @@ def _crank(engine: Engine, system: System) -> str:
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:
-    """Return masses that go to and fro and that turn, of cylinder 1, and what turns with its pin
+    """Return reciprocating and rotating masses of cylinder 1, and the mass that turns with its pin
     where that carries several rods.
     """
     row, unit = engine.numbers.index(1), system.mass

@@ -65,7 +65,7 @@ class FreeForce(Vector):
 
     Attributes:
         vertical: Component along `frame.up`; left out where the file does not give it.
-        horizontal: Component 90 deg ahead of `frame.up`; left out likewise.
+        horizontal: Component 90 deg ahead of `frame.up`; left out without `frame.up`.
     """
 
     vertical: Component | None = None
@@ -78,7 +78,7 @@ class FreeMoment(Vector):
 
     Attributes:
         yawing: Component about `frame.up`; left out where the file does not give it.
-        pitching: Component about the axis 90 deg ahead of `frame.up`; left out likewise.
+        pitching: Component about the axis 90 deg ahead of `frame.up`; left out without `frame.up`.
     """
 
     yawing: Component | None = None
@@ -92,7 +92,7 @@ class Harmonic(NamedTuple):
         cos: Cosine part, N·m.
         sin: Sine part, N·m.
         amplitude: Amplitude, N·m.
-        peak_deg: First crank angle of the largest value; null for a mean and where there is none.
+        peak_deg: First crank angle of the largest value; null for a mean and a zero amplitude.
         balanced: Whether nothing is left but rounding.
     """
 
@@ -105,7 +105,7 @@ class Harmonic(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class OrderFigures:
-    """One order of all that was computed and is known.
+    """Computed figures of one order, as far as they are known.
 
     Attributes:
         order: Times the crank speed; halves of four-stroke engines.
@@ -152,7 +152,7 @@ class EngineSize(NamedTuple):
 
     Attributes:
         name: Name of the engine.
-        cylinders: How many cylinders it has.
+        cylinders: Number of cylinders.
         displacement_m3: Displacement; null where the file gives no bore.
     """
 
@@ -241,8 +241,8 @@ def describe_state(engine: Engine) -> EngineState:
 def list_assumed(
     names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
 ) -> tuple[str, ...] | None:
-    """Return values taken of several engines because their files leave them out: first those common
-    to all, then those of single ones, after their names; None: no value.
+    """Return values taken because the files of several engines leave them out: first those common
+    to all, then those of single engines, with their names; None: no value.
 
     Args:
         names: Names of the engines.

@@ -1,4 +1,4 @@
-"""Which formats and documents there are, and how a result becomes text in each."""
+"""Formats and documents of results, and the text of a result in each."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ class Renderer(Columnar[Shown]):
     """How results of one kind are shown.
 
     Attributes:
-        sheet: Makes what a person reads, in these units.
-        rows: Makes what CSV lists, in these units.
+        sheet: Makes the sheet in these units.
+        rows: Makes the rows of CSV in these units.
     """
 
     sheet: Callable[[Shown, System], Sheet]

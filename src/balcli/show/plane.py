@@ -141,8 +141,8 @@ def draw_paths(
 def draw_loci(
     ax: Axes, curves: Mapping[str, Phasors], names: Sequence[str], unit: ShownUnit
 ) -> None:
-    """Draw where the tips of several vectors, by name, go in a revolution; vectors that agree are
-    all seen.
+    """Draw the paths of the tips of several vectors, by name, over a revolution; equal vectors are
+    all visible.
     """
     largest = [float(find_largest(curve)) for curve in curves.values()]
     s = unit.fit(max(largest))

@@ -1,8 +1,8 @@
-"""What every answer can do besides holding figures: say in a line what it is, be shown in a
-notebook, become a dict, rows, a DataFrame or a Parquet file.
+"""Base class of all results: summary in a line, HTML for notebooks, export as dict, rows, DataFrame
+or Parquet file.
 
-What shows a kind of answer stands in its chapter, above this module, and is imported when somebody
-asks for it (`names.RENDERERS`).
+The renderer of each kind of result is in its own package, above this module, and is imported when
+it is first needed (`names.RENDERERS`).
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Result:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Figures of the result that are possible and yet unlikely, in the words that commands
-        print on standard error; an engine has those of its file.
+        """Warnings of possible but unlikely figures, as commands print them on standard error; an
+        engine has those of its file.
         """
         return ()
 
@@ -60,14 +60,14 @@ class Result:
         return describe(self)
 
     def rows(self) -> list[Node]:
-        """Return one dict a row, all with the same keys: a DataFrame of any library takes them as
-        they are. What has no value is None.
+        """Return one dict for each row, all with the same keys, for a DataFrame of any library.
+        Missing values are None.
         """
         return list_rows(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return the rows as a DataFrame; units of columns are its `attrs["units"]`, as far as
-        neither their names nor a column `unit` tell them.
+        """Return the rows as a DataFrame. Its `attrs["units"]` are the units of columns that have
+        no unit in their name or in a column `unit`.
 
         Raises:
             BalcliError: pandas is not installed.
@@ -84,7 +84,7 @@ class Result:
 
 
 def find_renderer(result: Result) -> Columnar[Result]:
-    """Return what shows an answer."""
+    """Return the renderer of a result."""
     return import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
 
 
@@ -116,8 +116,8 @@ def list_columns(result: Result) -> Columns:
 
 
 def _fill_gaps(column: Column) -> Column:
-    """Return numbers among which some are missing as an array with nan: of a list with None other
-    libraries make objects, with which nothing can be computed.
+    """Return numbers, some of them missing, as an array with nan: of a list with None, other
+    libraries make columns of objects, with which they cannot compute.
     """
     if isinstance(column, np.ndarray) or None not in column:
         return column
@@ -150,7 +150,7 @@ def _number(cell: object) -> float | None:
 
 
 def _word(cell: object) -> str | None:
-    """Return a cell as text; None for a number, and where nothing is said."""
+    """Return a cell as text; None for a number and an empty cell."""
     if isinstance(cell, bool):
         return str(cell).lower()
     return cell if isinstance(cell, str) and cell else None

@@ -1,4 +1,4 @@
-"""A sheet: what a person reads, of which terminal, Markdown and HTML are made; and how much of an
+"""A sheet: the readable form of a result, for terminal, Markdown and HTML; and how much of an
 analysis it shows.
 """
 
@@ -197,7 +197,7 @@ class View(NamedTuple):
     """Parts of an analysis that a sheet shows.
 
     Attributes:
-        whole: Every table and every order; else what most people want, orders that matter.
+        whole: Whether every table and order is shown; else the usual tables and relevant orders.
         parts: Words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
         every_order: Whether negligible orders are shown as well.
         hints: Whether commands and options that show more are named.

@@ -86,21 +86,21 @@ def column_texts(grid: Grid, k: int) -> list[str]:
 
 
 def longest_word(texts: Iterable[str]) -> int:
-    """Return how many places the longest word takes."""
+    """Return the width of the longest word in places."""
     return max((count_places(word) for text in texts for word in text.split()), default=1)
 
 
 def share_out(
     width: int, columns: Sequence[int], least: Sequence[int], natural: Sequence[int], gap: int = 2
 ) -> dict[int, int]:
-    """Return the width of each column: the least, and what is left over to the one that lacks most,
-    until there is none.
+    """Return the width of each column: the least width, and the remaining width place by place to
+    the column that lacks most.
 
     Args:
         width: Width of the table.
         columns: Columns in it.
         least: Least width of every column.
-        natural: Width that every column likes to have.
+        natural: Width of every column without folding.
         gap: Blanks between columns.
     """
     widths = {k: least[k] for k in columns}

@@ -51,8 +51,8 @@ def _pieces(part: Grid | Facts | Text, width: int) -> Iterator[RenderableType]:
 
 
 def _fitting(grid: Grid, width: int) -> Iterator[Table]:
-    """Yield the table as wide as it likes to be, else narrowed; figures are never broken, so one
-    that is still too wide comes in pieces, each with the first column.
+    """Yield the table unfolded, or narrowed to fit. Figures are never broken: a table that is still
+    too wide is divided into pieces, each with the first column.
     """
     natural = [max(map(count_places, column_texts(grid, k))) for k in range(len(grid.columns))]
     for gap in (3, 2):

@@ -15,10 +15,10 @@ class ShownUnit(NamedTuple):
     """A unit of what people read.
 
     Attributes:
-        name: as it is written.
-        size: how many SI units it is.
-        larger: the unit in which people read large values.
-        most: value in this unit from which on they do; 0: always, and this one is for programs.
+        name: Name as it is written.
+        size: Size in SI units.
+        larger: Unit for large values.
+        most: Value in this unit from which `larger` is used; 0: always, this one is for programs.
     """
 
     name: str
@@ -38,7 +38,7 @@ class ShownUnit(NamedTuple):
 
 
 class System(NamedTuple):
-    """The units in which people read a result."""
+    """The units of a result in tables and pictures."""
 
     force: ShownUnit
     moment: ShownUnit
@@ -110,8 +110,8 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """Return the unit of this name, which gives way to a larger one if it is that of force, moment
-    or stress.
+    """Return the unit of this name; units of force, moment and stress have larger ones for large
+    values.
     """
     scaled = (SI.force, SI.moment, SI.stress)
     return next((unit for unit in scaled if unit.name == name), ShownUnit(name, 1))

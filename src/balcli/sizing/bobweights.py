@@ -145,7 +145,7 @@ class _FromPin(Polar):
 
 @dataclass(frozen=True, kw_only=True)
 class PlaneNeed:
-    """What a balance factor asks for in one plane of the crankshaft.
+    """Counterweight that a balance factor requires in one plane of the crankshaft.
 
     Attributes:
         position_mm: Place of the plane along the crankshaft.
@@ -162,8 +162,8 @@ class PlaneNeed:
 
 @dataclass(frozen=True, kw_only=True, order=True)
 class FactorPeaks:
-    """What an engine balanced by the shop's factor still shakes: largest values over a revolution,
-    of all orders.
+    """Largest free force and moment, over a revolution and of all orders, of an engine that is
+    balanced by the shop's factor.
 
     Attributes:
         factor: Balance factor.
@@ -173,8 +173,8 @@ class FactorPeaks:
         peak_moment_Nm: Largest moment.
         bobweight_g: Bobweight of the first pin.
         counterweight_kg_m: Largest weight that is missing.
-        by_moment: Whether the moment says which factor is best: the pins balance each other, so
-            that no factor changes much of the force.
+        by_moment: Whether the moment determines the best factor: the pins balance each other, so
+            that no factor changes the force much.
     """
 
     factor: float

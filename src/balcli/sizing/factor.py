@@ -37,10 +37,10 @@ IN_SUM = (
     "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
     "known, as moments are not"
 )
-OF_ITSELF = "nothing is missing: what the pins carry balances itself in these planes"
+OF_ITSELF = "nothing is missing: the masses on the pins balance each other in these planes"
 OWN_PLACES = (
-    "these planes are where the counterweights of the file stand; --planes throws asks what is "
-    "missing at every throw instead"
+    "these planes are where the counterweights of the file stand; --planes throws computes "
+    "weights at every throw instead"
 )
 
 
@@ -49,8 +49,8 @@ _UNCHANGED = 1e-9  # of the wanted weight: a change below this is none
 
 
 class _Pin(NamedTuple):
-    """What one crank pin carries: numbers of its cylinders; unbalance at crank angle 0 to be
-    balanced opposite it, with the throw, kg m; centre of these masses along z, m.
+    """Load of one crank pin: numbers of its cylinders; unbalance at crank angle 0, with the throw,
+    that is balanced opposite it, kg m; centre of these masses along z, m.
     """
 
     cylinders: tuple[int, ...]
@@ -59,8 +59,8 @@ class _Pin(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    """Planes of counterweights: z, m, shape (planes,); what each wants, has and lacks at crank
-    angle 0, kg m, shape (3, planes); pins that share a plane, where each has its own.
+    """Planes of counterweights: z, m, shape (planes,); the unbalance that each needs, has and lacks
+    at crank angle 0, kg m, shape (3, planes); pins that share a plane, where each has its own.
     """
 
     z: Array
@@ -69,15 +69,16 @@ class _Planes(NamedTuple):
 
 
 def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit counterweights by the factor asked for, 0.5 if none is, or by what was measured on a pin.
+    """Fit counterweights by the given factor (default 0.5), or by the mass measured on a pin.
 
-    What the file's own counterweights do counts, and what is missing is fitted: in the planes asked
-    for, to which pins and weights are carried by the lever; by default where the file's own stand,
-    or opposite each pin if they stand in fewer than two places (of pins in one plane in sum).
+    Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
+    planes, to which pins and weights are transferred by the lever rule. By default these are the
+    planes of the file's counterweights, or those of the pins if the file has counterweights in
+    fewer than two places (of pins in one plane, their sum).
 
-    Of several factors all peaks are listed, and the one that leaves the smallest peak force is
-    fitted, or moment, where the pins balance each other (`FactorPeaks.by_moment`). The best of all
-    factors between the first and the last, or of one between 0 and 1, are details.
+    For several factors all peaks are listed. The factor with the smallest peak force is fitted, or
+    with the smallest peak moment where the pins balance each other (`FactorPeaks.by_moment`). The
+    best factors between the first and the last, or between 0 and 1, are listed in the details.
 
     Raises:
         BalcliError: a factor that is no share, planes where moments are not known, or a crankshaft
@@ -86,8 +87,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     if engine.rotary:
         raise BalcliError(
             "scheme factor: the cylinders turn and the crank pins stand still, with all that is "
-            "on them: there is no rotating mass to balance opposite a pin; counterweights or auto "
-            "can balance what is left"
+            "on them: there is no rotating mass to balance opposite a pin; use counterweights or "
+            "auto"
         )
     if options.measured is not None and options.factor is not None:
         return _change_measured(engine, options)
@@ -130,10 +131,10 @@ def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> F
 def _find_best_factors(
     engine: Engine, planes: tuple[float, ...] | None, low: float, high: float
 ) -> dict[str, dict[str, float]]:
-    """Return the factors of all between two that leave the smallest peak force, or moment where the
-    pins balance each other, and the smallest main bearing load; none for what no factor changes.
+    """Return the factors between two bounds with the smallest peak force (or moment, where the pins
+    balance each other) and the smallest main bearing load; none where no factor changes these.
 
-    At each crank angle a force grows evenly with the factor, so that its peak is a convex function.
+    At each crank angle a force is linear in the factor, so that its peak is a convex function.
     """
     first, last = (_list_curves(engine, factor, planes) for factor in (low, high))
     best: dict[str, dict[str, float]] = {}
@@ -157,8 +158,8 @@ def _find_best_factors(
 def _list_curves(
     engine: Engine, factor: float, planes: tuple[float, ...] | None
 ) -> dict[str, Phasors]:
-    """Return what is left with a factor, by the names of its peaks: free force or moment, and loads
-    of main bearings if they are known.
+    """Return curves of free force or moment with a factor, by the names of their peaks, and of the
+    main bearing loads if these are known.
     """
     new = fit_devices(*_fit_factor(engine, factor, planes)[0])
     key, kind = (
@@ -174,8 +175,8 @@ def _list_curves(
 
 
 def _note(fitting: Fitting, factor: float, z: Array, *, own: bool, unasked: bool) -> str:
-    """Return a note; the file may have counterweights of its `own`, and planes may have been
-    chosen `unasked`, where these stand.
+    """Return a note on the planes: the file may have counterweights of its `own`, and their planes
+    may have been chosen `unasked`.
     """
     if _loses_moment(fitting.engine, factor, z):
         return SAME_PLACE
@@ -204,7 +205,7 @@ def _loses_moment(engine: Engine, factor: float, z: Array) -> bool:
 def find_factor_peaks(
     engine: Engine, factor: float, planes: tuple[float, ...] | None = None
 ) -> FactorPeaks:
-    """Return what is left at steady speed when the crankshaft is balanced by this factor.
+    """Return the largest free force and moment at steady speed with the crank balanced by a factor.
 
     Args:
         engine: Engine.
@@ -229,9 +230,8 @@ def find_factor_peaks(
 
 
 def _counts_by_moment(engine: Engine) -> bool:
-    """Return whether what goes to and fro adds up to nearly nothing, taken at the crank pins: the
-    share of it that a factor adds to the counterweights is then a moment. False where moments are
-    not known.
+    """Return whether the reciprocating masses, taken at the crank pins, nearly cancel: the share of
+    them that a factor adds to the counterweights is then a moment. False for unknown moments.
     """
     masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
     pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
@@ -352,7 +352,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
 
 
 def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
-    """Return the factor by both definitions, and what was measured."""
+    """Return the factor by both definitions, and the measured mass."""
     details: Node = {
         "factor": factor,
         "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
@@ -366,7 +366,7 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
 
 
 def name_one_cylinder(engine: Engine) -> str:
-    """Return what a factor of one cylinder is a share of: any of them, or the mean of unequal
+    """Return the cylinder that a factor refers to, in words: any of them, or the mean of unequal
     ones.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
@@ -377,7 +377,7 @@ def name_one_cylinder(engine: Engine) -> str:
 def _fit_factor(
     engine: Engine, factor: float, planes: tuple[float, ...] | None
 ) -> tuple[Fitting, _Planes]:
-    """Fit a weight in each plane for what is missing there."""
+    """Fit the weight that is missing in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
     counted = "; what the counterweights of the file do is counted"
     less = counted if _find_counterweights(engine)[1].any() else ""
@@ -397,9 +397,9 @@ def _fit_factor(
 
 
 def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
-    """Return what each plane wants, has and lacks. Without planes each pin has its own, or, where
-    the file has counterweights, all pins at one place, for nobody knows to which of them a weight
-    there belongs.
+    """Return the unbalance that each plane needs, has and lacks. Without planes each pin has its
+    own plane. Where the file has counterweights, pins at one place share a plane, because it is not
+    known to which of them a weight there belongs.
     """
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
@@ -431,7 +431,7 @@ def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
 
 
 def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
-    """Return what each crank pin carries; pins that carry nothing are left out."""
+    """Return the load of each crank pin; pins without load are left out."""
     pins = []
     for rows in engine.rows_by_pin:
         weighed = _weigh(engine, rows)

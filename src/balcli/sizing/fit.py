@@ -127,8 +127,9 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
 def _set_up(
     engine: Engine, order: int, tables: Iterable[DeviceTable], targets: Sequence[str]
 ) -> tuple[list[Array], Array]:
-    """Return what each device of an order does, shape (readings, unknowns): one where its angle is
-    held, else two; and what is wanted, shape (readings,); in shares of one cylinder.
+    """Return the effects of the devices of an order, shape (readings, unknowns), and the readings
+    to cancel, shape (readings,), as shares of one cylinder's. A device has one unknown where its
+    angle is held, else two.
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
     parts, there, weights = [], [], []
@@ -153,7 +154,7 @@ def _set_up(
 
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
-    """Return the table with the unbalance found; values: kg m, one of a held angle, else two."""
+    """Return the table with its unbalance; values: kg m, one for a held angle, else two."""
     angle = measure_direction(complex(*values)) if values.any() else 0.0
     if len(values) == 1:
         opposite = complex(unit(table.angle + 180))

@@ -1,16 +1,15 @@
-"""A remedy in the making: devices are added order by order, each with its reason, and the next ones
-see what is left.
+"""Least squares that size devices order by order, and the sentences that give the reasons.
 
-Why a device is fitted, in one sentence: what it cancels, and why nothing less will do. Sizes
-stand in the tables, in the reader's units.
+Devices are added order by order; each order sees the residual of the devices before it. A reason
+is one sentence: the part that a device cancels, and why a simpler one does not. Sizes stand in the
+tables, in the reader's units.
 
-All sizing is one weighted linear least squares over chosen devices: every one is linear in its
-complex unbalance (docs/theory.md).
+All sizing is one weighted linear least squares over chosen devices: the effect of a device is
+linear in its complex unbalance (docs/theory.md).
 
-For one order n, a device of unbalance u at z and place p adds to what the engine shakes, per `n^2
-omega^2`, `u` to the force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the
-roll; a slider adds to both rotating vectors at once. A scheme is only a choice of slots for devices
-and of the parts that are to vanish.
+For one order n and per `n^2 omega^2`, a device of unbalance u at z and place p adds `u` to the free
+force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the roll; a slider adds to
+both rotating vectors at once. A scheme chooses slots for devices and the parts to cancel.
 """
 
 from __future__ import annotations
@@ -69,14 +68,14 @@ LEFT = 1e-12  # of what was there before: more must not remain of what a scheme 
 
 
 class Slot(NamedTuple):
-    """Where a device may be fitted.
+    """Place and kind of a device that may be fitted.
 
     Attributes:
-        kind: of the device.
-        order: times crank speed.
-        sense: of rotation, 1 with the crank, -1 against it; 0 for a slider.
-        z, place: m, x + iy.
-        direction_deg: of a slider's path, from x.
+        kind: Kind of the device.
+        order: Order, times crank speed.
+        sense: Sense of rotation: 1 with the crank, -1 against it; 0 for a slider.
+        z, place: Position along the crank, m; place x + iy, m.
+        direction_deg: Direction of a slider's path, from x.
     """
 
     kind: Literal["counterweight", "shaft", "slider"]
@@ -108,7 +107,7 @@ class Slot(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """What the least squares found.
+    """Solution of the least squares.
 
     Attributes:
         unbalances: one for each slot, kg m.
@@ -125,7 +124,7 @@ class Fit(NamedTuple):
 def find_effect(
     device: Device, parts: Sequence[ResidualPart], reference: ReferencePoint
 ) -> NDArray[np.complex128]:
-    """What a device adds to each part, shape (parts,), in the units of `Residual.parts`."""
+    """Return the effect of a device on each part, shape (parts,), in units of `Residual.parts`."""
     place, z = device.place - reference.place, device.z - reference.z
     vectors = {
         1: device.forward,
@@ -139,20 +138,20 @@ def find_effect(
 def find_effects(
     devices: Iterable[Device], parts: Sequence[ResidualPart], reference: ReferencePoint
 ) -> Array:
-    """What devices add to each part, real and imaginary in turn, shape (2 parts, devices)."""
+    """Return effects of devices, real and imaginary in turn, shape (2 parts, devices)."""
     return np.array([find_effect(one, parts, reference) for one in devices]).view(float).T
 
 
 def size_unbalances(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> Fit:
-    """The smallest unbalances that cancel these parts as well as the slots can.
+    """Return the smallest unbalances that cancel these parts as well as the slots can.
 
-    Least squares of force, and of moment and roll over the longest arm of a slot, so that what is
-    left of parts that can be cancelled is a few ulp of them.
+    Least squares of the force, and of moment and roll over the longest arm of a slot: parts that
+    can be cancelled leave a residual of a few ulp.
 
     Args:
-        least_arm: moments and roll are divided by this (m) where no slot has a longer arm.
+        least_arm: Divisor of moments and roll where no slot has a longer arm, m.
     """
     weights = _weigh(slots, residual, parts, least_arm)
     devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
@@ -167,11 +166,10 @@ def size_unbalances(
 def solve_exactly(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], reason: str
 ) -> Fit:
-    """The same, but nothing may be left: neither by the system nor by the rounding of unbalances
-    that work against each other.
+    """Return unbalances that cancel these parts completely, up to rounding.
 
-    Raises BalcliError with the reason given if these slots cannot make the parts, or with the
-    condition number if they are too much alike.
+    Raises BalcliError with the given reason if these slots cannot make the parts, or with the
+    condition number if the slots are too similar.
     """
     fit = size_unbalances(slots, residual, parts)
     weights = _weigh(slots, residual, parts)
@@ -215,18 +213,18 @@ class Fitting(NamedTuple):
     def start(
         cls, engine: Engine, scheme: str, order: int | None = None, note: str = ""
     ) -> Fitting:
-        """Nothing is fitted yet; `order` is the one that the scheme balances, if it is one, and
-        `note` what there is to say of that choice.
+        """Return a fitting without devices. `order` is the single order that the scheme balances,
+        if there is one, and `note` explains this choice.
         """
         return cls(hold_steady(engine), Remedy(scheme, order, note=note))
 
     def find_residual(self, order: int) -> Residual:
-        """What is left of an order with the devices so far."""
+        """Return the residual of an order with the devices so far."""
         return find_residual(fit_devices(self.engine, self.remedy), order)
 
     def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Fitting:
-        """With devices of these unbalances (kg m) in these slots; those of none are left out, and
-        counterweights that are dust beside what moves.
+        """Return the fitting with devices of these unbalances (kg m) in these slots. Devices of
+        zero unbalance are left out, and counterweights negligible against the moving masses.
         """
         first_axis_deg, dust = float(self.engine.first_axis_deg), LEFT * self._find_moving()
         tables = [
@@ -237,7 +235,7 @@ class Fitting(NamedTuple):
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
 
     def _find_moving(self) -> float:
-        """All masses that move, at the crank radius, kg m."""
+        """Return the sum of all moving masses at the crank radius, kg m."""
         masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
         return float(sum(masses) * self.engine.cylinders.radius)
 
@@ -248,10 +246,10 @@ class Fitting(NamedTuple):
         reason: str,
         residual: Residual | None = None,
     ) -> Fitting:
-        """With devices in these slots that leave nothing of the parts of their order.
+        """Return the fitting with devices in these slots that cancel the parts of their order.
 
         Args:
-            residual: what is left of these parts with the devices so far, where that is known.
+            residual: Residual of these parts with the devices so far; None: it is computed.
 
         Raises BalcliError if the slots cannot do so.
         """
@@ -265,8 +263,8 @@ class Fitting(NamedTuple):
         return fitting
 
     def balance_rotating(self, *, keep_overbalance: bool = True) -> Fitting:
-        """With counterweights for the masses that turn with the crank pins, as far as those of the
-        file do not balance them: one, where one takes their force and moment, else at both ends.
+        """Return the fitting with counterweights for the masses that turn with the crank pins, as
+        far as those of the file do not balance them: one where one is enough, else two at the ends.
 
         Args:
             keep_overbalance: Whether counterweights of the file that balance more stay as they are.
@@ -290,13 +288,13 @@ class Fitting(NamedTuple):
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
     def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
-        """With details, by these keys of `_LEFT_OF`, of what the devices so far leave."""
+        """Return the fitting with details, by these keys of `_LEFT_OF`, on the residual."""
         left = self.find_residual(order)
         return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
 
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
-        """With details of what the devices so far leave of an order's roll, and of what it was; of
-        an engine with gas, of the roll with the gas at its speed, too.
+        """Return the fitting with details on the roll of an order, without and with the devices so
+        far; for an engine with gas also on the roll with gas at its speed.
         """
         order = before.order
         left = self.find_residual(order).size(ROLL)
@@ -308,12 +306,12 @@ class Fitting(NamedTuple):
         return self.add_details(group, **details)
 
     def add_details(self, group: str = "", /, **figures: object) -> Fitting:
-        """Return the fitting with further details in the remedy: `Remedy.add_details`."""
+        """Return the fitting with further details in its remedy (`Remedy.add_details`)."""
         return self._replace(remedy=self.remedy.add_details(group, **figures))
 
 
 def _size_total_roll(engine: Engine, order: int) -> float:
-    """Amplitude of an order of the roll with gas, N m."""
+    """Return the amplitude of an order of the roll with gas, N m."""
     return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])
 
 
@@ -330,10 +328,10 @@ def explain_shaft(
     """Return why this many eccentrics on one shaft take what turns in this sense.
 
     Args:
-        residual: What is left at the order.
+        residual: Residual of the order.
         sense: Sense of rotation: 1 with the crank, -1 against it.
         count: Number of eccentrics.
-        stays: What stays of the moment (`tell_moment`); empty: they take all.
+        stays: Words on the moment that remains (`tell_moment`); empty: none.
         halves: Whether one eccentric is divided.
     """
     what = f"Order {residual.order} force" if stays else _name(residual, sense)
@@ -348,8 +346,8 @@ def explain_shaft(
 
 
 def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
-    """Return words on the moment that one eccentric at z (m) leaves, and what takes it; empty if
-    none stays.
+    """Return words on the moment that one eccentric at z (m) leaves, with its cure; empty if none
+    remains.
     """
     return "" if takes_moment(residual, sense, z) else f"; a moment stays, which {cure}"
 
@@ -365,7 +363,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
 
 
 def _name(residual: Residual, sense: int) -> str:
-    """Return what turns at this order in this sense."""
+    """Return the order and its kinds of parts in this sense, in words."""
     kinds = [part.kind for part in (FORWARD if sense > 0 else BACKWARD) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"
 

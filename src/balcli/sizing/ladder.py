@@ -1,9 +1,9 @@
-"""The ladder: what balances an engine, step by step, and what is left with each step.
+"""The ladder: devices that balance an engine step by step, and the forces left with each step.
 
-Counterweights in the end planes take the part of order 1 that turns with the crank; counterweights
-at every throw take it where it arises, so that main bearings do not carry it; shafts take what
-turns against the crank, and order 2. A step is listed where the part that it takes is not small
-beside one cylinder.
+Counterweights in the end planes cancel the part of order 1 that turns with the crank;
+counterweights at every throw cancel it where it arises, so that main bearings do not carry it;
+shafts cancel the part that turns against the crank, and order 2. A step is listed if the part that
+it cancels is not small compared with one cylinder.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ _AT_THROWS = (
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """What one cylinder makes, beside which a part is small or large.
+    """Force and moment of one cylinder, against which a part is small or large.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
@@ -88,7 +88,7 @@ class Step:
     Attributes:
         step: Name of the step.
         peak_force_N: Largest free force over a revolution, of all orders.
-        peak_moment_Nm: Largest free moment, likewise; left out where positions are not known.
+        peak_moment_Nm: Largest free moment over a revolution; left out for unknown positions.
         main_bearing_N: Largest load of a main bearing by inertia; left out where all throws stand
             in one plane.
         inner_moment_Nm: Largest bending moment of the crankshaft by inertia.
@@ -111,13 +111,13 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class LeftOut:
-    """A step that would take something, but too little to be listed.
+    """A step that would cancel a part that is too small to be listed.
 
     Attributes:
         step: Name of the step.
-        force_N: Largest force that it would take, turning in one sense.
-        moment_Nm: Largest moment, likewise; left out where positions are not known.
-        main_bearing_N: By how much it would lower the largest load of a main bearing.
+        force_N: Largest force that it would cancel, turning in one sense.
+        moment_Nm: Largest moment that it would cancel; left out where positions are not known.
+        main_bearing_N: Reduction of the largest load of a main bearing.
     """
 
     step: str
@@ -128,13 +128,13 @@ class LeftOut:
 
 @dataclass(frozen=True, kw_only=True)
 class Ladder:
-    """What balances an engine, step by step.
+    """Devices that balance an engine, step by step.
 
     Attributes:
-        scale: What one cylinder makes.
+        scale: Force and moment of one cylinder.
         auto: Step that is fitted unless another one is asked for.
         steps: Steps that are worth listing.
-        left_out: Other steps that would take something.
+        left_out: Steps that are not listed and would cancel something.
         small: Share of one cylinder below which a part is left.
     """
 
@@ -174,7 +174,7 @@ class Ladder:
         raise BalcliError(f'step "{step[:60]}": {why}; this engine has {rows}')
 
     def _explain(self, out: LeftOut) -> str:
-        """Return what a step would do, and the option that lists it, if one does."""
+        """Return the effect of an omitted step, and the option that lists it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
         moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
         does = f"it would take {out.force_N:.4g} N{moment}"
@@ -185,8 +185,8 @@ class Ladder:
         return f"{does}, {abs(share):.2g} % of one cylinder{hint}"
 
     def measure(self, out: LeftOut) -> float:
-        """Return the size of what a step would take, or by how much it would lower the load of a
-        main bearing, % of one cylinder; nan where a cylinder makes nothing.
+        """Return the size of the part that a step would cancel, or by how much it would lower a
+        main bearing load, in % of one cylinder's first order; nan where this is 0.
         """
         sizes = [(out.force_N, self.scale.force_N), (out.moment_Nm or 0.0, self.scale.moment_Nm)]
         if out.main_bearing_N is not None:
@@ -196,10 +196,9 @@ class Ladder:
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a weight at every throw against what turns with the crank there: the
-    forward force of order 1 of its cylinders, and of the counterweights of the file that are
-    nearest to it. If a force or moment remains (stagger, weights of the file), the smallest
-    addition takes it.
+    """Return the fitting with a weight at every throw, against the forward force of order 1 of its
+    cylinders and of the counterweights of the file that are nearest to it. If a force or moment
+    remains (stagger, weights of the file), the smallest addition cancels it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -217,14 +216,14 @@ def add_at_throws(fitting: Fitting) -> Fitting:
 
 
 def add_at_ends(fitting: Fitting, first: Residual) -> Fitting:
-    """Return the fitting with weights in the end planes for what turns with the crank."""
+    """Return the fitting with weights in the end planes for the part that turns with the crank."""
     slots = [Slot("counterweight", 1, 1, z) for z in find_ends(fitting.engine)]
     return fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
 
 
 def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
-    """Return the fitting with shafts for all of an order that turns in these senses: one eccentric
-    where one place takes force and moment, else two in the end planes.
+    """Return the fitting with shafts for the parts of an order in these senses: one eccentric where
+    one cancels force and moment, else two in the end planes.
     """
     for sense in senses:
         planes = find_planes(fitting.engine, residual, sense)
@@ -249,7 +248,7 @@ def size_complete(engine: Engine) -> Remedy:
 
 # ------------------------------------------------------------------ steps
 def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
-    """Return what balances an engine, step by step.
+    """Return the ladder of an engine.
 
     Args:
         engine: Engine without trailing axes.
@@ -286,9 +285,9 @@ def _list_weights(
 
     Args:
         drawn: Nothing fitted.
-        first: What is left of order 1.
+        first: Residual of order 1.
         meter: Measures steps.
-        scales: What one cylinder makes.
+        scales: Force, moment and roll of one cylinder.
         small: Share of one cylinder below which a part is left.
     """
     engine = drawn.engine
@@ -321,7 +320,7 @@ def _leave_out(
     senses: Iterable[int],
     main_bearing: float | None = None,
 ) -> LeftOut:
-    """Return a step that is left out, with the largest parts that it would take."""
+    """Return a step that is left out, with the largest parts that it would cancel."""
     forces, moments = zip(*(map(residual.size, _parts(sense)) for sense in senses), strict=True)
     return LeftOut(
         step=step,

@@ -132,14 +132,14 @@ _LEFT = 1e-9  # of what is to be cancelled: more, and these planes cannot take t
 
 
 def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
-    """The counterweight that moves the centre of the smallest circle around `F e^{-i theta}` to the
-    origin (docs/theory.md).
+    """Return the counterweight that moves the centre of the smallest circle around `F e^{-i theta}`
+    to the origin (docs/theory.md).
 
-    One weight in the middle of the throws, or in the planes asked for such that the moment turning
-    with the crank vanishes too.
+    This is one weight in the middle of the throws; or, in given planes, weights that also cancel
+    the moment that turns with the crank.
 
     Raises:
-        BalcliError: the planes asked for cannot take the moment.
+        BalcliError: the given planes cannot take the moment.
         NothingToBalanceError: no weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
@@ -185,8 +185,8 @@ def _name_orders(options: SchemeOptions) -> str:
 def _split(
     engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
 ) -> tuple[Sequence[Slot], Sequence[complex]]:
-    """Slots and unbalances (kg m) that add up to this one: in one plane, or in the planes asked for
-    such that no moment of order 1 turning with the crank is left.
+    """Return slots and unbalances (kg m) that add up to this one: in one plane, or in the given
+    planes such that no moment of order 1 that turns with the crank is left.
     """
     if options.planes is None:
         z = find_crank_middle(engine) if options.position is None else options.position
@@ -202,7 +202,7 @@ def _split(
 
 def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
     """Return the largest force with the weights of factor 0.5 instead of the engine's own, and by
-    which share the circle is smaller; nothing of a rotary engine, which has no factor.
+    which share the circle is smaller; empty for a rotary engine, which has no factor.
     """
     if engine.rotary:
         return {}

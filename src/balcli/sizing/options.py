@@ -29,21 +29,21 @@ _SEVERAL = ("at", "planes", "factor", "orders")
 
 
 class SchemeOptions(NamedTuple):
-    """Options of the schemes, lengths in m; None is an option that was not given. `balcli balance
-    --schemes` says which scheme takes which.
+    """Options of the schemes, lengths in m; None: not given. `balcli balance --schemes` lists the
+    options of each scheme.
 
     Attributes:
-        order: the order to balance; default: the lowest that has what the scheme takes.
+        order: the order to balance; default: the lowest with a part that the scheme cancels.
         at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
             the crank.
         position: z of new devices.
         planes: "ends", "throws", or places z of new devices.
         factor: shares of the reciprocating mass, of which the best is fitted; default: 0.5.
         measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
-        roll: "zero": two shafts are placed such that the roll of inertia of this order
-            vanishes, too.
+        roll: "zero": two shafts are placed such that they also cancel the roll of inertia of
+            this order.
         orders: orders of the force whose largest value is made smallest; default: all.
-        small: share of one cylinder below which what turns one way in an order is left.
+        small: share of one cylinder below which a part of an order is left.
         step: name or number of a step of the ladder (scheme step).
         radius: of the weights on shafts that turn unevenly or drive couplings; default: the crank
             radius.
@@ -66,7 +66,7 @@ class SchemeOptions(NamedTuple):
         return SMALL if self.small is None else self.small
 
     def check(self, scheme: str) -> None:
-        """Refuse what the scheme does not know.
+        """Reject options that the scheme does not have.
 
         Raises BalcliError for an unknown scheme, an option that the scheme does not take, and an
         order or a roll that no scheme takes.
@@ -104,8 +104,8 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
     def _check_numbers(self) -> None:
-        """Raise TypeError for what is no number, BalcliError for a place farther than any engine
-        reaches.
+        """Raise TypeError for a value that is no number, BalcliError for a place that is farther
+        away than any engine reaches.
         """
         for name, (kind, finite, right) in _NUMBERS.items():
             given = getattr(self, name)
@@ -123,7 +123,7 @@ class SchemeOptions(NamedTuple):
                     )
 
     def read_place(self) -> complex:
-        """The one place asked for, or else 0, the crank axis; BalcliError if there are more."""
+        """Return the given place, or 0, the crank axis; BalcliError for more than one."""
         at = self.at or (0j,)
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
@@ -144,7 +144,7 @@ def check_small(share: float) -> float:
 
 
 def _are(values: object, kind: type, finite: bool) -> bool:
-    """Return whether they are numbers of a kind, one at least, none with hundreds of digits."""
+    """Return whether there are values, all numbers of a kind and none with hundreds of digits."""
     if not isinstance(values, tuple) or not values:
         return False
     try:
@@ -157,7 +157,7 @@ def _are(values: object, kind: type, finite: bool) -> bool:
 
 
 def find_taken(scheme: str) -> tuple[str, ...]:
-    """The options that a scheme takes.
+    """Return the options that a scheme takes.
 
     Raises BalcliError, with the nearest name, if there is no such scheme or it sizes no devices.
     """

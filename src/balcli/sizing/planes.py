@@ -1,5 +1,6 @@
-"""Where along the crank devices may stand, and devices as tables of the engine file (g mm, degrees,
-mm), made from SI: what is written is exactly what is analyzed.
+"""Places of devices along the crank, and devices as tables of the engine file (g mm, degrees, mm).
+
+Tables are made from SI figures; the figures that are written are exactly those that are analyzed.
 """
 
 from __future__ import annotations
@@ -38,26 +39,26 @@ def find_ends(engine: Engine) -> tuple[float, float]:
 
 
 def find_length(engine: Engine) -> tuple[float, float]:
-    """z of the first and the last throw or cylinder, m."""
+    """Return z of the first and the last throw or cylinder, m."""
     return _find_reach([*engine.throws_m, *np.ravel(engine.cylinders.z)])
 
 
 def find_crank_middle(engine: Engine) -> float:
-    """z half-way between the first and the last throw, m."""
+    """Return z half-way between the first and the last throw, m."""
     low, high = _find_reach(engine.throws_m)
     return (low + high) / 2
 
 
 def locate_force(residual: Residual, sense: int) -> float:
-    """Return z at which the force turning in this sense acts if it is to make as much of the moment
-    as it can, `z_ref + Re(M / iV)`, m. There must be a force.
+    """Return z (m) at which the force in this sense accounts for as much of the moment as possible:
+    `z_ref + Re(M / iV)`. The force must not be 0.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
 
 def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[float, bool]:
-    """Return z of the engine, m, nearest to where the force turning in this sense acts, and
-    whether one device there takes the moment as well. There must be a force.
+    """Return z (m) within the engine nearest to where the force in this sense acts, and whether one
+    device there cancels the moment as well. The force must not be 0.
     """
     low, high = find_length(engine)
     near = min(max(locate_force(residual, sense), low), high)
@@ -69,14 +70,14 @@ def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[f
 
 
 def takes_moment(residual: Residual, sense: int, z: float) -> bool:
-    """Whether a device at z (m) that takes the force turning in this sense takes its moment."""
+    """Return whether a device at z (m) that cancels the force in this sense cancels the moment."""
     left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
     return abs(left) <= residual.noise[ResidualPart("moment", sense)]
 
 
 def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:
-    """z asked for, or else where the force turning in this sense acts, as near as the engine's
-    length allows; m.
+    """Return the given z, or else z within the engine nearest to where the force in this sense
+    acts, m.
     """
     if options.position is not None:
         return options.position
@@ -84,8 +85,8 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:
-    """Return the fewest planes (z, m) in which devices take all that turns in this sense: one if
-    that takes force and moment, else both ends, none where nothing is left.
+    """Return the fewest planes (z, m) in which devices cancel force and moment in this sense: one
+    if it is enough, else both ends, none where nothing is left.
     """
     if residual.force(sense):
         z, enough = find_single_plane(engine, residual, sense)
@@ -94,8 +95,8 @@ def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, 
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """Planes (z, m) as asked for by `--planes`; BalcliError if that says nothing, and for several
-    where nobody knows how to share between them, because moments are not known.
+    """Return the planes (z, m) of `--planes`; BalcliError if it is empty, or names several planes
+    of an engine whose moments are not known.
     """
     if options.planes == "ends":
         return tuple(dict.fromkeys(find_ends(engine)))
@@ -109,7 +110,7 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
-    """The two planes (z, m) asked for, or else the ends; BalcliError if they are not two."""
+    """Return the two given planes (z, m), or else the ends; BalcliError if they are not two."""
     planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
     if not isinstance(planes, tuple) or len(planes) != 2:
         raise BalcliError(
@@ -122,7 +123,7 @@ def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, floa
 
 
 def _find_reach(places: ArrayLike) -> tuple[float, float]:
-    """The least and the largest."""
+    """Return the smallest and the largest value."""
     flat = np.ravel(places)
     return float(flat.min()), float(flat.max())
 
@@ -141,7 +142,7 @@ _ROUNDING = 1e-12  # of the largest eccentric: less together is no force
 
 
 def name_kind(device: DeviceTable) -> str:
-    """The name of its table in an engine file: "counterweight", "shaft" or "slider"."""
+    """Return the name of a device's table: "counterweight", "shaft" or "slider"."""
     return type(device).__name__.lower()
 
 
@@ -153,13 +154,13 @@ def find_order(device: DeviceTable) -> int:
 
 
 def find_unbalance(device: DeviceTable) -> float:
-    """Unbalance of a device that a scheme made, kg m."""
+    """Return the unbalance of a device that a scheme made, kg m."""
     return (device.unbalance or 0.0) / 1e6
 
 
 def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
-    """Which devices belong to a shaft that may stand anywhere, because its eccentrics together make
-    a moment and no force, and nobody has said where it stands.
+    """Return which devices belong to a shaft that may stand anywhere: its eccentrics together make
+    a moment and no force, and no place is given.
     """
     shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
     free = set[int]()
@@ -175,7 +176,7 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
 
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
-    """Direction of a vector, degrees from `origin_deg`, in (-180, 180]."""
+    """Return the direction of a vector, degrees from `origin_deg`, in (-180, 180]."""
     return _plain(float(wrap_degrees(math.degrees(cmath.phase(vector)) - origin_deg, 360)), 360)
 
 
@@ -185,8 +186,6 @@ def as_millimetres(metres: float) -> float:
 
 
 def _plain(figure: float, size: float) -> float:
-    """The figure with nine decimals, as people would write it, where that is the same to an ulp of
-    `size`.
-    """
+    """Return the figure with nine decimals if that changes it by less than an ulp of `size`."""
     short = round(figure, 9) + 0.0
     return short if abs(figure - short) <= size * EPS else figure

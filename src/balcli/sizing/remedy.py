@@ -1,4 +1,4 @@
-"""Remedy: what a scheme fits to an engine, and why."""
+"""Remedy: the devices that a scheme fits to an engine, and the reasons."""
 
 from __future__ import annotations
 
@@ -17,19 +17,20 @@ if TYPE_CHECKING:
 
 
 class Remedy(NamedTuple):
-    """New devices as tables of the engine file, and what there is to say of them.
+    """New devices as tables of the engine file, with reasons and notes.
 
     Attributes:
         order: the order that is balanced, where the scheme has one.
         devices: counterweights, shafts and sliders, in this order.
         reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
-            what else is changed and why.
-        details: figures of the scheme that are no device, as JSON has them: keys end in the unit,
-            those of one order stand in a dict of their own.
-        note: what to know besides, such as why nothing is fitted.
+            the other changes and their reasons.
+        details: further figures of the scheme, as JSON has them: keys end in the unit, those of
+            one order stand in a dict of their own.
+        note: further information, such as why nothing is fitted.
         card: bobweights of all crank pins (scheme factor).
-        needs: what each plane has and lacks, where the file has counterweights (scheme factor).
-        sweep: what each of several factors leaves (scheme factor).
+        needs: unbalance that each plane has and lacks, where the file has counterweights (scheme
+            factor).
+        sweep: largest values by factor, for several factors (scheme factor).
         knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
         beyond: devices that no engine file can describe, SI.
         start: engine to which the devices are fitted, where it is not the one of the file.
@@ -67,7 +68,7 @@ class Remedy(NamedTuple):
 
     @property
     def free(self) -> tuple[bool, ...]:
-        """Which of `devices` may stand anywhere (`planes.find_free`)."""
+        """For each of `devices`, whether it may stand anywhere (`planes.find_free`)."""
         return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
@@ -92,9 +93,7 @@ class Remedy(NamedTuple):
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
-    """The engine with the devices of a remedy added to its own, in the order in which its file
-    would have them.
-    """
+    """Return the engine with the devices of a remedy added, in the order of its file's tables."""
     new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
     everything = (*engine.devices, *new, *remedy.beyond)
     devices = tuple(sorted(everything, key=lambda device: device.kind))
@@ -109,7 +108,7 @@ def remove_counterweights(engine: Engine) -> Engine:
 
 
 def _fit_model(model: EngineFile | None, remedy: Remedy) -> EngineFile | None:
-    """The file with the devices of a remedy; None where none can describe them."""
+    """Return the file with the devices of a remedy; None if no file can describe them."""
     if model is None or remedy.beyond:
         return None
     added: dict[str, tuple[DeviceTable, ...]] = {}

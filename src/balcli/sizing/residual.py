@@ -1,4 +1,4 @@
-"""What an engine shakes at one order: what is left for a scheme to cancel."""
+"""Residual: free force, moment and roll of one order that a scheme has to cancel."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PartKind = Literal["force", "moment", "roll"]  # names of kinds
 
 
 class ResidualPart(NamedTuple):
-    """One part of what shakes an engine at an order.
+    """One part of the free force, moment or roll of an order.
 
     Attributes:
         kind: "force", "moment" or "roll".
@@ -45,16 +45,16 @@ class ReferencePoint(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """What is left to cancel at one order, as the unbalance that would make it.
+    """Parts of one order that remain to be cancelled, as the unbalance that would make them.
 
     Attributes:
         order: n, times crank speed.
         parts: complex amplitude over `n^2 omega^2` of each part: force in kg m, moment (over i)
             and roll in kg m^2.
         noise: rounding error of each part, in the same units.
-        reference: moments and roll are taken about it.
+        reference: point about which moments and roll are taken.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
-        note: why lower orders stay as they are, where this one was not asked for.
+        note: why lower orders are left, where a scheme chose this order.
     """
 
     order: int
@@ -87,7 +87,7 @@ class Residual(NamedTuple):
 
 
 class Scales(NamedTuple):
-    """What one cylinder makes.
+    """Largest first-order force, moment and roll of one cylinder.
 
     Attributes:
         force: largest first-order force of a cylinder alone, N.
@@ -135,9 +135,9 @@ def is_small(size: float, least: float) -> bool:
 
 
 class NothingToBalanceError(Exception):
-    """There is nothing to balance, as its text says: a scheme then fits no device.
+    """There is nothing to balance, and a scheme fits no device; the text gives the reason.
 
-    `details`: figures of what is there nevertheless.
+    `details`: further figures of the scheme.
     """
 
     def __init__(self, text: str, **details: float) -> None:
@@ -146,17 +146,17 @@ class NothingToBalanceError(Exception):
 
 
 class OnlySmallError(Exception):
-    """All that a scheme takes is small, as its text says: it would fit what nobody builds."""
+    """All parts that a scheme cancels are small; the text names the largest."""
 
 
 def hold_steady(engine: Engine) -> Engine:
-    """The engine at its mean speed, without speed ripple: devices are sized for that."""
+    """Return the engine at its mean speed, without speed ripple: devices are sized for that."""
     return replace(engine, ripple=())
 
 
 def find_residual(engine: Engine, order: int) -> Residual:
-    """What the engine, with the devices it has, shakes at one order at its mean speed; of
-    forces alone where moments are not known.
+    """Return the residual of an engine with its devices at one order and its mean speed; forces
+    alone where moments are not known.
     """
     found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
@@ -181,14 +181,14 @@ def choose_residual(
     kinds: Sequence[Literal["force", "moment"]],
     senses: Sequence[int] = (1, -1),
 ) -> Residual:
-    """What is left at the order asked for, or else at the lowest where something of these kinds is
-    not small.
+    """Return the residual of the given order, or else of the lowest order that has a part of these
+    kinds that is not small.
 
     Args:
-        senses: of rotation that count: 1 with the crank, -1 against it.
+        senses: Senses of rotation that count: 1 with the crank, -1 against it.
 
-    Raises NothingToBalanceError if nothing of them is left, BalcliError for a moment that is not
-    known, OnlySmallError if all that is left is small.
+    Raises NothingToBalanceError if no such part is left, BalcliError for a moment that is not
+    known, OnlySmallError if all parts that are left are small.
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
@@ -213,8 +213,8 @@ def _find_lowest(
     senses: Sequence[int],
     what: str,
 ) -> Residual:
-    """Return what is left at the lowest order of which some of these kinds is not small; its note
-    lists what shakes at lower ones.
+    """Return the residual of the lowest order with a part of these kinds that is not small; its
+    note lists the parts of lower orders.
     """
     scales, least = find_scales(engine), options.read_small()
     sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
@@ -250,20 +250,21 @@ def tell_small(
     scales: Scales,
     least: float,
 ) -> str:
-    """Return why nothing is fitted: all that a scheme takes is small; and which scheme takes the
-    largest of what there is.
+    """Return why nothing is fitted (all parts that the scheme cancels are small), and which scheme
+    cancels the largest part of all.
 
     Args:
-        largest: What is left of the order with the largest part that the scheme takes.
-        sought: Parts that it takes.
-        found: What is left of all orders.
-        scales: What one cylinder makes.
+        largest: Residual of the order with the largest part that the scheme cancels.
+        sought: Parts that it cancels.
+        found: Residuals of all orders.
+        scales: Force, moment and roll of one cylinder.
         least: Share of it below which a part is small.
     """
     part = max(sought, key=lambda one: find_share(largest, one, scales))
     told = (
         f"the largest {part.kind} {_turning(part)} is {_tell_size(largest, part)} "
-        f"(order {largest.order}), small beside one cylinder; --order {largest.order} fits it"
+        f"(order {largest.order}), small compared with one cylinder's; "
+        f"--order {largest.order} fits it"
     )
     senses = {part.sense for part in sought}
     parts = [part for part in (*FORWARD, *BACKWARD) if part.sense in senses]
@@ -290,7 +291,7 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
 
 
 def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
-    """Return sentences on orders that nothing is done about, by what they have."""
+    """Return sentences on the orders that are left, grouped by the parts that they have."""
     told = ""
     for rest, orders in rests.items():
         if len(orders) == 1:
@@ -303,7 +304,7 @@ def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
 
 
 def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
-    """Return what an order has besides what is sought, and what takes it."""
+    """Return the other parts of an order, and the schemes that cancel them."""
     if 1 in senses:
         takes: dict[PartKind, str] = {"moment": "couple-shaft", "force": "two-shaft"}
         others = [what for what in takes if what not in kinds and residual.has(what, senses)]

@@ -36,7 +36,7 @@ MEANINGS = {
     "auto": "orders 1 and 2: counterweights, then shafts as far as they are worth one",
     "complete": "all of orders 1 and 2, however small: counterweights, then shafts",
     "step": "a step of the ladder that balance prints, by its name or number",
-    "counterweights": "rotating masses, and what of order 1 turns with the crank",
+    "counterweights": "rotating masses, and the part of order 1 that turns with the crank",
     "factor": "the shop's balance factor, with the bobweight card",
     "minimax": "the counterweight that leaves the smallest peak force",
     "single-shaft": "one shaft against the crank, and counterweights for the rest",

@@ -43,12 +43,12 @@ _ROUNDING_M = 1e-9
 
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """One shaft at -N for what of order N turns against the crank; at N = 1 counterweights take
-    what turns with it.
+    """Fit one shaft at -N for the part of order N that turns against the crank; for N = 1 also
+    counterweights for the part that turns with it.
 
-    One eccentric takes the force; its axial distance from the force leaves a couple, which the
-    details state, and unless a place is asked for, it stands where that couple is smallest. Two, in
-    the planes asked for, take the moment as well.
+    One eccentric cancels the force. Its axial distance from the force leaves a couple, which the
+    details list; without a given place it stands where that couple is smallest. Two eccentrics in
+    given planes cancel the moment as well.
     """
     two = options.planes is not None
     if two and options.position is not None:
@@ -62,7 +62,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         planes, stays = read_two_planes(engine, options), ""
     else:
         planes = (choose_plane(engine, options, residual, -1),)
-        stays = tell_moment(residual, -1, planes[0], "eccentrics in two planes take, too")
+        stays = tell_moment(residual, -1, planes[0], "eccentrics in two planes cancel")
     slots = [Slot("shaft", residual.order, -1, z, options.read_place()) for z in planes]
     reason = explain_shaft(residual, -1, len(slots), stays)
     fitting = fitting.cancel(slots, BACKWARD[: len(slots)], reason)
@@ -78,8 +78,8 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Shafts at +N and -N, each with two opposite eccentrics in two planes, for the moment of order
-    N; where it turns in one sense alone, one of them.
+    """Fit shafts at +N and -N, each with two opposite eccentrics in two planes, for the moment of
+    order N; only one of them where the moment turns in one sense alone.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
@@ -100,8 +100,8 @@ Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Shafts at +N and -N for the force of order N, placed such that no roll is added, or such that
-    none is left (option `roll`).
+    """Fit shafts at +N and -N for the force of order N, placed such that no roll is added, or such
+    that none is left (option `roll`).
     """
     try:
         residual = choose_residual(engine, options, ("force",))
@@ -121,11 +121,11 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Remedy:
-    """Shafts at +N and -N far from the engine, as marine engines have at one end: their force there
-    takes the moment of order N, and stays.
+    """Fit shafts at +N and -N far from the engine, as at one end of marine engines: their force
+    cancels the moment of order N, and remains as a free force.
 
     Raises:
-        NothingToBalanceError: the order has no moment, either.
+        NothingToBalanceError: the order has no moment.
         BalcliError: the place has no arm.
     """
     residual = choose_residual(engine, options, ("moment",))
@@ -151,7 +151,7 @@ def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Reme
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
+    """Fit shafts at +1, -1, +2 and -2 for the forces of orders 1 and 2."""
     fitting = Fitting.start(engine, "four-shaft").balance_rotating()
     residuals, scales = [fitting.find_residual(order) for order in (1, 2)], find_scales(engine)
     sizes = [max(find_share(one, part, scales) for part in FORCE) for one in residuals]
@@ -171,14 +171,14 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
-    """With shafts at +N and -N for the force of this order; where one part of it is missing, with
-    one shaft, or two halves of it.
+    """Return the fitting with shafts at +N and -N for the force of this order; where it turns in
+    one sense alone, with one shaft or its two halves.
     """
     places = _choose_places(residual, options)
     for sense, standing in places.items():
         z = choose_plane(fitting.engine, options, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z, place) for place in standing]
-        stays = tell_moment(residual, sense, z, "takes eccentrics in two planes")
+        stays = tell_moment(residual, sense, z, "needs eccentrics in two planes")
         reason = explain_shaft(residual, sense, 1, stays, halves=len(slots) > 1)
         share = -residual.force(sense) / len(slots)
         fitting = fitting.add(slots, [share] * len(slots), reason)
@@ -189,13 +189,13 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Return where the shafts of each sense stand: as asked for; what is not given, such that the
-    pair adds no roll, or with `roll` such that none is left.
+    """Return the places of the shafts of each sense: the given ones, the others such that the pair
+    adds no roll, or with `roll` such that none is left.
 
     A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
-    (docs/theory.md). Without a place that was given, those nearest to the crank are taken (least
-    squares). A force that turns in one sense alone takes one shaft on the crank axis, or two
-    halves at the place asked for and opposite to it.
+    (docs/theory.md). Without a given place, the places nearest to the crank are chosen (least
+    squares). A force that turns in one sense alone needs one shaft on the crank axis, or two halves
+    at the given place and opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:

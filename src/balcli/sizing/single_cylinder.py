@@ -267,12 +267,12 @@ _OLDHAM = (
 
 
 def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
-    unevenly; a weight takes the rotating mass.
+    """Fit two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
+    unevenly; a weight cancels the rotating mass.
 
-    Masses and eccentricities are for the radius asked for, or else the crank radius. Fitted is
-    design a with the smallest peak for orders 1 and 2 (Wang's two terms); the remedy has
-    the optima of both designs.
+    Masses and eccentricities are for the given radius, or else the crank radius. Design a with the
+    smallest peak for orders 1 and 2 (Wang's two terms) is fitted; the remedy lists the optima of
+    both designs.
 
     Raises BalcliError for several cylinders, a piston offset, or a rod too short for an optimum.
     """
@@ -328,7 +328,7 @@ def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: floa
 
 
 def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Device, ...]:
-    """Both shafts: a device for each order of their motion, which shakes along the cylinder."""
+    """Return devices along the cylinder, one for each order of the motion of both shafts."""
     axis = complex(unit(float(engine.cylinders.axis_deg[0])))
     z = float(engine.cylinders.z[0])
     wave, _ = expand_shaft_wave(fitted.design, fitted.k)
@@ -341,9 +341,9 @@ def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Dev
 
 
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Two Oldham couplings, one turning with and one against the crank: first-order weights m r/2,
-    and blocks whose centres go round at twice the speed, A2 m r/8 a side; a counterweight takes the
-    rotating mass. Masses are for the radius asked for, or else the crank radius.
+    """Fit two Oldham couplings, one turning with and one against the crank: first-order weights
+    m r/2, and blocks whose centres turn at twice the speed, A2 m r/8 a side; a counterweight
+    cancels the rotating mass. Masses are for the given radius, or else the crank radius.
 
     Raises BalcliError for several cylinders.
     """

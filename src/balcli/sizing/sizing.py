@@ -63,12 +63,11 @@ def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Counterweights for the force and the moment of order 1 that turn with the crank, in the
-    planes asked for; in a single plane as well as it can be done, or, where moments are not known,
-    for the force alone.
+    """Fit counterweights for the force and the moment of order 1 that turn with the crank, in the
+    given planes; in a single plane as a compromise; of unknown moments, for the force alone.
 
     Raises:
-        BalcliError: another order is asked for, or the planes cannot take the moment.
+        BalcliError: another order is given, or the planes cannot take the moment.
         NothingToBalanceError: nothing of order 1 turns with the crank.
     """
     if options.order not in (None, 1):
@@ -106,7 +105,7 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
         raise BalcliError(f"--planes throws: {MOMENTS_UNKNOWN}")
     remedy = add_at_throws(fitting).remedy
     if not remedy.devices:
-        raise NothingToBalanceError("At every throw, what turns with the crank is balanced already")
+        raise NothingToBalanceError("Forces turning with the crank are balanced already")
     return remedy
 
 
@@ -119,10 +118,10 @@ def _tell_not_needed(engine: Engine) -> str:
 
 
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
-    """A weight in one plane, which cannot take a moment that acts elsewhere.
+    """Fit a weight in one plane, which cannot cancel a moment that acts elsewhere.
 
-    A plane near the point of reference has hardly an arm there: a weight for the moment would leave
-    a far larger force, so that the moment counts by the engine's arms, too.
+    A plane near the point of reference has a short arm: a weight for the moment would leave a far
+    larger force. The moment is therefore weighted by the arms of the engine as well.
     """
     fit = size_unbalances(slots, residual, FORWARD, _find_engine_arm(fitting.engine, residual))
     fitting = fitting.add(
@@ -138,18 +137,18 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
 
 
 def _find_engine_arm(engine: Engine, residual: Residual) -> float:
-    """How far the engine goes from the point of reference along the crank, m; the crank radius at
-    the least.
+    """Return the longest arm of the engine along the crank from the point of reference, m; at least
+    the crank radius.
     """
     ends = (abs(z - residual.reference.z) for z in find_length(engine))
     return max(float(engine.cylinders.radius), *ends)
 
 
 def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|) /
-    (n^2 omega^2)`.
+    """Fit two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|)
+    / (n^2 omega^2)`.
 
-    They stand where the stronger of the two rotating forces acts, unless a place is asked for.
+    Without a given place they stand where the stronger of the two rotating forces acts.
     """
     residual = choose_residual(engine, options, ("force",))
     forward, backward = residual.force(1), residual.force(-1)
@@ -188,8 +187,8 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
 
 
 def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = None) -> Remedy:
-    """The devices that a scheme fits to an engine; none, with a note, where there is nothing to
-    balance.
+    """Return the devices that a scheme fits to an engine; none, with a note, where there is nothing
+    to balance.
 
     Args:
         engine: without trailing axes. scheme: of `SCHEMES`.

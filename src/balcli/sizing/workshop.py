@@ -1,5 +1,5 @@
-"""What a workshop asks of a device: how heavy at which radius, how it pulls, and a first guess of
-its size in steel.
+"""Figures of a device for the workshop: mass at a radius, force, and a first guess of its size in
+steel.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ THICKNESS = 0.020  # m, of a semicircular disc if nothing else is said
 
 
 class Tools(NamedTuple):
-    """What a workshop has, m; None: not said.
+    """Tools and limits of a workshop, lengths in m; None: not given.
 
     Attributes:
-        radius: at which masses are stated; the crank radius if not said.
-        thickness: of semicircular discs; 20 mm if not said.
-        disc: their radius, instead of their thickness.
-        drill: diameter; no holes are stated if not said.
-        max_depth: of holes; to the axis if not said.
-        slug: density of slugs that fill the holes, kg/m3; empty holes if not said.
-        width: axial room for a row of holes; if not said, the smallest distance of neighboring
+        radius: Radius at which masses are stated; default: the crank radius.
+        thickness: Thickness of semicircular discs; default: 20 mm.
+        disc: Radius of semicircular discs, instead of their thickness.
+        drill: Diameter of the drill; without it no holes are planned.
+        max_depth: Largest depth of holes; default: to the axis.
+        slug: Density of slugs that fill the holes, kg/m3; default: empty holes.
+        width: Axial room for a row of holes; default: the smallest distance of neighboring
             throws, or the stroke of a crank with one throw or without spacing.
     """
 
@@ -83,7 +83,7 @@ class HolesDoNotFitError(BalcliError):
 
 
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
-    """Figures of all devices, in the order of `remedy.devices`.
+    """Return the workshop's figures of all devices, in the order of `remedy.devices`.
 
     Raises:
         BalcliError: tools that cannot be, or that do not go together.
@@ -114,8 +114,8 @@ def _refuse_impossible(tools: Tools) -> None:
         raise BalcliError(f"{', '.join(strange)}; give figures above 0")
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
         raise BalcliError(
-            "--max-depth, --slug and --width are for holes: give the diameter of the drill, too, "
-            "with --drill"
+            "--max-depth, --slug and --width are for holes: give the diameter of the drill with "
+            "--drill"
         )
     if tools.slug is not None and tools.slug <= STEEL:
         raise BalcliError(
@@ -154,7 +154,7 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
 def _plan_holes(
     engine: Engine, device: DeviceTable, unbalance: float, rim: float, tools: Tools
 ) -> Node:
-    """Return as few holes as the depth allows.
+    """Return the fewest holes that the depth allows.
 
     Raises:
         HolesDoNotFitError: More holes are needed than have room side by side.

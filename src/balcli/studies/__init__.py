@@ -1,1 +1,1 @@
-"""An engine file and what varies in, figures of many variants out."""
+"""Studies: quantities of many variants of an engine file."""

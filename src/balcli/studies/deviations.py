@@ -1,5 +1,5 @@
-"""What deviates from an engine file within tolerances: pistons, rods, throws, mounts, shafts and
-inertias, each by itself. A part is known by the figures of the file that vary with it.
+"""Parts that deviate from an engine file within tolerances, each by itself: pistons, rods, throws,
+mounts, shafts and inertias. A part is defined by the figures of the file that vary with it.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ class Tolerances:
     """Largest deviations.
 
     Attributes:
-        mass: Of piston, rod and throw masses, and of inertias, relative.
-        length: Of rod lengths, relative. What else the file gives for a longer rod stays: mass and
-            place of its centre of mass, or the masses of its ends.
-        angle_deg: Of throw angles.
-        stiffness: Of mounts or shafts, relative; None: OF_MOUNTS or OF_SHAFTS.
+        mass: Tolerance of piston, rod and throw masses, and of inertias, relative.
+        length: Tolerance of rod lengths, relative. Mass and centre of mass of a rod, or the masses
+            of its ends, stay as they are.
+        angle_deg: Tolerance of throw angles.
+        stiffness: Tolerance of mounts or shafts, relative; None: OF_MOUNTS or OF_SHAFTS.
     """
 
     mass: float = 0.0
@@ -50,7 +50,7 @@ class Source(NamedTuple):
     Attributes:
         name: Name in tables: `piston mass 3`, `stiffness left`.
         tolerance: Largest deviation, relative or in degrees.
-        figures: What varies with it, by dotted name.
+        figures: Figures that vary with it, by dotted name.
         relative: Whether the deviation is relative; otherwise it is in degrees.
     """
 
@@ -78,7 +78,7 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
 
     Args:
         model: As of `spell_out_throws`.
-        within: Tolerances of all of them.
+        within: Tolerances of the parts.
     """
     parts = assemble(model)
     yield from _list_masses(model, parts, within.mass)

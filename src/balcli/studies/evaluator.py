@@ -25,10 +25,10 @@ from .quantities import AnyQuantity, choose_of_engine, group_by_chapter, load_ch
 
 
 def attach_gas_torque(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
-    """Variants of an engine as of `build`, with the torque of their gas where the file has some.
+    """Return variants of an engine from `build`, with the torque of their gas if the file has gas.
 
     Args:
-        figures: what varies, as `build` had it.
+        figures: Varying figures, as they were given to `build`.
     """
     if model.gas is None:
         return engine
@@ -37,8 +37,8 @@ def attach_gas_torque(engine: Engine, model: EngineFile, figures: Mapping[str, A
 
 
 class _VariedGas:
-    """Torque of the gas by order, shape (orders, *trailing): of length 1 along axes on which no gas
-    depends.
+    """Gas torque by order, shape (orders, *trailing), of length 1 along axes without effect on the
+    gas.
     """
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
@@ -47,7 +47,7 @@ class _VariedGas:
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
     def __call__(self, orders: Array) -> Phasors:
-        """Raises InputError: a cycle that cannot be, with its figures."""
+        """Return the torque at these orders; InputError for an impossible cycle."""
         self._engines = self._engines or list(self._build())
         found = [compute_gas_torque(engine, orders) for engine in self._engines]
         shape = (len(orders), *self._shape)
@@ -78,8 +78,8 @@ class Evaluator:
         quantities: Quantities that it has.
 
     Attributes:
-        of_engine: Those of forces and moments.
-        one_by_one: Whether some take each variant by itself.
+        of_engine: Quantities of forces and moments.
+        one_by_one: Whether some quantities are computed variant by variant.
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[AnyQuantity]) -> None:
@@ -95,7 +95,7 @@ class Evaluator:
         """Return all variants as one engine with so many trailing axes, with their gas.
 
         Raises:
-            InputError: One of them cannot be.
+            InputError: One of them is impossible.
         """
         engine = build(self._model, figures, rank=rank)
         return attach_gas_torque(engine, self._model, figures)
@@ -111,8 +111,8 @@ class Evaluator:
             engine: Result of `build`, if that is known.
 
         Raises:
-            InputError, BalcliError: One of the variants cannot be; those that are computed one by
-                one are named.
+            InputError, BalcliError: One of the variants is impossible; the error names it if
+                variants are computed one by one.
         """
         found: dict[AnyQuantity, Array] = {}
         if self.of_engine:

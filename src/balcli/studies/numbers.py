@@ -1,4 +1,4 @@
-"""The command `numbers`: what can be varied, and what can be asked for."""
+"""The command `numbers`: numbers of an engine file that can vary, and its quantities."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
 
 
 def sheet(result: NamedNumbers, _system: System) -> Sheet:
-    """Both, a name a row; what no cylinder has of its own is told once for all of them."""
+    """Return both lists, a name a row; keys of single cylinders that are not given share a row."""
     rows = dict.fromkeys(_list_rows(result.numbers))
     numbers = Grid(
         "Numbers: sweep --vary NAME=VALUES",
@@ -33,7 +33,7 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
         note="–: not in the file; N stands for the number of a cylinder.",
     )
     quantities = Grid(
-        "Quantities: --quantity NAME,... (search --minimise, too)",
+        "Quantities: --quantity NAME,... (or search --minimise)",
         ("name", "unit", "meaning"),
         tuple((q.name, q.unit, q.meaning) for q in result.quantities),
         words=(0, 1, 2),
@@ -43,7 +43,7 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
 
 
 def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
-    """Of the members of a list, the first has the meaning."""
+    """Yield the rows of the numbers; only the first member of a list has the meaning."""
     before = ""
     for number in numbers:
         stem = number.path.rstrip("0123456789")
@@ -57,7 +57,7 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
 
 
 def rows(result: NamedNumbers, _system: System) -> Rows:
-    """CSV: a name a line; quantities have no value."""
+    """Return CSV: a name a line; quantities have no value."""
     return Rows(
         ("kind", "name", "value", "unit", "meaning"),
         [
@@ -71,7 +71,7 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:
-    """What can be varied of an engine file, and what can be asked of it: names for `sweep`,
+    """List the numbers of an engine file that can vary, and its quantities: names for `sweep`,
     `search` and `scatter`, with values, units and meanings.
 
     \b

@@ -1,5 +1,5 @@
-"""Numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`, `shaft.1.unbalance`):
-which there are, and the values that a user asks for.
+"""Numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`, `shaft.1.unbalance`),
+and the values that a user gives them.
 """
 
 from __future__ import annotations
@@ -50,8 +50,8 @@ def tell_variant(figures: Mapping[str, float]) -> str:
 
 # ------------------------------------------------------------------ which numbers there are
 def find_numbers(model: EngineFile) -> dict[str, Number]:
-    """How each number is read that an engine file has or might have, by dotted name; members of
-    lists count from 1.
+    """Return the reader of each number that an engine file has or might have, by dotted name;
+    members of lists count from 1.
     """
     plan = plan_cylinders(model)
     tables = dict(model.tables())
@@ -70,8 +70,8 @@ def find_numbers(model: EngineFile) -> dict[str, Number]:
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
-    """Those of numbers that change nothing of what the gas does: shares of none, what belongs to
-    another kind of cycle, or what each of the cylinders has of its own.
+    """Return the numbers without effect on the gas: shares without gas, keys of another kind of
+    cycle, and keys that every cylinder overrides.
     """
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
@@ -90,7 +90,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
 
 
 def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
-    """Those of a table with its path; lists and inner tables only as far as the file has them."""
+    """Return the numbers of a table; lists and inner tables only as far as the file has them."""
     for key, value in table:
         number = _number_of(type(table), key)
         if isinstance(value, FileTable):
@@ -118,8 +118,8 @@ def _is_list(table: type[FileTable], key: str) -> bool:
 
 @cache
 def _number_of(table: type[FileTable], key: str) -> Number | None:
-    """How a field is read, if it is a number or a list of them (whole numbers change what the
-    engine is made of).
+    """Return the reader of a field that is a number or a list of them. Whole numbers are left out,
+    because they change the layout of the engine.
     """
     field = table.model_fields[key]
     marks = (*field.metadata, *_marks_of(field.annotation))
@@ -127,7 +127,7 @@ def _number_of(table: type[FileTable], key: str) -> Number | None:
 
 
 def _marks_of(annotation: object) -> Iterator[object]:
-    """What an annotation is made of, but not the fields of inner tables."""
+    """Return the types in an annotation, without the fields of inner tables."""
     for part in get_args(annotation):
         if isinstance(part, type) and issubclass(part, FileTable):
             continue
@@ -137,7 +137,8 @@ def _marks_of(annotation: object) -> Iterator[object]:
 
 # ------------------------------------------------------------------ what a user asks for
 def parse_parameter(text: str, model: EngineFile) -> Parameter:
-    """`path=from:to:step` (ends included) or `path=a,b,c`; figures may bear units.
+    """Return the parameter of `path=from:to:step` (ends included) or `path=a,b,c`; figures may have
+    units.
 
     Raises:
         BalcliError: no such number in the file (with the nearest name), no values, or values out of
@@ -164,13 +165,13 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
 
 
 def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
-    """A number of the file by its name, and its values: numbers in the unit of the file, or texts
-    with units; one, or a list or array of them; or a text as of `parse_parameter`, such as
-    "0.24:0.32:0.01".
+    """Return the parameter of a number of the file, by its name and values. Values are numbers in
+    the unit of the file, or texts with units; one, or a list or array of them; or a text as for
+    `parse_parameter`, such as "0.24:0.32:0.01".
 
     Raises:
-        BalcliError: as of `parse_parameter`.
-        TypeError: what is none of these.
+        BalcliError: as for `parse_parameter`.
+        TypeError: the values have another type.
     """
     if isinstance(values, str):
         return parse_parameter(f"{path}={values}", model)
@@ -196,8 +197,8 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
 
 
 def resolve_name(name: str, known: Mapping[str, Number]) -> str:
-    """The dotted name of the one number that is called so: `stroke` is `crank.stroke`, `rpm` and
-    `speed` are `operation.speed`. A name that several numbers have, or none, stays as it is.
+    """Return the dotted name of the only number with this short name: `stroke` is `crank.stroke`,
+    `rpm` and `speed` are `operation.speed`. Ambiguous and unknown names stay as they are.
     """
     if name in known:
         return name
@@ -222,8 +223,8 @@ def _read_one(path: str, value: object, number: Number) -> float:
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
-    """Return what is wrong, with `rod.length` of rod_length, all numbers of a table, those that
-    begin so, or the nearest name.
+    """Return the message for an unknown name, with `rod.length` for rod_length, all numbers of a
+    table, those with the same beginning, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
@@ -240,7 +241,7 @@ def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile)
 
 
 def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:
-    """BalcliError for the first extreme of the values that the field does not allow."""
+    """Raise BalcliError for the first extreme of the values that the field does not allow."""
     for extreme in (values.min(), values.max()):
         try:
             number.read(float(extreme))
@@ -270,7 +271,7 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
 
 
 def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
-    """first + k step for k = 0 .. count-1, each correctly rounded."""
+    """Return first + k step for k = 0 .. count-1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
     if max(abs(start), abs(start + rise * count), scale) < _EXACT:
@@ -283,7 +284,7 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
 
 
 def _read_exactly(text: str, number: Number) -> Fraction:
-    """The figure in the bare unit of its field, not rounded: three of a range that were would miss
+    """Return the exact figure in the bare unit of its field: a range of rounded figures might miss
     its end.
     """
     figure = re.sub(FORTRAN, r"e\1", text.strip())

@@ -1,6 +1,6 @@
-"""Quantities that a user asks for, and numbers that can be varied, by their names: of forces and
-moments (`force.2.major`), and of the chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`,
-`guide.6.H`), whose modules are loaded when one of theirs is asked for.
+"""Requested quantities, and numbers that can vary, by their names: of forces and moments
+(`force.2.major`), and of the chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`),
+whose modules are loaded when one of their quantities is requested.
 """
 
 from __future__ import annotations
@@ -51,20 +51,20 @@ class Variants(Protocol):
     """Evaluates some quantities of variants of a file one by one."""
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """The value of each for one variant, by the figures that vary."""
+        """Return the value of each for one variant, by the figures that vary."""
 
 
 class ChapterModule(Protocol):
-    """What a module has that computes quantities of its own."""
+    """Interface of a module that computes quantities of its chapter."""
 
     def parse_quantity(self, text: str) -> ChapterQuantity:
-        """The quantity of this name. BalcliError: there is none."""
+        """Return the quantity of this name; BalcliError if it does not exist."""
 
     def list_names(self, model: EngineFile) -> Iterable[str]:
-        """Those that a file has, with N for any order."""
+        """Return the names of the quantities of a file, with N for any order."""
 
     def refuse_unknown(self, model: EngineFile, quantities: Sequence[ChapterQuantity]) -> None:
-        """BalcliError if one is of what the file does not have."""
+        """Raise BalcliError if the file lacks the subject of a quantity."""
 
     def Variants(  # a class, which a function may be, too
         self, model: EngineFile, quantities: Sequence[ChapterQuantity]
@@ -72,18 +72,18 @@ class ChapterModule(Protocol):
 
 
 def load_chapter(chapter: Chapter) -> ChapterModule:
-    """The module that computes the quantities of a chapter, which is not ENGINE."""
+    """Return the module that computes the quantities of a chapter other than ENGINE."""
     return cast(ChapterModule, import_name(QUANTITIES[chapter.name]))
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:
-    """All that are named, in this order, each once.
+    """Return the quantities of these names, in their order, each once.
 
     Args:
-        with_gas: whether the engine has gas: its `torque` is then that of gas and inertia.
+        with_gas: Whether the engine has gas: `torque` is then the torque of gas and inertia.
 
     Raises:
-        BalcliError: what is none, with what there is.
+        BalcliError: A name is unknown; the error lists those there are.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
@@ -105,12 +105,12 @@ def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
 
 
 def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
-    """Those of forces and moments, which are evaluated as arrays."""
+    """Return the quantities of forces and moments, which are evaluated as arrays."""
     return tuple(q for q in wanted if isinstance(q, Quantity))
 
 
 def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
-    """All others by their chapters."""
+    """Return all other quantities by their chapters."""
     groups: dict[Chapter, list[ChapterQuantity]] = {}
     for q in wanted:
         if isinstance(q, Quantity):
@@ -122,10 +122,10 @@ def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
 
 
 def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity]) -> None:
-    """Nothing, unless one of these is of what the file does not have.
+    """Raise an error if the file lacks the subject of a quantity of a chapter.
 
     Raises:
-        BalcliError, InputError: it is, with what there is.
+        BalcliError, InputError: The quantity does not exist; the error lists those there are.
     """
     for chapter, members in group_by_chapter(wanted).items():
         load_chapter(chapter).refuse_unknown(model, members)
@@ -140,8 +140,8 @@ _OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas
 def list_assumed(
     model: EngineFile, names: Collection[str], varied: Iterable[str] = ()
 ) -> tuple[str, ...] | None:
-    """Return what is taken because a file leaves it out, as far as quantities depend on it; None:
-    nothing.
+    """Return the values that are taken because a file leaves them out, as far as quantities depend
+    on them; None: none.
 
     Args:
         model: Engine file.
@@ -167,10 +167,10 @@ def _feels_throws(name: str) -> bool:
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:
-    """What can be asked of an engine file, chapter by chapter; N stands for any order.
+    """Return the quantities of an engine file, chapter by chapter; N stands for any order.
 
     Raises:
-        BalcliError, InputError: a chapter of the file is not right.
+        BalcliError, InputError: a chapter of the file has mistakes.
     """
     for chapter in CHAPTERS:
         forms = [form for form in chapter.forms if not form.table or getattr(model, form.table)]
@@ -221,13 +221,13 @@ class NamedQuantity:
 
 @dataclass(frozen=True, kw_only=True)
 class NamedNumbers:
-    """What can be varied of an engine file, and what can be asked of it.
+    """Numbers of an engine file that can vary, and its quantities.
 
     Attributes:
         format: Name and version of the document.
         engine: The engine.
         numbers: Numbers of the file.
-        quantities: Quantities that it has.
+        quantities: Quantities of the engine.
     """
 
     format: Literal["balcli.numbers/1"] = "balcli.numbers/1"
@@ -237,7 +237,7 @@ class NamedNumbers:
 
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
-    """Return all that `sweep` can vary of a file and ask of it."""
+    """Return the numbers that `sweep` can vary of a file, and the file's quantities."""
     tables = dict(model.tables())
     return NamedNumbers(
         engine=NamedEngine(model.name),
@@ -252,7 +252,7 @@ def name_numbers(model: EngineFile) -> NamedNumbers:
 
 
 def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
-    """A number found by its path: first the table of that name, then its keys and places."""
+    """Return a number by its path: first the table of that name, then keys and places."""
     parts = path.split(".")
     heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
     head = next((name for name in heads if name in tables), "")

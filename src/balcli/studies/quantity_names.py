@@ -1,9 +1,9 @@
-"""The one table of quantities: what `sweep`, `search` and `scatter` take, who computes it, in which
-unit, with what words. Whatever lists names (help, errors, completion) reads it; what computes them
-is loaded by `quantities` when one is asked for.
+"""The one table of quantities of `sweep`, `search` and `scatter`: names, units, meanings, and the
+chapters that compute them. Help, errors and completion read it; `quantities` loads a chapter when
+one of its quantities is requested.
 
-`N` stands for an order or a number, `NAME` for what a part of the file is called, `MOTION` for one
-of x, y, z, rx, ry, rz and roll, `PART` for what the words name.
+`N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
+x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 
 class Form(NamedTuple):
-    """Quantities that are called alike.
+    """Quantities with names of one pattern.
 
     Attributes:
-        pattern: of their names.
-        unit: SI.
-        words: what they are.
-        table: of the engine file, without which there are none; empty: every engine has them.
+        pattern: Pattern of their names.
+        unit: SI unit.
+        words: Meaning in words.
+        table: Table of the engine file that they need; empty: every engine has them.
     """
 
     pattern: str
@@ -29,7 +29,7 @@ class Form(NamedTuple):
     table: str = ""
 
     def matches(self, name: str) -> bool:
-        """Whether a quantity of this name is one of these."""
+        """Return whether a quantity of this name matches the pattern."""
         kind, _, rest = self.pattern.partition(".")
         own, _, other = name.partition(".")
         middle, _, last = rest.rpartition(".")
@@ -44,7 +44,7 @@ class Chapter(NamedTuple):
 
     Attributes:
         name: Key in `names.QUANTITIES`, which has the module (`quantities.ChapterModule`).
-        forms: of their names.
+        forms: Patterns of their names.
     """
 
     name: str
@@ -52,7 +52,7 @@ class Chapter(NamedTuple):
 
     @property
     def beginnings(self) -> tuple[str, ...]:
-        """What their names begin with."""
+        """First words of the names of its quantities."""
         return tuple(dict.fromkeys(form.pattern.partition(".")[0] for form in self.forms))
 
 
@@ -144,7 +144,7 @@ _OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
 
 
 def find_chapter(name: str) -> Chapter | None:
-    """The chapter of the quantity of this name, by how it begins; None: of none."""
+    """Return the chapter of the quantity of this name, by its first word; None: unknown."""
     if name in _OF_CYCLE:
         return CYCLE
     beginning = name.partition(".")[0]
@@ -152,7 +152,7 @@ def find_chapter(name: str) -> Chapter | None:
 
 
 def describe_names() -> str:
-    """All names in words, for help."""
+    """Return all names in words, for help."""
     names = "; ".join(", ".join(_shorten(chapter)) for chapter in CHAPTERS)
     return (
         f"{names}. N: order or number; PART: of force and moment {_OF_VECTOR}; of others "
@@ -161,7 +161,7 @@ def describe_names() -> str:
 
 
 def _shorten(chapter: Chapter) -> Iterator[str]:
-    """Names of a chapter; those that begin alike as one (`mount.NAME.force|static`)."""
+    """Return the names of a chapter, joined by beginnings (`mount.NAME.force|static`)."""
     for stem, patterns in groupby(chapter.forms, lambda form: form.pattern.rpartition(".")[0]):
         parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts

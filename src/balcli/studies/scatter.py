@@ -88,14 +88,14 @@ class Scatter(Result):
     Attributes:
         format: Name and version of the document.
         engine: The engine.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         samples: Number of random variants.
-        distribution: Of each deviation.
+        distribution: Distribution of each deviation.
         quantities: Spread of each quantity, by its name.
         model: The engine file.
         units: SI unit of each quantity, by its name.
-        varied: What the variants are, for tables: engines.
-        parts: What deviates, with its tolerance.
+        varied: Name of the variants in tables: engines.
+        parts: Parts that deviate, with their tolerances.
     """
 
     format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
@@ -122,7 +122,7 @@ def read_tolerances(
     """Return tolerances, given as `0.005` or `"0.5%"`, angles as `0.2` or `"0.2 deg"`.
 
     Raises:
-        BalcliError: The option, and a value that is neither, negative or too large.
+        BalcliError: A value is no tolerance, negative or too large; the error names the option.
     """
     if isinstance(angle, str) and re.fullmatch(BARE_FIGURE, angle.strip(), re.ASCII):
         angle = float(angle)
@@ -156,11 +156,11 @@ def _read_share(option: str, value: float | str) -> float:
 
 # ------------------------------------------------------------------ random variants
 class Drawing(NamedTuple):
-    """What is drawn at random.
+    """Random variants to draw.
 
     Attributes:
         samples: Number of variants; None: the default.
-        seed: Of the random numbers, to repeat them.
+        seed: Seed of the random numbers, to repeat them.
         shape: Uniform within the tolerances, or normal with a third of them as standard deviation.
         tell: Called with the number of samples so far; returns whether to stop.
     """
@@ -184,8 +184,8 @@ class Variants:
         usual: Default number of samples.
 
     Raises:
-        InputError, BalcliError: The file is wrong or lacks what is asked for; quantities of several
-            kinds; no tolerance.
+        InputError, BalcliError: The file has mistakes, or lacks the subject of a quantity;
+            quantities of several kinds; no tolerance.
     """
 
     def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
@@ -238,10 +238,10 @@ class Variants:
         """Return all quantities, shape (samples, quantities), SI.
 
         Args:
-            deviations: Of the sources, relative or in degrees, shape (samples, sources).
+            deviations: Deviations of the sources, relative or in degrees, (samples, sources).
 
         Raises:
-            BalcliError: One of the variants cannot be.
+            BalcliError: One of the variants is impossible.
         """
         figures = {
             path: line.value + line.slope * column
@@ -273,7 +273,7 @@ class Variants:
         """Return the spread of the quantities over random variants.
 
         Raises:
-            BalcliError: Too many samples, or none; a variant that cannot be.
+            BalcliError: Too many samples, or none; an impossible variant.
         """
         samples = self.usual if drawing.samples is None else drawing.samples
         most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
@@ -385,14 +385,15 @@ def scatter(
             cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts (`mode.roll.Hz`,
             `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and moment of orders
             1 and 2, as far as they are known.
-        mass: tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
-        length: of every rod length, likewise; what else the file says of the rods stays.
-        angle_deg: of every throw angle, a number or a text with its unit.
-        stiffness: of every mount (default: 15 %) or shaft (5 %), a share or a text.
-        samples: random engines; default: 100000, 500 of those computed one by one (of the
-            cycle, mounts and torsion).
-        seed: of the random numbers, to repeat them.
-        distribution: within the tolerances, or with a third of them as standard deviation.
+        mass: Tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
+        length: Tolerance of every rod length, a share or a text; other keys of the rods stay.
+        angle_deg: Tolerance of every throw angle, a number or a text with its unit.
+        stiffness: Tolerance of every mount (default: 15 %) or shaft (5 %), a share or a text.
+        samples: Number of random engines; default: 100000, or 500 for quantities that are computed
+            one by one (of the cycle, mounts and torsion).
+        seed: Seed of the random numbers, to repeat them.
+        distribution: Uniform within the tolerances, or normal with a third of them as standard
+            deviation.
 
     Returns:
         For each quantity in `result.quantities` its nominal value, mean, percentiles, largest
@@ -400,7 +401,7 @@ def scatter(
 
     Raises:
         BalcliError: quantities without a spread, no tolerance, too many samples.
-        TypeError: what is no engine, no names.
+        TypeError: an argument of another type.
 
     Example:
         >>> scatter(engine, "force.1.major", mass="1%", seed=1).quantities["force.1.major"].p95

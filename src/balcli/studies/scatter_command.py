@@ -71,7 +71,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
         note=" ".join(filter(None, notes)),
     )
     changes = Grid(
-        "What each tolerance alone changes, largest first",
+        "Change by each tolerance alone, largest first",
         ("quantity", "change", "made by each of"),
         tuple(causes),
         words=(0, 2),

@@ -1,10 +1,10 @@
 """Grids of variants of an engine: numbers of the file over ranges, evaluated as arrays, in boxes of
 bounded size.
 
-Every parameter has a trailing axis of its own, so that what does not depend on it is not computed
-again: on a grid of bank angles and rod ratios, phases are computed once for each angle,
-coefficients once for each ratio, and only their products for each variant. Rows run with the last
-parameter fastest.
+Every parameter has its own trailing axis, so that figures that do not depend on it are computed
+once: on a grid of bank angles and rod ratios, phases are computed once for each angle, coefficients
+once for each ratio, and only their products for each variant. The last parameter varies fastest in
+the rows.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Chunk(NamedTuple):
 
 @dataclass(frozen=True)
 class Sweep:
-    """What to compute: an engine file, the parameters that vary, and the quantities asked for."""
+    """A sweep: an engine file, the parameters that vary, and the requested quantities."""
 
     file: EngineFile
     parameters: tuple[Parameter, ...]
@@ -91,7 +91,7 @@ class Sweep:
 
     @cached_property
     def evaluator(self) -> Evaluator:
-        """Evaluates the quantities."""
+        """Evaluator of the quantities."""
         return Evaluator(self.file, self.quantities)
 
     @property
@@ -101,7 +101,7 @@ class Sweep:
 
     @property
     def doubts(self) -> list[str]:
-        """What is unlikely of the file, unless it varies."""
+        """Warnings of unlikely figures of the file, without those that vary."""
         with naming_file(self.name):
             all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
@@ -109,18 +109,18 @@ class Sweep:
 
     @cached_property
     def assumed(self) -> tuple[str, ...] | None:
-        """What is taken because the file leaves it out; None: nothing."""
+        """Values taken because the file leaves them out; None: none."""
         names = [q.name for q in self.quantities]
         return list_assumed(self.file, names, [p.path for p in self.parameters])
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each parameter has."""
+        """Number of values of each parameter."""
         return tuple(map(len, self.parameters))
 
     @property
     def variants(self) -> int:
-        """How many there are."""
+        """Number of variants."""
         return math.prod(self.shape)
 
     @property
@@ -129,13 +129,13 @@ class Sweep:
         return tuple(slice(0, n) for n in self.shape)
 
     def cut(self, box: Box) -> Sweep:
-        """The variants in a box of the grid as a sweep of their own."""
+        """Return the variants in a box of the grid as a sweep."""
         cuts = zip(self.parameters, box, strict=True)
         return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
     @property
     def figures(self) -> dict[str, Array]:
-        """The figures that vary, each along an axis of its own."""
+        """Return the figures that vary, each along its own axis."""
         grids = np.meshgrid(*(p.values for p in self.parameters), indexing="ij", sparse=True)
         return dict(zip((p.path for p in self.parameters), grids, strict=True))
 
@@ -143,7 +143,7 @@ class Sweep:
         """Return all variants as one engine with an axis for each parameter.
 
         Raises:
-            InputError: One of them cannot be; the first such is named.
+            InputError: One of them is impossible; the first such is named.
         """
         try:
             return self.evaluator.build(self.figures, len(self.shape))
@@ -160,15 +160,14 @@ class Sweep:
 
 
 def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
-    """The sweep of an engine file that a user asks for.
+    """Return the sweep of an engine file by options of the command line.
 
     Args:
-        vary: parameters and their values, as typed.
-        quantities: by name, with commas; None: the usual ones, as far as they are known.
+        vary: Parameters and their values, as typed.
+        quantities: Names with commas; None: the usual ones, as far as they are known.
 
     Raises:
-        BalcliError: what is wrong with the file, a parameter or a quantity, or if one of the
-        variants cannot be.
+        BalcliError: Mistakes in the file, a parameter or a quantity, or an impossible variant.
     """
     model = read(file)
     parameters = tuple(parse_parameter(text, model) for text in vary)
@@ -178,7 +177,7 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """The sweep of an engine file; `name`: of the file, in messages; else as of `read_sweep`."""
+    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`."""
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
@@ -193,14 +192,12 @@ def plan_sweep(
 
 
 def check_corners(sweep: Sweep) -> None:
-    """A first look whether all variants can be, at the corners of the grid: what can lock a
-    mechanism grows towards one of them (what an uneven speed can do to it may lie between them, and
-    is found on the way).
+    """Check the variants at the corners of the grid before the sweep. A mechanism locks at one of
+    them if it locks at all; mistakes of an uneven speed may be between them, and are found later.
 
     Raises:
-        InputError: one of them cannot be.
-        BalcliError: a moment is asked for, and the file does not say where the throws stand; too
-            many numbers vary.
+        InputError: One of the variants is impossible.
+        BalcliError: A requested moment is not known; too many numbers vary.
     """
     if len(sweep.parameters) > MOST_PARAMETERS:
         raise BalcliError(
@@ -216,10 +213,10 @@ def check_corners(sweep: Sweep) -> None:
 
 
 def build_corners(sweep: Sweep) -> Engine:
-    """The variants at the corners of the grid, as one engine.
+    """Return the variants at the corners of the grid as one engine.
 
     Raises:
-        InputError: one of them cannot be.
+        InputError: One of them is impossible.
     """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()]), p.unit)
@@ -232,7 +229,7 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
     """Return each quantity for all variants at once, SI or degrees, shape (variants,).
 
     Raises:
-        InputError, BalcliError: One of them cannot be, with its figures.
+        InputError, BalcliError: One of them is impossible; the error has its figures.
     """
     engine = sweep.engine() if sweep.of_engine else None
     try:
@@ -245,8 +242,8 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
 
 
 def count_at_once(sweep: Sweep) -> int:
-    """Return how many variants to compute at a time, by what those at the corners of the grid need:
-    a box is done in a fraction of a second and in little memory.
+    """Return how many variants to compute at a time, estimated at the corners of the grid: a box
+    takes a fraction of a second and little memory.
     """
     of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
     gas_varies = of_gas and any(concerns_gas(p.path) for p in sweep.parameters)
@@ -279,8 +276,8 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 
 def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
-    """Return all variants, box by box, in the order of rows; the same figures whoever shares the
-    work.
+    """Return all variants, box by box, in the order of rows. The figures do not depend on how the
+    work is shared.
     """
     boxes, parts = tee(divide_grid(sweep.shape, count_at_once(sweep)))
     return map(Chunk, boxes, share(evaluate_sweep, map(sweep.cut, parts)))
@@ -340,14 +337,14 @@ def divide_into_blocks(sweep: Sweep, rows: int) -> Iterator[Block]:
 
 
 def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
-    """A chunk as columns: parameters and quantities, each of shape (variants in it,)."""
+    """Return a chunk as columns: parameters and quantities, each of shape (variants in it,)."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
 def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
-    """Each quantity on the whole grid, from all its chunks in the order of rows: shape (values of
-    the first parameter, of the second ...).
+    """Return each quantity on the whole grid, from all its chunks in the order of rows: shape
+    (values of the first parameter, of the second ...).
     """
     found = zip(*(chunk.values for chunk in chunks), strict=True)
     return [np.concatenate(parts).reshape(sweep.shape) for parts in found]
@@ -359,7 +356,7 @@ class Swept(Result):
     """Variants of an engine with their figures.
 
     Attributes:
-        sweep: What was computed: file, parameters with their values, quantities.
+        sweep: File, parameters with their values, and quantities.
         values: Each quantity on the whole grid, SI or degrees, shape (values of the first
             parameter, of the second, ...).
     """
@@ -383,7 +380,7 @@ class Swept(Result):
         """Return a quantity on the whole grid, or the values of a parameter, by its name.
 
         Raises:
-            KeyError: There is none of this name.
+            KeyError: The name is unknown.
         """
         columns = [*(p.values for p in self.sweep.parameters), *self.values]
         with suppress(ValueError):
@@ -396,7 +393,7 @@ def compute_sweep(sweep: Sweep, threads: int) -> Swept:
 
     Raises:
         BalcliError: They are too many to keep.
-        InputError: One of them cannot be.
+        InputError: One of them is impossible.
     """
     count = sweep.variants * len(sweep.quantities)
     if count > MOST_KEPT_FIGURES:
@@ -429,8 +426,8 @@ def sweep(
             `moment.1.backward`, `couple.4.amplitude`, `peak.force`; of engines with mounts,
             torsion or gas also `mode.3.Hz`, `mount.left.force`, `torsion.1.Hz`, `torque.mean`.
             Default: force and moment of orders 1 and 2, as far as they are known.
-        threads: that compute what takes more than a second; at most 64; default: one
-            a core.
+        threads: Number of threads for sweeps of more than a second; at most 64; default: one a
+            core.
 
     Returns:
         The grid: `result["force.2.major"]` has one axis a name in `vary`, in SI units or degrees;
@@ -438,8 +435,8 @@ def sweep(
 
     Raises:
         BalcliError: an unknown name, with the nearest one; values out of bounds.
-        InputError: one of the variants cannot be, and why.
-        TypeError: what is no engine, no dict, no names.
+        InputError: one of the variants is impossible; the error has the reason.
+        TypeError: an argument of another type.
 
     Example:
         >>> sweep(engine, {"layout.bank_angle": range(0, 181)}, ["force.1.major"]).to_pandas()

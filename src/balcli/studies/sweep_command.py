@@ -65,9 +65,9 @@ def sweep(
         Place | None,
         optional(
             "FILE|FOLDER/",
-            "Write into this file instead, its ending says the format; or into a folder, as "
+            "Write into this file, whose ending determines the format; or into a folder, as "
             "numbered Parquet files that threads or workers write; the same sweep again computes "
-            "those that are missing. - is standard output.",
+            "missing ones. - is standard output.",
             "--output",
             "-o",
             parser=read_place,
@@ -94,7 +94,7 @@ def sweep(
             min=1,
             max=MOST_THREADS,
             show_default=False,
-            help="Threads that compute what takes more than a second; default: a core each.",
+            help="Number of threads if the sweep takes more than a second; default: one a core.",
         ),
     ] = None,
     dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",
@@ -102,7 +102,7 @@ def sweep(
     """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
     or Parquet.
 
-    Ctrl-C leaves an older file as it was; in a folder, the same sweep computes what is missing.
+    Ctrl-C leaves an older file as it was; in a folder, the same sweep computes the missing blocks.
 
     \b
     Examples:
@@ -147,8 +147,8 @@ def sweep(
 
 
 def _doubt(job: Sweep, quantity: str | None) -> None:
-    """Say that moments are not known, where the usual quantities would have some, and what is
-    unlikely of the file, unless it varies.
+    """Warn of unknown moments, if the usual quantities would include some, and of unlikely figures
+    of the file that do not vary.
     """
     if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
         warn_of_unknown_moments(job.name)
@@ -158,10 +158,10 @@ def _doubt(job: Sweep, quantity: str | None) -> None:
 def _choose_target(
     output: Place | None, form: VariantsFormat | None, plot: Path | None
 ) -> tuple[Path | None, VariantsFormat]:
-    """Where to write the variants, None for standard output, and how.
+    """Return where to write the variants, None for standard output, and the format.
 
     Raises:
-        BalcliError: as of `format_of`; or for what does not go with a folder.
+        BalcliError: as of `format_of`; options that do not go with a folder.
     """
     file = None if output is None else output.path
     if output is None or not output.is_folder:

@@ -42,7 +42,7 @@ class SweepDocument:
 
     Attributes:
         engine: The engine file.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         columns: Names of the figures that vary, then of the quantities.
         rows: One row a variant.
     """
@@ -111,7 +111,7 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
     """Return the table, each column in the unit that fits it.
 
     Args:
-        sweep: What the variants are of.
+        sweep: Sweep of the variants.
         figures: Parameters and quantities, shape (variants, columns).
         left_out: Number of variants that are missing after the first FIRST.
     """
@@ -146,7 +146,7 @@ LEVELS = 12
 
 
 def check_drawable(sweep: Sweep) -> None:
-    """See that there can be a picture, before anything is computed for it.
+    """Check that a picture is possible, before anything is computed for it.
 
     Raises:
         BalcliError: more than two parameters, fewer than two values of one, or too many variants.

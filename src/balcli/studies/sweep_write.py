@@ -61,9 +61,9 @@ def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) 
     """Write variants as they come.
 
     Args:
-        sweep: what they are of.
-        rows: some at a time, as columns: parameters and quantities.
-        place: of the file.
+        sweep: Sweep of the variants.
+        rows: Chunks of variants as columns: parameters and quantities.
+        place: Path of the file.
 
     Raises:
         BalcliError: pyarrow is missing.
@@ -159,8 +159,8 @@ def write_blocks(
     stay.
 
     Args:
-        sharing: gives what shares work among threads or workers.
-        force: whether an earlier sweep in this folder is deleted first.
+        sharing: Context that yields the function that shares work among threads or workers.
+        force: Whether an earlier sweep in this folder is deleted first.
 
     Raises:
         BalcliError: the folder holds something else or another sweep, it cannot be written, or
@@ -254,7 +254,7 @@ AHEAD = 4  # tasks for each thread that may wait to be fetched
 
 
 def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
-    """Return what shares work among threads, or on a cluster, if an address of one is given."""
+    """Return the context that shares work among threads, or on a cluster at a given address."""
     if dask:
         return connect_cluster(dask)
     threads = jobs or min(count_cores(), MOST_THREADS)
@@ -263,8 +263,8 @@ def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
 
 @contextmanager
 def connect_cluster(address: str) -> Iterator[Share]:
-    """Yield what shares work among the workers of the scheduler at an address such as
-    tcp://host:8786, or of a cluster on this machine (`local`) that ends with it.
+    """Yield the function that shares work among the workers of the scheduler at an address such as
+    tcp://host:8786, or of a temporary cluster on this machine (`local`).
 
     Raises:
         BalcliError: dask is not installed, or no scheduler responds.
@@ -305,6 +305,6 @@ def run_on_cluster(
         yield from run_in_order(submit, work, items, ahead)
     except (KilledWorker, CancelledError) as error:
         raise BalcliError(
-            f"--dask: the cluster has lost its workers ({type(error).__name__}), and what they "
-            "computed; start it again, or leave --dask out"
+            f"--dask: the cluster has lost its workers ({type(error).__name__}) and their results; "
+            "start it again, or leave --dask out"
         ) from None

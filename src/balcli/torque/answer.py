@@ -58,7 +58,7 @@ def analyze_torque_of_engine(
     Raises:
         BalcliError: No gas; no such cylinder; a fluctuation that is not between 1e-9 and 2; loads
             that are not known.
-        TypeError: What is no engine, no number, no words.
+        TypeError: An argument of another type.
 
     Example:
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2

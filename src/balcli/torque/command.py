@@ -53,9 +53,7 @@ Fluctuation = Annotated[
         "1/200", "Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%."
     ),
 ]
-Cylinder = Annotated[
-    int, typer.Option(metavar="N", help="Whose torque is shown beside the engine's.")
-]
+Cylinder = Annotated[int, typer.Option(metavar="N", help="Also the torque of cylinder N.")]
 LoadsOption = Annotated[
     str | None,
     optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),
@@ -69,7 +67,7 @@ Curve = Annotated[
 Load = Annotated[
     Path | None,
     optional(
-        "CSV", "With --curve: the torque that the load takes, likewise; default: the mean, evenly."
+        "CSV", "With --curve: the torque of the load, in such a file; default: constant, the mean."
     ),
 ]
 Inertia = Annotated[
@@ -100,10 +98,10 @@ def torque(
     output: Output = None,
 ) -> None:
     """Torque of gas and inertia on the crank: by order and over the cycle, mean torque and power,
-    the uneven speed and the flywheel; or what a given torque curve does.
+    the uneven speed and the flywheel; or the effect of a given torque curve.
 
-    `balcli torque v8.toml --fluctuation 1/200` says which inertia keeps the speed to that. Where
-    the crank stalls with the inertia it has, that is an error, with the angle; all else is told.
+    `balcli torque v8.toml --fluctuation 1/200` computes the inertia that keeps the speed within
+    this. If the crank stalls with its inertia, the results are followed by an error with the angle.
 
     \b
     Examples:
@@ -179,8 +177,8 @@ def parse_fluctuation(text: str | None) -> float | None:
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
-    """Write the engine file with its speed as uneven as the torque makes it, and without the gas of
-    the cylinders that misfire.
+    """Write the engine file with the uneven speed that the torque causes, and without the gas of
+    misfiring cylinders.
 
     Raises:
         BalcliError: The inertia is not known, or too small; the target cannot be written.

@@ -1,4 +1,4 @@
-"""How uneven a torque makes the speed of a shaft, and the inertia that it takes to even it."""
+"""Fluctuation of the speed of a shaft under a torque, and the inertia that limits it."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ _WORTH = 1e-4  # share of the largest line of the speed below which one is left 
 
 @dataclass(frozen=True, kw_only=True)
 class Flywheel:
-    """Inertia on the shaft, and how even it keeps the speed, as far as that is known.
+    """Inertia on the shaft, and the fluctuation of speed with it, as far as known.
 
     Attributes:
         inertia_kg_m2: Mean inertia of all that turns and moves; left out where the file gives none.
         moving_parts_kg_m2: Mean inertia of the moving parts in it.
         fluctuation: (highest - lowest)/mean speed.
-        fluctuation_small: The same by the rule for small fluctuations, surplus/(I omega^2).
-        needed_kg_m2: Mean inertia of all that keeps the fluctuation asked for.
+        fluctuation_small: Fluctuation by the rule for small ones, surplus/(I omega^2).
+        needed_kg_m2: Mean inertia of all parts with which the speed fluctuates as requested.
         speed_max_rpm: Highest speed.
         speed_min_rpm: Lowest speed.
         stall: Where the crank stalls, in words.
@@ -62,7 +62,7 @@ def find_flywheel(
     moving: Function | None = None,
     fluctuation: float | None = None,
 ) -> Flywheel | None:
-    """Return what inertia does for the speed; None where nothing of it is known or asked.
+    """Return inertia and fluctuation of speed; None if neither is known or requested.
 
     Args:
         torque: Torque of gas or a given curve, less an uneven load, N m.
@@ -70,11 +70,11 @@ def find_flywheel(
         mean_speed: Mean speed, rad/s; None: not known.
         constant: Constant inertia, kg m2; None: not known.
         moving: Inertia of moving parts, kg m2 at angles (rad); None: there are none.
-        fluctuation: The largest that is allowed; None: not asked for.
+        fluctuation: Largest allowed fluctuation; None: not requested.
 
     Raises:
-        BalcliError: A fluctuation is asked for that is not between 1e-9 and 2, or without a mean
-            speed.
+        BalcliError: A requested fluctuation is not between 1e-9 and 2, or the mean speed is not
+            known.
     """
     if constant is None and fluctuation is None:
         return None

@@ -84,7 +84,7 @@ def analyze_curve(
     fluctuation: float | None = None,
     orders: list[float] | None = None,
 ) -> TorqueAnalysis:
-    """Return what a torque does to the speed of a shaft.
+    """Return the analysis of a torque and of the speed of its shaft.
 
     Args:
         name: Name of the result.
@@ -96,7 +96,7 @@ def analyze_curve(
             HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED.
 
     Raises:
-        BalcliError: Other periods, orders that the period has not.
+        BalcliError: Different periods, or orders that the period does not have.
     """
     net = torque if load is None else _subtract(torque, load)
     turns, speed = torque.period / (2 * np.pi), None if speed_rpm is None else speed_rpm * RPM

@@ -34,7 +34,7 @@ class CycleLoad:
         max_N: Largest load.
         max_deg: Crank angle at which it is reached.
         mean_N: Mean load.
-        pressure_Pa: Largest load over diameter times width; left out where the file does not say
+        pressure_Pa: Largest load over diameter times width; left out where the file does not give
             these.
     """
 
@@ -55,7 +55,7 @@ class CycleLoads:
         pin: Loads of crank pins, by the cylinders whose rods turn on them.
         knuckle: Loads of the knuckle pins in master rods, by their articulated cylinders.
         main: Loads of main bearings.
-        obstacle: Why these are not known, though asked for with others.
+        obstacle: Why loads of main bearings are not known, if they were requested with others.
     """
 
     pin: tuple[CycleLoad, ...] | None = None
@@ -69,7 +69,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
 
     The main bearings stand half-way between neighbouring throws and as far outside the end ones,
     and the shaft counts as cut in each of them. Where `place_main_bearings` refuses them, the
-    loads of pins come without.
+    loads of pins are returned alone.
 
     Args:
         engine: With gas.
@@ -119,7 +119,7 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
-    """Yield the load of each vector over the cycle; 0 where it is rounding beside others."""
+    """Yield the load of each vector over the cycle; 0 where it is a rounding error of others."""
 
     def compute(angles: Array) -> Complex:
         return compute_in_pieces(engine, vectors, angles)

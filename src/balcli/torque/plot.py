@@ -1,6 +1,6 @@
-"""Pressure, torque over the cycle, and polar diagrams of loads, of an engine with gas.
+"""Pictures of an engine with gas: pressure, torque over the cycle, and polar diagrams of loads.
 
-What pictures of gas, torque and loads show: curves at close angles over one cycle.
+Curves are computed at close angles over one cycle.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ GasPicture: TypeAlias = Pressures | Torques | PinLoads | MainLoads  # what one o
 
 
 def compute_picture(engine: Engine, what: str) -> GasPicture:
-    """Return what a page of `PAGES` shows, at the mean speed.
+    """Return the curves of a page of `PAGES`, at the mean speed.
 
     Raises:
         BalcliError: the engine has no gas, or lacks what the page shows.

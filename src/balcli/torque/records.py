@@ -1,4 +1,4 @@
-"""Torque on the crank: what `balcli torque` and `analyze_torque` answer."""
+"""Torque on the crank: records of the result of `balcli torque` and `analyze_torque`."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class TorqueAnalysis(Result):
         speed_rpm: Mean speed.
         no_gas_in: Cylinders without gas force.
         no_burning_in: Cylinders that compress and burn nothing.
-        assumed: What is taken because the engine file leaves it out.
+        assumed: Values taken because the engine file leaves them out.
         cycle_deg: Cycle of the engine, or period of the curve.
         imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
         bmep_Pa: Brake mean effective pressure.
@@ -102,8 +102,7 @@ class TorqueAnalysis(Result):
         torque: Largest and smallest torque.
         orders: Torque by order.
         energy: Surplus energy of the torque.
-        flywheel: Inertia and uneven speed; left out where no inertia is given and none was asked
-            for.
+        flywheel: Inertia and uneven speed; left out where no inertia is given or requested.
         loads: Loads of pins and bearings, as far as they were asked for.
         name: Name of the engine or curve.
         curve: Torque over the crank angle (rad), N m: of gas and inertia, or the given one.
@@ -139,7 +138,7 @@ class TorqueAnalysis(Result):
 
     @property
     def summary(self) -> str:
-        """A few words on what the answer is of, and its mean torque."""
+        """Name of the engine or curve, and its mean torque, in words."""
         of = self.name if self.engine is None else self.engine.summary
         return f"of {of}; mean {self.mean_torque_Nm:.4g} N m"
 

@@ -241,7 +241,7 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     if is_engine:
         last = f"gas of {result.cylinder}"
         heads = ["gas", "at, deg", "inertia", "at, deg", "total", "at, deg", last]
-        note = f"The last column is what the gas of cylinder {result.cylinder} does alone."
+        note = f"The last column is the gas torque of cylinder {result.cylinder} alone."
         for line, order in zip(lines, orders, strict=True):
             line.append(getattr(order.one_cylinder, keys[0]))
     largest = max((harmonic.amplitude for line in lines for harmonic in line), default=0.0)

@@ -1,4 +1,4 @@
-"""One question about torsional vibration, one complete answer: `analyze_torsion`."""
+"""Analysis of torsional vibration: `analyze_torsion`."""
 
 from __future__ import annotations
 
@@ -49,13 +49,13 @@ class HolzerAsked(NamedTuple):
 
 
 class TorsionQuestion(NamedTuple):
-    """What is asked.
+    """Request for an analysis of torsional vibration.
 
     Attributes:
-        speeds_rpm: (speeds,) rising, at which the response is wanted; None: none is.
-        orders: Which of those that excite; None: all.
-        holzer: Tables that are wanted.
-        damper: Damper that is to be sized; the answer is then about the system that has it.
+        speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
+        orders: Orders of the excitation to use; None: all.
+        holzer: Requested Holzer tables.
+        damper: Damper to size; the results are then those of the system with it.
     """
 
     speeds_rpm: Real | None = None
@@ -72,18 +72,18 @@ def ask(
     damper_at: str | None = None,
     damper_inertia: float | None = None,
 ) -> TorsionQuestion:
-    """Return the question of `balcli torsion` and `analyze_torsion`.
+    """Return the request of `balcli torsion` and `analyze_torsion`.
 
     Args:
-        speeds_rpm: (speeds,) rising, at which the response is wanted.
-        orders: (orders,) that excite; None: all.
-        holzer: Tables that are wanted.
-        damper: Kind of damper that is to be sized.
-        damper_at: Name of what carries it.
+        speeds_rpm: Rising speeds of the response, shape (speeds,).
+        orders: Orders of the excitation to use, shape (orders,); None: all.
+        holzer: Requested Holzer tables.
+        damper: Kind of damper to size.
+        damper_at: Name of the node that carries it.
         damper_inertia: Inertia of its ring or pendulums, kg m2.
 
     Raises:
-        BalcliError: more of a damper than its kind, without this or without speeds.
+        BalcliError: node or inertia of a damper without its kind; a damper without speeds.
     """
     wanted = None
     if damper is not None:
@@ -175,7 +175,7 @@ class TorsionAnalysis(Result):
         name: Name of the engine or chain; null if the file gives none.
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
-        assumed: What is taken because the file leaves it out.
+        assumed: Values taken because the file leaves them out.
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.
@@ -187,7 +187,7 @@ class TorsionAnalysis(Result):
         damper: Damper that was sized; the system has it. Left out if none was asked for.
         barred_rpm: First and last speed of each range in which a limit is passed; left out without
             a limit or without speeds.
-        system: What was analyzed.
+        system: Analyzed system.
     """
 
     format: Literal["balcli.torsion/1"] = "balcli.torsion/1"
@@ -208,8 +208,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """What is unlikely of system and response, in words: shafts without inertia, swings beyond
-        what is computed here, a stress that breaks the shaft.
+        """Warnings on system and response: shafts without inertia, swings too large for the linear
+        model, a stress that breaks the shaft.
         """
         found = () if self.response is None else _find_doubts(self.system, self.response)
         return *self.system.doubts, *found
@@ -255,13 +255,13 @@ def answer_question(
 
     Args:
         source: File of the chain or engine.
-        question: What is asked.
+        question: Request.
         tell: Called with the share of the work that is done.
 
     Raises:
-        BalcliError: a response without excitation or through an undamped resonance; a mode that is
-            not there; Holzer's table of a chain with loops; a damper that nothing can carry.
-        InputError: what does not fit together in the file.
+        BalcliError: a response without excitation or through an undamped resonance; a mode that
+            does not exist; Holzer's table of a chain with loops; a damper that no node can carry.
+        InputError: contradictions in the file.
     """
     if question.damper is None or question.speeds_rpm is None:
         return _analyze_system(source.system(), question, tell)
@@ -358,14 +358,14 @@ def analyze_torsion(
     Args:
         source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
             text or a dict of its tables (or those of such an engine).
-        speeds_rpm: at which the forced vibration is wanted; default: modes and criticals alone.
-        orders: which of those that excite, multiples of 1/2; default: all of a chain; of an
-            engine those to 32, that of firing and its double.
-        damper: sized to make the largest stress over `speeds_rpm`, which have to be given, least;
-            the answer is then that with it.
-        damper_at: name of what carries it; default: the foremost part.
-        damper_inertia: of its ring, or of its pendulums about the axis, kg m2; default: that in the
-            file, or a usual share.
+        speeds_rpm: Speeds of the forced vibration; default: modes and criticals alone.
+        orders: Orders of the excitation to use, multiples of 1/2; default: all of a chain; for an
+            engine orders to 32, the firing order and its double.
+        damper: Kind of damper to size such that the largest stress over `speeds_rpm`, which must be
+            given, is smallest; the results are then those with the damper.
+        damper_at: Name of the node that carries it; default: the foremost part.
+        damper_inertia: Inertia of its ring, or of its pendulums about the axis, kg m2; default:
+            that in the file, or a usual share.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
@@ -373,10 +373,10 @@ def analyze_torsion(
         largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
 
     Raises:
-        BalcliError: no [torsion]; orders or an inertia that cannot be; a response without
-            excitation or through an undamped resonance; a damper that nothing can carry.
+        BalcliError: no [torsion]; impossible orders or inertia; a response without excitation or
+            through an undamped resonance; a damper that no node can carry.
         InputError: every mistake of the file.
-        TypeError: the source is none of these; what is no number.
+        TypeError: an argument of another type.
 
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm

@@ -71,7 +71,7 @@ def parse_question(
     damper_inertia: str | None = None,
     units: Units = Units.SI,
 ) -> TorsionQuestion:
-    """Return what the options of these names ask.
+    """Return the request that these options make.
 
     Raises:
         BalcliError: one of them cannot be read, or belongs to another that is missing.
@@ -108,7 +108,7 @@ def make_figures_of_torsion(
         pages: Names of the pictures.
         speeds: Range, as typed; None: that of an engine's own speed.
         orders: Orders that excite, as typed.
-        units: In which people read.
+        units: System of units.
     """
     asked = parse_question(speeds, orders)
     source = load_source(path, asked.orders)

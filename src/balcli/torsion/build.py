@@ -1,10 +1,11 @@
 """Nodes and shafts, as chain files and engine files describe them -> torsional system with its
 dampers fitted.
 
-A chain file -> torsional system in SI units; what hangs together wrongly is told by its path.
+A chain file -> torsional system in SI units; joints that contradict each other are reported by
+their paths.
 
 [torsion] of an engine file and the engine -> torsional system: a node for each throw, with the
-mean inertia of what moves on it, and one for each part before and behind.
+mean inertia of the parts that move with it, and one for each part in front and behind.
 """
 
 from __future__ import annotations
@@ -85,9 +86,9 @@ def _plan_shaft(name: str, table: ShaftKeys, joined: ChainShaft, loss: float) ->
 
     Args:
         name: Its name.
-        table: What the file says of it.
+        table: Its table in the file.
         joined: Its ends and ratio.
-        loss: Loss factor of shafts that name none.
+        loss: Loss factor of shafts without one.
     """
     own, section = table.loss, find_section(table.diameter, table.bore)
     lost = find_shaft_inertia(table, STEEL) if table.density is None else 0.0
@@ -203,12 +204,12 @@ def build_chain(
     """Return the system of a chain file.
 
     Args:
-        file: What it says.
+        file: Tables of the file.
         name: Name of the file, for messages.
         fitted: Dampers of some nodes in place of those in the file.
 
     Raises:
-        InputError: nodes that hang on nothing, gears that lock each other, nothing that can turn.
+        InputError: nodes without a shaft, gears that lock each other, no node that can turn.
     """
     index = {node.name: k for k, node in enumerate(file.node)}
     nodes = [
@@ -254,7 +255,7 @@ def build_chain(
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
-    """The names, those that come again with a number: `a-b`, `a-b (2)`."""
+    """Return the names, repeated ones with a number: `a-b`, `a-b (2)`."""
     for k, name in enumerate(names):
         before = names[:k].count(name)
         yield f"{name} ({before + 1})" if before else name
@@ -279,8 +280,8 @@ def _find_faults(
     clamped: Sequence[int],
     limited: bool,
 ) -> Iterator[Problem]:
-    """What hangs together wrongly; `paths`: of the shafts, gears among them, in the file;
-    `limited`: whether the angle of the first node is.
+    """Yield mistakes in how nodes are joined. `paths` are those of shafts and gears in the file;
+    `limited` is whether the angle of the first node has a limit.
     """
     names = [node.name for node in nodes]
     inertia = [node.inertia for node in nodes]
@@ -311,8 +312,8 @@ def _find_faults(
 
 
 def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
-    """Yield loops of meshes alone, which share a torque in no known way, with their partners; and
-    of shafts, which a chain that turns would wind up without end.
+    """Yield loops of meshes alone, whose torques are undetermined, and loops of shafts with a ratio
+    that would wind them up without end.
     """
     group = np.where(chain.clamped, -1, np.arange(len(chain.inertia)))
     joining = np.zeros(len(chain.start), bool)
@@ -337,8 +338,8 @@ def _find_loops(chain: Chain, paths: Sequence[str]) -> Iterator[Problem]:
 def _find_contradiction(
     chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
 ) -> Iterator[Problem]:
-    """Yield the first shaft that closes a loop whose ratios contradict each other, with its
-    partners: gears alone would lock, a chain that turns wind up its shafts.
+    """Yield the first of these shafts (shafts,) that closes a loop with contradictory ratios, and
+    its partners: gears alone would lock, a turning chain would wind up its shafts.
     """
     pieces = find_pieces(chain, joining)
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
@@ -355,7 +356,7 @@ def _find_contradiction(
 
 
 class _Joint(NamedTuple):
-    """A part and the name of what it hangs on; `path` is its place in the file."""
+    """A part, and the name of the node that it is joined to; `path` is its place in the file."""
 
     path: str
     part: Part
@@ -374,12 +375,12 @@ def build_engine_system(
     Args:
         model: Its file, which has [torsion].
         engine: Of this file.
-        excitation: By its cylinders, as of `excite_engine`.
+        excitation: Torques of its cylinders, from `excite_engine`.
         name: Name of the file, for messages.
         fitted: Dampers of some parts in place of those in the file.
 
     Raises:
-        InputError: what does not fit together in [torsion], by its path.
+        InputError: contradictions in [torsion], by their paths.
     """
     torsion = model.torsion
     if torsion is None:
@@ -430,7 +431,7 @@ def _plan_part(part: Part) -> PlannedNode:
 
 
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
-    """Yield a node for each throw, with what runs on it and the damping of every cylinder."""
+    """Yield a node for each throw, with its running gear and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
     bare = _weigh_throws(torsion, engine)
     for throw, name in enumerate(throws):
@@ -454,7 +455,7 @@ def _each(values: Sequence[float], count: int) -> list[float]:
 
 
 def _join_parts(torsion: Torsion, throws: int) -> list[_Joint]:
-    """Return every part with what it hangs on: front parts first, each list outward."""
+    """Return all parts with the nodes that they are joined to: front first, each list outward."""
     found = []
     for key, parts, before in (
         ("front", torsion.front, "throw 1"),
@@ -467,7 +468,7 @@ def _join_parts(torsion: Torsion, throws: int) -> list[_Joint]:
 
 
 def _find_gears(joints: Sequence[_Joint], throws: Sequence[str]) -> dict[str, float]:
-    """Return the speed over that of the crank of every node that hangs on it, by name."""
+    """Return the speed over crank speed of every node that is joined to the crank, by name."""
     gears = dict.fromkeys(throws, 1.0)
     for _ in joints:  # a part may hang on one that comes later in the file
         before = len(gears)
@@ -480,8 +481,8 @@ def _find_gears(joints: Sequence[_Joint], throws: Sequence[str]) -> dict[str, fl
 
 
 def find_free_end(torsion: Torsion, throws: int) -> str:
-    """Return the name of the foremost part, at the end of the main line: what hangs on it by gears
-    is a branch. Without such a part, that of the first throw.
+    """Return the name of the foremost part, at the end of the main line (parts on gears are
+    branches), or of the first throw if there is none.
     """
     names = [f"throw {k}" for k in range(1, throws + 1)]
     joints = _join_parts(torsion, throws)
@@ -503,8 +504,8 @@ def _find_end(joints: Sequence[_Joint], gears: Mapping[str, float], start: str) 
 
 # ------------------------------------------------------------------ inertia and excitation
 def weigh_running_gear(engine: Engine) -> Real:
-    """Mean moment of inertia (cylinders,) in kg m2 of what each cylinder moves, without the throw:
-    `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`.
+    """Return the mean moment of inertia of each cylinder's running gear without the throw, kg m2,
+    shape (cylinders,): `m_rot r^2 + mean(m_rec s'^2 - H beta'^2)`.
     """
     c = engine.cylinders
     mean_only = np.zeros(1)
@@ -530,12 +531,12 @@ def _weigh_throws(torsion: Torsion, engine: Engine) -> Sequence[float]:
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
-    """Torque of every cylinder on the node of its throw: by inertia of what it moves, and by gas
-    where the engine has some.
+    """Return the torque of every cylinder on the node of its throw, of inertia and of gas if the
+    engine has gas.
 
     Args:
-        orders: (orders,); None: to HIGHEST_TORSION_ORDER_UNASKED, with halves where gas has them,
-            and as of `list_gas_orders` those of firing.
+        orders: Orders, shape (orders,); None: orders to HIGHEST_TORSION_ORDER_UNASKED, with halves
+            where gas has them, and the firing orders of `list_gas_orders`.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)

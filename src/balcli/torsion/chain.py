@@ -1,14 +1,15 @@
-"""Inertias on shafts and gears: what a torsional chain is, and how its nodes hang together.
+"""Torsional chains: inertias on shafts and gears, and how the nodes are joined.
 
 A chain is a tree of nodes joined by shafts. A shaft from one node to another twists by `ratio
 x_start - x_end`: its stiffness counts in the speed of its end, and a gear ratio other than 1 means
 a mesh at its start. A mesh alone is a shaft that is rigid (stiffness inf). Loops are allowed, where
 power is split.
 
-Torsional dampers as complex inertias: what the node that carries one feels of it.
+Torsional dampers as complex inertias.
 
-Each is a complex moment of inertia J (kg m2) that joins its node's own: the damper takes the torque
-`-w^2 J x` when the node turns by x. Where J has a negative imaginary part, it takes energy.
+A damper is a complex moment of inertia J (kg m2) that is added to that of its node: the damper
+takes the torque `-w^2 J x` when the node turns by x. It takes energy if the imaginary part of J is
+negative.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class Chain(NamedTuple):
 
 
 class Damping(NamedTuple):
-    """Where a chain loses energy, beside the dampers that are given as complex inertias.
+    """Losses of a chain, without those of dampers that are given as complex inertias.
 
     Attributes:
         loss: (shafts,) loss factors: stiffness k (1 + i loss).
@@ -82,7 +83,7 @@ class Damping(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """A node that hangs on another by a shaft, which twists by `near x_child + far x_parent`."""
+    """A node joined to another by a shaft, which twists by `near x_child + far x_parent`."""
 
     child: int
     parent: int
@@ -105,7 +106,7 @@ def join_chain(
 
 
 def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
-    """Return which nodes hang together by some of the shafts (shafts,), or by all."""
+    """Return the nodes that are connected by some of the shafts (shafts,), or by all."""
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
     first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
     for node in range(len(first)):
@@ -119,7 +120,7 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
 
 
 def find_still(chain: Chain) -> NDArray[np.bool_]:
-    """Which nodes (nodes,) stand still: clamped ones, and what meshes with these."""
+    """Return which nodes (nodes,) stand still: clamped ones, and nodes that mesh with these."""
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     return np.isin(meshes.first, meshes.first[chain.clamped])
 
@@ -144,8 +145,8 @@ def incidence(chain: Chain) -> Real:
 
 
 def follow_gears(chain: Chain) -> tuple[Real, Indices]:
-    """Every node's angle for a unit of each independent one (nodes, dof), and the nodes (dof,)
-    whose angles these are: of nodes joined by meshes the first; none of those at rest.
+    """Return the angle of every node for a unit angle of each independent one, shape (nodes, dof),
+    and the independent nodes (dof,): the first of nodes joined by meshes; none at rest.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     independent = np.unique(meshes.first[~find_still(chain)])
@@ -186,30 +187,32 @@ _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as fig
 
 
 def viscous_inertia(inertia: float, damping: float, frequency: Real) -> Complex:
-    """Of a ring (kg m2) that a fluid drags along (N m s), at w rad/s: `J/(1 + i w J/c)`."""
+    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s:
+    `J/(1 + i w J/c)`.
+    """
     return inertia / (1 + 1j * frequency * (inertia / damping))
 
 
 def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
-    """Of a mass (kg) on a pendulum of a length L (m), hung up at a radius R (m), at an order of the
-    node's own speed, whatever that is: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it holds
-    its node still.
+    """Return the inertia of a mass (kg) on a pendulum of a length L (m), hung up at a radius R (m),
+    at an order of the speed of its node: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it
+    holds its node still.
     """
     return mass * (radius + length) ** 2 / _away_from_zero(1 - order**2 * (length / radius) + 0j)
 
 
 def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
-    """Angle of such a pendulum against its node for each rad by which that swings, both small: `n^2
-    (1 + L/R)/(1 - n^2 L/R)`.
+    """Return the angle of a pendulum against its node for each rad of swing of the node, both
+    small: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
     """
     detuning = _away_from_zero(1 - order**2 * (length / radius) + 0j)
     return np.asarray(order**2 * (1 + length / radius) / detuning, complex)
 
 
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
-    """Damping c (N m s) of the viscous ring (kg m2) that makes the largest response least, of a
+    """Return the damping c (N m s) of a viscous ring (kg m2) for the smallest largest response of a
     system of one degree of freedom with a natural frequency w (rad/s) and 1/ratio of its inertia:
-    `2 J w / sqrt(2 (1 + ratio) (2 + ratio))`; the response is then 1 + 2/ratio times the static one
+    `2 J w / sqrt(2 (1 + ratio) (2 + ratio))`. The response is then 1 + 2/ratio times the static one
     (Den Hartog, Mechanical Vibrations, Houdaille damper).
     """
     return 2 * inertia * frequency / sqrt(2 * (1 + ratio) * (2 + ratio))

@@ -81,7 +81,7 @@ def torsion(
         ),
     ] = None,
     damper_at: Annotated[
-        str | None, optional("NAME", "What carries it; default: the foremost part.")
+        str | None, optional("NAME", "Node that carries the damper; default: the foremost part.")
     ] = None,
     damper_inertia: Annotated[
         str | None,
@@ -94,7 +94,7 @@ def torsion(
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
-        TorsionPicture, typer.Option(help="Which, with --plot; the last two take --speeds.")
+        TorsionPicture, typer.Option(help="Picture of --plot; the last two need --speeds.")
     ] = TorsionPicture.ALL,
     progress: ProgressAtOnce = False,
     units: UnitsOption = Units.SI,

@@ -61,11 +61,11 @@ _MOVES = 2.0  # times the whole inertia: with more at a node in a mode it hardly
 
 
 class DamperAsked(NamedTuple):
-    """What is to be sized.
+    """Damper to size.
 
     Attributes:
-        kind: viscous, rubber or pendulum.
-        node: Name of what carries it; None: the first that can.
+        kind: Kind of damper: viscous, rubber or pendulum.
+        node: Name of the node that carries it; None: the first that can.
         inertia: Inertia of ring or pendulums, kg m2; None: that of the file's damper there, or a
             usual share of the mode's.
     """
@@ -80,7 +80,7 @@ class SizedDamper:
     """Damper that was sized, and the largest stress (or torque) without and with it.
 
     Attributes:
-        node: Name of what carries it.
+        node: Name of the node that carries it.
         kind: Kind of damper.
         inertia_kg_m2: Moment of inertia of the ring.
         damping_Nms_per_rad: Damping of the oil film.
@@ -96,12 +96,12 @@ class SizedDamper:
             has no bound.
         after_Nm: Largest torque with it, where no shaft has a diameter.
         heat_W: Largest power that it turns to heat.
-        heat_rpm: Speed at which it does.
-        doubts: What is unlikely of it, in words; left out if nothing is.
+        heat_rpm: Speed of this largest power.
+        doubts: Warnings of unlikely figures; left out if there are none.
         damper: The damper as a file describes it.
-        start: Its figure that was sized (damping, stiffness or length), as the optimum of a system
-            with one degree of freedom has it, in the file's unit.
-        measure: What was made least: stress, or torque where no shaft has a diameter.
+        start: Value of the sized figure (damping, stiffness or length) that is optimal for a system
+            with one degree of freedom, in the file's unit.
+        measure: Minimized quantity: stress, or torque where no shaft has a diameter.
         before: Largest stress (Pa) or torque (N m) without a damper there; inf: without bound.
         after: Largest stress (Pa) or torque (N m) with it.
     """
@@ -146,13 +146,13 @@ def size_damper(
 
     Args:
         source: File of the chain or engine.
-        asked: What is to be sized.
-        speeds: (speeds,) rising, rpm.
-        orders: Which of those that excite; None: all.
+        asked: Damper to size.
+        speeds: Rising speeds, rpm, shape (speeds,).
+        orders: Orders of the excitation to use; None: all.
         tell: Called with the share of the work that is done.
 
     Raises:
-        BalcliError: nothing can carry it, or nothing excites the system.
+        BalcliError: no node can carry it, or the system has no excitation.
     """
     node, own = _find_carrier(source.dampers(), asked.node)
 
@@ -260,10 +260,11 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
 def _find_mode_to_damp(
     system: TorsionalSystem, speeds: Real, weights: Mapping[str, float], node: int
 ) -> tuple[NaturalMode, float]:
-    """Return the mode that a damper at a node is for, and the order that drives it: of the modes in
-    which the node moves the one nearest in frequency to the largest order in the largest stress of
-    the range. By work alone that of a soft coupling would be it, which hardly twists the
-    crankshaft.
+    """Return the mode that a damper at a node has to damp, and the order that drives it.
+
+    Of the modes in which the node moves, it is the one nearest in frequency to the largest order in
+    the largest stress of the range. Work alone would select the mode of a soft coupling, which
+    hardly twists the crankshaft.
     """
     modes = find_natural_modes(system)
     if not modes:
@@ -284,9 +285,7 @@ def _find_mode_to_damp(
 
 
 def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
-    """Return what vibrates in a mode, as if all of it were at a node, kg m2; inf where that is
-    still.
-    """
+    """Return the equivalent inertia of a mode at a node, kg m2; inf where the node is at rest."""
     moved = mode.shape[node] ** 2
     return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
 
@@ -300,12 +299,12 @@ def _propose(
     order: float,
     crank_radius: float | None,
 ) -> Damper:
-    """Return a damper of the inertia that is wanted, tuned as the optimum of a system with one
-    degree of freedom. Pendulums hang where the file says, else as far out as the crank pins (m).
+    """Return a damper of the wanted inertia, tuned as the optimum of a system with one degree of
+    freedom. Pendulums hang at the radius in the file, else at the radius of the crank pins (m).
 
     Raises:
-        BalcliError: what is to carry it stands still in the mode; nothing says where pendulums
-            hang; no damper has such figures.
+        BalcliError: the node that carries it is at rest in the mode; the radius of pendulums is not
+            known; no damper has such figures.
     """
     if mode.shape[node] == 0:
         raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
@@ -344,7 +343,7 @@ def _propose(
 
 # ------------------------------------------------------------------ doubts
 def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
-    """Yield what is unlikely of a damper; `given`: its size was not proposed here."""
+    """Yield warnings of unlikely figures of a damper; `given`: its size was not proposed here."""
     node, inertia = printable(found.node), found.inertia_kg_m2
     if inertia is None:  # of pendulums, as they hang
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
@@ -372,8 +371,8 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
         yield (
-            f"the best {found.figure} is at the end of what is looked at, {1 / width:.2g} to "
-            f"{width:g} times that of mode {found.mode} by itself"
+            f"the best {found.figure} is at an end of the searched range, {1 / width:.2g} to "
+            f"{width:g} times the optimum for mode {found.mode} alone"
         )
 
 
@@ -381,9 +380,9 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
     """Return the text of a chain or engine file with this damper on the node or part of that name.
 
     Args:
-        text: of the file, UTF-8.
-        name: of the node or part, which the file has.
-        damper: what it gets, in place of an older one.
+        text: Text of the file, UTF-8.
+        name: Name of the node or part, which the file has.
+        damper: New damper, in place of an older one.
     """
     old = text.decode("utf-8-sig")
     table = _find_table(tomllib.loads(old), name)

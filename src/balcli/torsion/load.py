@@ -1,4 +1,4 @@
-"""A file -> what `balcli torsion` works on, whichever it describes: a chain or an engine."""
+"""Read a file that describes a chain or an engine, for `balcli torsion`."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class Source:
     """A chain or engine file that has been read.
 
     Attributes:
-        file: Its name.
-        text: Its text; empty if nothing can be written into it.
-        model: What it says; of an engine, with [torsion].
-        doubts: What it says that is allowed and yet unlikely, in words.
-        engine: Its engine; None: it describes a chain.
+        file: Name of the file.
+        text: Text of the file; empty if nothing can be written into it.
+        model: Tables of the file; of an engine, with [torsion].
+        doubts: Warnings of figures that are allowed and yet unlikely.
+        engine: Engine of the file; None: it describes a chain.
         excitation: Torques of the engine's cylinders.
     """
 
@@ -56,7 +56,7 @@ class Source:
         """Return the system that the file describes, with these dampers in place of its own.
 
         Raises:
-            InputError: what does not fit together in the file.
+            InputError: contradictions in the file.
         """
         if isinstance(self.model, ChainFile):
             return build_chain(self.model, self.file, fitted)
@@ -70,7 +70,7 @@ class Source:
         return None if self.engine is None else float(self.engine.cylinders.radius)
 
     def dampers(self) -> Mapping[str, Damper | None]:
-        """Return what may carry a damper, by name, and the damper it has."""
+        """Return the nodes that may carry a damper, by name, each with the damper it has."""
         if isinstance(self.model, ChainFile):
             return {node.name: node.damper for node in self.model.node}
         torsion = self.model.torsion
@@ -90,7 +90,7 @@ def make_chain_source(model: ChainFile, name: str, text: bytes = b"") -> Source:
 
 
 def _doubt_torques(model: ChainFile) -> Iterator[str]:
-    """Excitations of which only node and order are given, and those that a fixing takes."""
+    """Yield warnings of excitations without a torque, and of those on a fixed node."""
     for number, torque in enumerate(model.excitation, 1):
         if not {"cos", "sin"} & torque.model_fields_set:
             yield (
@@ -102,7 +102,7 @@ def _doubt_torques(model: ChainFile) -> Iterator[str]:
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
-    """Inertias of kg m2 and diameters of m without their units, most likely."""
+    """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
     for number, node in enumerate(model.node, 1):
         if node.inertia is not None and node.inertia < _LIGHT:
             yield (
@@ -118,14 +118,14 @@ def _doubt_units(model: ChainFile) -> Iterator[str]:
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
-    """A file, or standard input for "-".
+    """Read the source in a file, or in standard input for "-".
 
     Args:
-        orders: (orders,) by which an engine is excited; None: as of `excite_engine`.
-        misfires: numbers of cylinders of an engine without gas force.
+        orders: Orders of an engine's excitation, shape (orders,); None: those of `excite_engine`.
+        misfires: Numbers of an engine's cylinders without gas force.
 
     Raises:
-        BalcliError: it cannot be read; all its mistakes.
+        BalcliError: The file cannot be read, or has mistakes.
     """
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
@@ -146,12 +146,12 @@ def make_source(
     orders: Real | None = None,
     misfires: Sequence[int] = (),
 ) -> Source:
-    """Of an engine file that has been read and built; without its text, so that nothing can be
-    written into it.
+    """Return the source of an engine file that has been read and built. It has no text, so that
+    nothing can be written into it.
 
     Raises:
-        BalcliError: it has no [torsion]; a misfire of an engine without gas, or of a cylinder that
-            there is not.
+        BalcliError: The file has no [torsion]; a misfire of an engine without gas, or of a cylinder
+            that the engine does not have.
     """
     if model.torsion is None:
         raise BalcliError(

@@ -1,9 +1,7 @@
-"""Natural modes of a torsional system, where their nodes lie, and which orders meet them at which
-speed.
+"""Natural modes of a torsional system: frequencies, shapes, positions of nodes, losses; and
+critical speeds, at which orders excite them.
 
-Natural modes of torsional chains, and what they say about excitation and loss.
-
-Holzer's table: a torsional chain at one frequency, node by node, as the books draw it up.
+Holzer's table: a torsional chain at one frequency, node by node, as in textbooks.
 """
 
 from __future__ import annotations
@@ -35,8 +33,8 @@ _INFINITE = 1e-6  # share of the largest: eigenvalues below are a double 0, but 
 
 
 def find_chain_modes(chain: Chain) -> Modes:
-    """Natural modes with shapes (modes, nodes), of unit modal mass; each frequency is good to about
-    1e-15 of itself, a rigid motion has exactly 0. Massless nodes add no mode.
+    """Return natural modes with shapes (modes, nodes), of unit modal mass. Relative errors of
+    frequencies are about 1e-15; rigid motions have exactly 0. Massless nodes add no mode.
     """
     follow, independent = follow_gears(chain)
     mass = chain.inertia @ follow**2
@@ -57,8 +55,8 @@ def find_chain_modes(chain: Chain) -> Modes:
 def _condense(
     springs: Real, stiffness: Real, massless: Indices
 ) -> tuple[Real, Real, list[tuple[int, Real]]]:
-    """Springs (springs, dof) and stiffness (springs,) without the massless degrees of freedom, and
-    how each of those follows the ones that are left after it: (dof, (dof,)).
+    """Return springs (springs, dof) and stiffness (springs,) without the massless degrees of
+    freedom, and how each of these follows from the remaining ones: (dof, (dof,)).
 
     A star of springs k_i that meet becomes a spring `k_i k_j/sum k` between any two of its ends
     (Lagrange's identity): sums of positive terms alone, so that nothing cancels.
@@ -80,11 +78,11 @@ def _condense(
 def chain_loss(
     chain: Chain, damping: Damping, modes: Modes, attached: Complex | float = 0.0
 ) -> Real:
-    """Loss factor (modes,) of every mode, energy lost in a cycle over 2 pi times the energy that
-    swings; rigid modes have 0.
+    """Return the loss factor (modes,) of every mode: energy lost in a cycle over 2 pi times the
+    vibration energy; rigid modes have 0.
 
     Args:
-        attached: complex inertias (modes, nodes) of dampers at the modes' own frequencies, or one
+        attached: Complex inertias (modes, nodes) of dampers at the natural frequencies, or one
             that broadcasts.
     """
     elastic = np.isfinite(chain.stiffness)
@@ -119,9 +117,9 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
 
 
 def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
-    """Poles (poles,) of the damped chain, rad/s: where its vibration `x e^{s t}` needs no load. One
-    at `s` is a resonance about the frequency `Im s`, `-2 Re s` wide between half powers. Only those
-    with `Im s > 0` mean anything where shafts have loss factors.
+    """Return the poles (poles,) of the damped chain, rad/s: s of vibrations `x e^{s t}` without
+    load. A pole s is a resonance at the frequency `Im s`, `-2 Re s` wide between half powers. With
+    loss factors of shafts, only poles with `Im s > 0` have a meaning.
 
     They are `s = sigma + 1/mu` of the eigenvalues mu of `(A - sigma B)^-1 B`, with the equations of
     motion `A z = s B z` of angles and speeds z: massless nodes have mu = 0, and no pole.
@@ -288,8 +286,8 @@ class Holzer(NamedTuple):
         total: torque of all inertias up to this node, which its shaft onward carries.
         stiffness: of the shaft onward in the node's own speed; of the last node 0.
         twist: of that shaft, total over stiffness.
-        residual: what is left at the last node; 0 at a natural frequency, unless that node is
-            clamped, when its angle is 0 instead.
+        residual: residual torque at the last node; 0 at a natural frequency. If that node is
+            clamped, its angle is 0 instead.
     """
 
     angle: Real
@@ -305,8 +303,8 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
 
     Its angles x and torques T of shafts solve the equations of the chain, `near x_child + far
     x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the
-    sum is the residual. A branch beside the way from the first node to the last moves as the way
-    makes it. Dampers and loss are left out, as in the books.
+    sum is the residual. A branch off the line from the first node to the last follows the line.
+    Dampers and loss are left out, as in textbooks.
 
     Args:
         chain: Inertias and shafts.
@@ -316,7 +314,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
 
     Raises:
         ValueError: the chain has a loop or two pieces; a node meshes with a clamped one; a node of
-            the way before the last is clamped; a branch is at resonance by itself.
+            the line before the last is clamped; a branch is at resonance by itself.
     """
     count = len(chain.inertia)
     last, stiff = last % count, chain.stiffness > 0

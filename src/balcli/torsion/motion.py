@@ -95,7 +95,8 @@ def respond_chain(
         damping: Losses of shafts and nodes.
         frequency: w (rad/s), any shape, commonly (orders, speeds).
         load: Torques (N m) on the nodes, that broadcast to (*frequency, nodes).
-        attached: Complex inertias of dampers (kg m2), likewise; see `TorsionalSystem.attached`.
+        attached: Complex inertias of dampers (kg m2) that broadcast to (*frequency, nodes); see
+            `TorsionalSystem.attached`.
 
     Raises:
         UndampedResonanceError: a load drives an undamped mode at its own frequency.
@@ -139,7 +140,7 @@ def _find_flexibilities(
 
 
 def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
-    """Of every piece the free node that is heaviest at common speed."""
+    """Return the free node of every piece with the largest inertia at common speed."""
     pieces = find_pieces(chain, shafts)
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     return [
@@ -195,7 +196,7 @@ def _solve_tree(chain: Chain, equations: _Equations) -> _Solution:
 def _solve_dense(
     chain: Chain, equations: _Equations, singular: NDArray[np.bool_]
 ) -> tuple[Complex, Complex]:
-    """Angles (nodes, points) and torques (shafts, points) from equations of both, with pivoting:
+    """Solve for angles (nodes, points) and torques (shafts, points) with pivoting:
     `d x + B^T T = f`, `B x = s T`, all scaled by a stiffness of the chain.
     """
     w, own, flexible, load, carrying = equations
@@ -281,7 +282,7 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
 
 
 def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
-    """Return what swings, and the heat of dampers, at speeds (speeds,), rpm.
+    """Return torques, swings and the heat of dampers at speeds (speeds,), rpm.
 
     Returns:
         Phasors (orders, speeds, curves) of torques of all shafts (N m), the angle of the free end

@@ -30,11 +30,11 @@ _SUBJECTS = {
 
 
 def parse_quantity(text: str) -> TargetQuantity:
-    """`torsion.1.Hz` and its like; torque and stress of a shaft are the largest half of peak to
-    peak over a range of speeds.
+    """Return the quantity of a name such as `torsion.1.Hz`. Torque and stress of a shaft are the
+    largest half of peak to peak over a range of speeds.
 
     Raises:
-        BalcliError: anything else, with what there is.
+        BalcliError: There is no such quantity; the error lists those there are.
     """
     found = parse_target_quantity(text, _SUBJECTS)
     number = found.target
@@ -60,13 +60,12 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     without diameter.
 
     Raises:
-        BalcliError: the quantity, and what there is.
-        InputError: what does not fit together in [torsion].
+        BalcliError: The quantity does not exist; the error lists those there are.
+        InputError: contradictions in [torsion].
     """
     if model.torsion is None:
         raise BalcliError(
-            f"{quantities[0].name}: the file has no [torsion]; balcli torsion --help says what it "
-            "needs"
+            f"{quantities[0].name}: the file has no [torsion]; see balcli torsion --help"
         )
     system = _build(model)
     modes = len(_find_frequencies(system))
@@ -80,7 +79,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities of variants of a file one by one; what does not vary is computed once.
+    """Evaluates quantities of variants of a file one by one; constant parts are computed once.
 
     Args:
         model: with [torsion].
@@ -135,8 +134,8 @@ def _find_largest(
 
 
 def choose_torsion_speeds(engine: Engine) -> Real:
-    """(speeds,) rpm, over which torque and stress of a shaft are largest: half to one and a half
-    times the engine's own.
+    """Return the speeds (speeds,), rpm, over which the largest torque and stress of a shaft are
+    found: half to one and a half times that of the engine.
     """
     return np.asarray(np.linspace(SLOWEST, FASTEST, SPEEDS) * float(engine.speed_rpm))
 

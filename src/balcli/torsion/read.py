@@ -19,7 +19,7 @@ _ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",
 
 
 def describes_chain(data: Mapping[str, object]) -> bool:
-    """Whether tables of a file are those of a chain, not of an engine."""
+    """Return whether tables of a file are those of a chain, not of an engine."""
     return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
 
 
@@ -27,7 +27,7 @@ def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
     """The chain that the tables of a file describe; `file` is its name in messages.
 
     Raises:
-        InputError: with every mistake.
+        InputError: The file has mistakes; the error lists all of them.
     """
     reader = TableReader(CHAIN.name)
     head = {key: value for key, value in data.items() if key not in KEYS}
@@ -43,7 +43,7 @@ def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
 
 
 def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
-    """What the tables say against each other, as far as they can be read."""
+    """Yield contradictions between the readable tables."""
     nodes = _tables(data, "node")
     if "node" not in data:
         hint = 'write [[node]] for every inertia, such as name = "flywheel"'
@@ -78,13 +78,13 @@ def _check_ends(
 
 
 def _refuse_node(name: str, known: Sequence[str]) -> str:
-    """Return what is wrong with a name that no node has."""
+    """Return the mistake of a name that no node has."""
     listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
     return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
 
 
 def _tables(data: Mapping[str, object], key: str) -> list[tuple[int, Mapping[str, object]]]:
-    """The tables of a list with their numbers, those that are tables."""
+    """Return the members of a list that are tables, with their numbers."""
     value = data.get(key)
     items = enumerate(value, 1) if isinstance(value, list) else ()
     return [(k, item) for k, item in items if isinstance(item, Mapping)]

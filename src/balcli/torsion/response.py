@@ -1,10 +1,10 @@
-"""Forced vibration at speeds: torque of every shaft, added up in time, and what follows from it.
+"""Forced vibration at speeds: torque of every shaft, added up in time, with stress and heat; and
+the largest values over a range of speeds.
 
-The largest of torsional vibration over a range of speeds, between its speeds as well.
-
-To the speeds of the range come those at which an order meets a damped resonance, and those half its
-width and its width away; every top that these speeds show and that may be the highest is then
-approached by halving the intervals beside it, and by the vertex of the parabola through it.
+Largest values between the given speeds are found as well. Speeds at which an order meets a damped
+resonance are added, and speeds half its width and its width away. Every peak at these speeds that
+may be the highest is then refined by halving the intervals next to it, and by the vertex of the
+parabola through it.
 """
 
 from __future__ import annotations
@@ -144,9 +144,8 @@ def _measure(
 
 
 def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -> Real:
-    """Return speeds beside every top of a column that is near its highest, by a share of this: half
-    way to the speeds before and after it, and the vertex of the parabola through the three, as far
-    as these are not found already.
+    """Return new speeds next to every peak of a column that is within a share of its highest: the
+    middles of both adjacent intervals, and the vertex of the parabola through the three speeds.
     """
     level = values.max() if together else values.max(axis=0)
     padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
@@ -395,12 +394,12 @@ _AT_ONCE = 256  # speeds
 
 def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:
     """Return ranges of speed (rpm) in which a limit of the file is passed, between the first and
-    the last of rpm (speeds,); None if there is none that can be judged: of a stress, where no shaft
-    has a diameter.
+    the last of rpm (speeds,); None without a limit that can be judged: a stress limit needs a shaft
+    with a diameter.
 
-    The speeds looked at depend on the ends of the range alone: fine steps, resonances and, of tops
-    under a limit and valleys above it, the highest and lowest point; the ends of a barred range are
-    found by halving.
+    The speeds examined depend only on the ends of the range: fine steps, resonances, the highest
+    points of peaks below a limit and the lowest points of valleys above it. The ends of a barred
+    range are found by halving.
     """
     stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
     weights = np.append(stress, 1 / (system.angle_limit or np.inf))

@@ -43,13 +43,13 @@ class Line(NamedTuple):
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
-    """Return the same figures as CSV, one a row."""
+    """Return CSV: one figure a row."""
     lines, units = _list_lines(to_document(result)), _choose_units(system)
     return Rows(Line._fields, lines if system == SI else (_convert(line, units) for line in lines))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
-    """Return what people read in place of SI units of CSV."""
+    """Return the units that replace the SI units of CSV."""
     return {
         "kg m2": system.inertia,
         "N m s/rad": system.torsional_damping,
@@ -63,7 +63,7 @@ def _choose_units(system: System) -> dict[str, ShownUnit]:
 
 
 def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
-    """Return a row in the units of people who do not read SI."""
+    """Return a row in the units that replace SI units."""
     if line.unit not in units or not isinstance(line.value, (int, float)):
         return line
     unit = units[line.unit]
@@ -79,7 +79,7 @@ def _put(
     speed: float | None = None,
     order: float | None = None,
 ) -> Iterator[Line]:
-    """Yield lines of CSV: what stands before figures, and these."""
+    """Yield lines of CSV: the leading cells, and one of the figures."""
     for each in figures:
         called = remove_unit(each.name)
         yield Line(part, number, speed, order, name_cell(name), called, each.value, each.unit)
@@ -105,7 +105,7 @@ def _list_lines(found: Node) -> Iterator[Line]:
 
 
 def _list_extras(found: Node) -> Iterator[Line]:
-    """Yield the lines of what was asked besides modes and criticals."""
+    """Yield the lines of further requested parts: Holzer's tables, response, damper."""
     for k, table in enumerate(found.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
         yield from _put("holzer", frequency, number=k)
@@ -155,7 +155,7 @@ def _list_worst(response: Node) -> Iterator[Line]:
 
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
-    """Return modes first, then what was asked."""
+    """Return the sheet: modes first, then the requested parts."""
     parts: list[Grid | Facts | Text] = []
     if silent := list_silent(result.system.silent):
         parts.append(Facts(tuple(silent)))
@@ -191,7 +191,7 @@ _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
 def _show_damper(sized: SizedDamper, system: System) -> Facts:
-    """Return what to make, and what it does."""
+    """Return the figures of the sized damper, and its effect."""
     kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit(max(filter(math.isfinite, (sized.before, sized.after))))
     units = _choose_units(system)
@@ -341,7 +341,7 @@ def _show_stiffness(value: float) -> str:
 
 
 def _settle(value: float, others: Sequence[float]) -> float:
-    """Return an angle or torque, 0 where it is what rounding left over of others."""
+    """Return an angle or torque, 0 where it is a rounding error of others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
 
 

@@ -1,5 +1,5 @@
-"""A torsional system in SI units: nodes and shafts with their names, what damps it and what excites
-it. Speeds and orders are those of its reference, the crankshaft or the first node of a chain.
+"""A torsional system in SI units: nodes and shafts with their names, damping and excitation. Speeds
+and orders are those of its reference, the crankshaft or the first node of a chain.
 """
 
 from __future__ import annotations
@@ -81,24 +81,24 @@ class TorsionalSystem:
     """Nodes, shafts, damping and excitation.
 
     Attributes:
-        name: of the engine or chain; may be empty.
-        nodes: names, front to rear.
-        shafts: names, one a row of the chain's shafts.
-        chain: inertias and shafts; a rubber ring is a node of it.
-        damping: losses of shafts and nodes.
-        sections: (shafts) where diameters are given.
-        rings, pendulums: dampers that are no nodes.
-        excitation: what shakes it; None: nothing.
-        limit_pa: stress above which a speed is barred.
-        angle_limit: half swing of the free end, rad, above which a speed is barred.
-        last: last node that is no rubber ring.
-        ends: nodes at which the main line begins and ends: the free end, and the one at the rear.
-        doubts: what is unlikely of it, in words.
-        reference: node whose speed and orders are those of the system.
-        rated_rpm: speed of the file's own; None: it gives none.
-        silent: cylinders of the engine that do not fire.
-        assumed: what is taken because the file leaves it out.
-        file: in which all this stands, for messages; may be empty.
+        name: Name of the engine or chain; may be empty.
+        nodes: Names of the nodes, front to rear.
+        shafts: Names of the chain's shafts.
+        chain: Inertias and shafts; a rubber ring is a node of it.
+        damping: Losses of shafts and nodes.
+        sections: Sections of the shafts where diameters are given.
+        rings, pendulums: Dampers that are no nodes.
+        excitation: Torques by order; None: no excitation.
+        limit_pa: Stress above which a speed is barred.
+        angle_limit: Half swing of the free end, rad, above which a speed is barred.
+        last: Last node that is no rubber ring.
+        ends: Nodes at which the main line begins and ends: the free end, and the one at the rear.
+        doubts: Warnings of unlikely figures.
+        reference: Node whose speed and orders are those of the system.
+        rated_rpm: Speed in the file; None: it gives none.
+        silent: Cylinders of the engine that do not fire.
+        assumed: Values taken because the file leaves them out.
+        file: Name of the file, for messages; may be empty.
     """
 
     name: str
@@ -122,24 +122,24 @@ class TorsionalSystem:
     file: str = ""
 
     def refusal(self, message: str) -> BalcliError:
-        """An error that begins with the file."""
+        """Return an error whose text begins with the name of the file."""
         return BalcliError(f"{self.file}: {message}" if self.file else message)
 
     def require_excitation(self) -> Excitation:
-        """What excites it.
+        """Return the excitation.
 
         Raises:
-            BalcliError: nothing does.
+            BalcliError: There is none.
         """
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
         return self.excitation
 
     def driven_at(self, orders: Real | None) -> TorsionalSystem:
-        """Return the system excited at these orders alone; None: at all.
+        """Return the system excited at these orders alone; None: at all orders.
 
         Raises:
-            BalcliError: nothing excites it, or not at these orders.
+            BalcliError: It has no excitation, or none at these orders.
         """
         excitation = self.require_excitation()
         if orders is not None:

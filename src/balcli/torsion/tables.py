@@ -1,5 +1,4 @@
-"""What a chain file may say: inertias on shafts and gears, and what excites them. It knows no
-engine.
+"""Tables of a chain file: inertias on shafts and gears, and excitations, without an engine.
 
 Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own.
 """
@@ -76,7 +75,7 @@ class Excitation(FileTable):
 
 
 class ChainFile(ChainKeys):
-    """Inertias on shafts and gears, and what excites them."""
+    """Inertias on shafts and gears, and excitations."""
 
     name: Name | None = Field(None, examples=["pump drive"], description="what to call it")
     fixed: tuple[Name, ...] = Field(

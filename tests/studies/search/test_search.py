@@ -311,7 +311,7 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
         (
             "force.1.major",
             ("force.2.major=3",),
-            '--limit "force.2.major=3": give a quantity and what it must stay below',
+            '--limit "force.2.major=3": give a quantity and its upper limit',
         ),
         (
             "force.1.axis",

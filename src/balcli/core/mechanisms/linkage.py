@@ -1,4 +1,4 @@
-"""Mechanisms with masses on planar curves: what articulated rods and rotary engines share.
+"""Mechanisms with masses on planar curves: common parts of articulated rods and rotary engines.
 
 A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another
 mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
@@ -50,7 +50,7 @@ class Linkage(ABC):
     """The mechanism of an engine whose cylinders are more than slider-cranks.
 
     Attributes:
-        mass: what moves on each cylinder's curve, kg, shape (cylinders or 1, *trailing).
+        mass: mass that moves on each cylinder's curve, kg, shape (cylinders or 1, *trailing).
     """
 
     mass: Array
@@ -154,7 +154,7 @@ def revolution(count: int) -> Array:
 
 @dataclass(frozen=True)
 class Articulated(Linkage):
-    """Master and articulated rods; `mass` is what each articulated rod puts on its knuckle pin.
+    """Master and articulated rods; `mass` is the mass of each articulated rod on its knuckle pin.
 
     Attributes:
         master: row of each cylinder's master (its own for a master), shape (cylinders,).
@@ -231,7 +231,7 @@ def follow_knuckle(
 @dataclass(frozen=True)
 class Rotary(Linkage):
     """Turning cylinders; `mass` is the reciprocating mass of each, which moves along no fixed line,
-    and what an articulated rod puts on its knuckle pin.
+    with the mass of an articulated rod on its knuckle pin.
 
     Attributes:
         hung: master and articulated rods as seen from the cylinders, that is in the mirror; None

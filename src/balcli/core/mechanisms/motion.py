@@ -100,7 +100,7 @@ class Motion:
     # -------------------------------------------------------------- unit mass on its points
     @property
     def velocity_of_mass(self) -> Complex:
-        """Velocity of unit mass on its points, likewise all that follows."""
+        """Velocity of unit mass on its points; the figures below are for unit mass as well."""
         return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
 
     @cached_property

@@ -146,8 +146,8 @@ def fastest(lam: ArrayLike) -> Fastest:
 
 
 def fastest_two_term(lam: ArrayLike) -> Fastest:
-    """Return the same of the two-term form sin psi + lam/2 sin 2 psi: cos psi = (sqrt(1 + 8 lam^2)
-    - 1)/(4 lam).
+    """Return where the two-term form sin psi + lam/2 sin 2 psi is largest: cos psi = (sqrt(1 + 8
+    lam^2) - 1)/(4 lam).
     """
     lam = np.asarray(lam, float)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))

@@ -1,1 +1,1 @@
-"""An engine file and what may change in, the best arrangements out."""
+"""Search: the best arrangements of an engine file."""

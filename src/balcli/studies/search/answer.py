@@ -62,8 +62,8 @@ class SearchRange(NamedTuple):
     """A number that is searched over.
 
     Attributes:
-        key: as the user names it.
-        number: its dotted name, its unit, and the ends of its range, ascending.
+        key: Name as the user wrote it.
+        number: Its dotted name, its unit, and the ends of its range, ascending.
     """
 
     key: str
@@ -81,14 +81,14 @@ class Search(Result):
 
     Attributes:
         model: The engine file.
-        assumed: What is taken because the engine file leaves it out.
-        over: What was arranged: `throws`, `firing_order`, or numbers with commas between.
+        assumed: Values taken because the engine file leaves them out.
+        over: Searched keys: `throws`, `firing_order`, or numbers with commas between.
         results: Arrangements, best first.
         objective: The quantities, their weights and limits.
         ranges: The numbers that were searched over.
-        constant: Whether the numbers change nothing of the objective.
-        refused: Values of the numbers that make no engine, and why; empty if all do.
-        even_firing: Whether only arrangements that can fire evenly were looked at.
+        constant: Whether the numbers have no effect on the objective.
+        refused: Values of the numbers without an engine, and why; empty if there are none.
+        even_firing: Whether only arrangements that can fire evenly were considered.
     """
 
     format: Literal["balcli.search/1"] = "balcli.search/1"
@@ -126,7 +126,7 @@ class Search(Result):
 
     @property
     def summary(self) -> str:
-        """Over what, and how many were found."""
+        """Searched keys, and the number of results."""
         found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
@@ -136,7 +136,7 @@ class Search(Result):
 
         Raises:
             IndexError: there are fewer arrangements.
-            TypeError: the rank is no whole number.
+            TypeError: The rank is no whole number.
         """
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
@@ -159,10 +159,10 @@ def search_arrangements(
             firing_order (all even ones; cranks follow where the file gives no throws); or one or
             several of bank_angle (of a vee), splay, and numbers of the file with their ranges,
             `mount.left.loss=0.05:0.3`.
-        count: at most so many.
-        even_firing: only arrangements that can fire evenly.
-        tell: is told the share that is done; a search over throws or firing orders asks whether
-            that is enough.
+        count: Largest number of arrangements.
+        even_firing: Whether only arrangements that can fire evenly are considered.
+        tell: Called with the share that is done; a search over throws or firing orders stops if it
+            returns True.
 
     Raises:
         BalcliError: the engine has nothing to arrange, no arrangement keeps the limits, or a
@@ -208,7 +208,7 @@ def search_arrangements(
 
 # ------------------------------------------------------------------ throws and firing orders
 def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[Design]:
-    """Yield what there is to arrange, for figures that take each arrangement by itself."""
+    """Yield all designs, for quantities that are computed one by one."""
     if what == "firing_order":
         slots, cranks = find_slots(model)
         for throws in cranks.tolist():
@@ -227,7 +227,7 @@ def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[SearchRange, ..
     """Read the numbers that are searched over; none for throws and firing orders.
 
     Raises:
-        BalcliError: an unknown name or a wrong range, what cannot be combined, a number twice.
+        BalcliError: an unknown name or a wrong range, keys that cannot be combined, a number twice.
     """
     arranged = [text for text in over if text in ARRANGED]
     if arranged and len(over) == 1:
@@ -289,8 +289,8 @@ def _search_numbers(
     even_firing: bool,
     tell: Tell,
 ) -> tuple[Iterator[Found], bool, str]:
-    """Return the local optima over some numbers, best first; whether the numbers change nothing;
-    and which values make no engine, and why.
+    """Return the local optima over some numbers, best first; whether the numbers have no effect;
+    and values without an engine, and why.
 
     Raises:
         InputError: no values make an engine.
@@ -326,7 +326,7 @@ def _search_numbers(
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
-    """Return how much is evaluated: less where each candidate takes a computation of its own."""
+    """Return the effort of the search: less where candidates are computed one by one."""
     if alone:
         if box.size == 1:
             return Effort(_SLOW, 3, 1e-10, steps=5)
@@ -357,20 +357,21 @@ def search(
             "firing_order", its "bank_angle" or the "splay" of its split pins; or any number of
             the file and its range ("mount.left.loss=0.05:0.3"). A list of angles and numbers is
             searched together.
-        minimise: the quantity that should be small (`moment.1.major`), several, which are added
-            up, or a dict of weights by quantity.
-        maximise: the quantity that should be large, likewise; exactly one of both is given.
-        limits: what quantities must stay below, N or N m.
-        top: how many to list, at most 1000.
-        even_firing: only what can fire at even intervals.
+        minimise: Quantity that should be small (`moment.1.major`); several quantities, which are
+            added up; or a dict of weights by quantity.
+        maximise: Quantities that should be large, in the same form; exactly one of both is given.
+        limits: Upper limits by quantity, N or N m.
+        top: Largest number of results, at most 1000.
+        even_firing: Whether only arrangements with even firing intervals are considered.
 
     Returns:
         The arrangements, best first: `result.results[0].design`, `.objective` and `.quantities`;
         `result.engine(1)` is the engine with the first.
 
     Raises:
-        BalcliError: there is nothing to arrange, or nothing keeps the limits; unknown quantities.
-        TypeError: what is no engine, no names, no dict.
+        BalcliError: There is nothing to arrange, no arrangement keeps the limits, or quantities are
+            unknown.
+        TypeError: an argument of another type.
 
     Example:
         >>> search(engine, "throws", "moment.1.major").to_pandas()
@@ -399,5 +400,5 @@ def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
 
 
 def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:
-    """Numbers of numpy as Python's, whose texts are digits."""
+    """Return numpy's numbers as Python's, which print as plain digits."""
     return {name: float(v) if hasattr(v, "dtype") else v for name, v in figures.items()}

@@ -33,7 +33,7 @@ _EQUAL = 1e-9  # relative difference of objectives that are equal
 
 
 def columns(result: Search) -> Columns:
-    """An arrangement a row: angles as numbers, throws and firing orders with hyphens between."""
+    """Return an arrangement a row: angles as numbers, throws and firing orders with hyphens."""
     first = result.results[0]
     found: dict[str, Column] = {}
     for key, value in first.design.items():
@@ -77,7 +77,7 @@ def sheet(result: Search, _system: System) -> Sheet:
 
 
 def _title(result: Search) -> str:
-    """Return what the rows are: the best, or all equally good."""
+    """Return the title of the rows: the best, or all equally good."""
     costs = [one.objective for one in result.results]
     equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
     word = "No best" if result.constant else "Equally good" if equal else "Best"
@@ -85,7 +85,7 @@ def _title(result: Search) -> str:
 
 
 def _in_words(over: str) -> str:
-    """`bank_angle` is a bank angle; the dotted name of a number stays as one types it."""
+    """Return a key in words: `bank_angle` is a bank angle; dotted names stay as they are."""
     return over if "." in over else over.replace("_", " ")
 
 
@@ -119,13 +119,13 @@ def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[
 
 
 def _is_sum(result: Search) -> bool:
-    """Whether the objective is more than one of the figures."""
+    """Return whether the objective is more than one of the figures."""
     weights = list(result.objective.weights.values())
     return weights != [1.0]
 
 
 def _setting(value: float | list[float]) -> str:
-    """A number, or several with hyphens between them."""
+    """Return a number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
 
 
@@ -144,10 +144,10 @@ def search(
         list[str],
         optional(
             "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
-            "What to arrange: the file's throw angles along the crank (or those of its firing "
-            "order), the firing order, the angle of the vee, or of its split pins; or any number "
-            "of the file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles "
-            "are searched together.",
+            "Variables: the sequence of the file's throw angles (or of those of its firing order), "
+            "the firing order, the angle of the vee, or of its split pins; or any number of the "
+            "file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles are "
+            "searched together.",
             "--over",
         ),
     ],
@@ -155,8 +155,8 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be small, such as moment.1.major=1,force.2.major=0.5 (different units "
-            "need weights); any quantity that sweep has, such as shaft.flywheel.torque.",
+            "Minimize this sum, such as moment.1.major=1,force.2.major=0.5 (different units need "
+            "weights), of any quantities of sweep, such as shaft.flywheel.torque.",
             "--minimise",
             "--minimize",
         ),
@@ -165,7 +165,7 @@ def search(
         str | None,
         optional(
             "WHAT[=WEIGHT],...",
-            "What should be large, instead of --minimise.",
+            "Maximize this sum instead.",
             "--maximise",
             "--maximize",
         ),
@@ -174,14 +174,14 @@ def search(
         list[str] | None,
         optional(
             "WHAT<VALUE",
-            "What must stay below a value (N, N·m, Hz, Pa, or with its unit), such as "
+            "Upper limit of a quantity (N, N·m, Hz, Pa, or with its unit), such as "
             "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
             "--limit",
         ),
     ] = None,
     require: Annotated[
         str,
-        optional("even-firing", "even-firing: only what can fire at even intervals.", "--require"),
+        optional("even-firing", "even-firing: only arrangements with even intervals.", "--require"),
     ] = "",
     top: Annotated[
         int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
@@ -226,7 +226,7 @@ def search(
 
 
 def _doubt(doubts: Iterable[str], over: list[str], name: str) -> None:
-    """Warn of what is unlikely in the file, except of what is arranged or varies."""
+    """Warn of unlikely figures of the file, except those that are arranged or vary."""
 
     varied = [text.partition("=")[0] for text in over]
     warn_each((d for d in doubts if not any(one in d for one in varied)), name)

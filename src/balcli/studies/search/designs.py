@@ -55,11 +55,11 @@ class Found:
     """One arrangement.
 
     Attributes:
-        design: What is arranged, such as `throws`, `firing_order`, `bank_angle` or the dotted name
-            of a number, and its value.
+        design: Values by searched key, such as `throws`, `firing_order`, `bank_angle` or the dotted
+            name of a number.
         objective: Value of the objective.
         quantities: Value of each quantity by its name.
-        line: Another design of a line of equally good ones; itself or None where there is none.
+        line: Another design of a line of equally good ones; itself or None without such a line.
     """
 
     design: Annotated[Design, INLINE]
@@ -219,7 +219,7 @@ def parse_objective(
 
     Args:
         minimise: Weighted sum that should be small.
-        limits: What quantities must stay below.
+        limits: Upper limits of quantities.
         maximise: Weighted sum that should be large; exactly one of both is given.
         with_gas: Whether the engine has gas.
 
@@ -244,7 +244,7 @@ def parse_objective(
         name, less, bound = text.partition("<")
         if not less:
             raise BalcliError(
-                f'--limit "{text}": give a quantity and what it must stay below, such as '
+                f'--limit "{text}": give a quantity and its upper limit, such as '
                 '"moment.2.major<100"'
             )
         limited = _parse_sizes(name, with_gas)
@@ -315,7 +315,7 @@ class NumbersJudge:
         tell: Called with the number of candidates so far.
 
     Attributes:
-        alone: Whether each candidate takes a computation of its own.
+        alone: Whether candidates are computed one by one.
         refused: Error of the first candidate that makes no engine, with its numbers as `file`;
             None if all do.
     """
@@ -378,9 +378,7 @@ def _join(parts: Sequence[Merit]) -> Merit:
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
-    """Return by how much the cylinders reach top dead centre beside even intervals, at most, deg,
-    shape (candidates,).
-    """
+    """Return the largest deviation of top dead centers from even intervals, deg, (candidates,)."""
     c = engine.cylinders
     # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))

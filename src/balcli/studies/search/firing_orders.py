@@ -33,9 +33,9 @@ class Slots:
 
     Attributes:
         cells: the cylinders.
-        top: what the pin of each cylinder stands at when it is at top dead centre, less its lead
-        over its throw, deg, by number.
-        cycle: deg.
+        top: angle of each cylinder's pin at its top dead centre, less its lead over its throw, deg,
+        by number.
+        cycle: length of a cycle, deg.
         sense: -1 where the cylinders turn and the pins stand still.
     """
 
@@ -52,8 +52,8 @@ class Slots:
             )
 
     def find_cranks(self) -> list[tuple[float, ...]]:
-        """The angles of all throws, for every crank that allows an even firing order; cylinder 1's
-        throw at 0.
+        """Return the angles of all throws, for every crank that allows an even firing order;
+        cylinder 1's throw is at 0.
 
         Raises:
             BalcliError: more than MOST_EVEN_CRANKS.
@@ -72,8 +72,8 @@ class Slots:
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """All cranks with some throws at these angles, the free ones at every angle at which there
-        are slots left for all their cylinders.
+        """Yield all cranks with some throws at these angles, the free ones at every angle with
+        slots left for all their cylinders.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
@@ -88,7 +88,7 @@ class Slots:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
-        """All even firing orders of a crank that begin with cylinder 1."""
+        """Yield all even firing orders of a crank that begin with cylinder 1."""
         start = throws[next(c.throw for c in self.cells if c.number == 1)]
         slots = {c.number: self._find_slot(c, throws[c.throw] - start) for c in self.cells}
         if Counter(slots.values()) == Counter(self._slots):
@@ -97,8 +97,8 @@ class Slots:
     def _continue_order(
         self, order: tuple[int, ...], slots: Mapping[int, int]
     ) -> Iterator[tuple[int, ...]]:
-        """All firing orders that begin so; `slots` says where the crank stands when each cylinder
-        is at top dead centre.
+        """Yield all firing orders with this beginning; `slots` has the position of the crank when
+        each cylinder is at top dead centre.
         """
         if len(order) == len(self.cells):
             yield order
@@ -109,14 +109,14 @@ class Slots:
 
     @cached_property
     def _slots(self) -> list[int]:
-        """Where the crank stands at each firing, after cylinder 1's: half turns shared out among
-        all cylinders, modulo a turn; whole numbers, so that alike ones are equal.
+        """Position of the crank at each firing, after cylinder 1's: half turns divided by the
+        number of cylinders, modulo a turn; whole numbers, so that they can be compared.
         """
         half_turns = round(self.cycle / 180.0)
         return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
     def _find_slot(self, cell: Cell, throw: float) -> int:
-        """Where the crank stands when this cylinder is at the top; -1 if nothing fires there."""
+        """Return the position of the crank with this cylinder at the top; -1 without a firing."""
         grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
         nearest = round(ready / grain)
@@ -126,8 +126,8 @@ class Slots:
 
 
 def find_slots(model: EngineFile) -> tuple[Slots, Array]:
-    """The firings of a cycle, and the cranks with even firing orders, shape (cranks, throws), deg,
-    cylinder 1's throw at 0.
+    """Return the firings of a cycle, and the cranks with even firing orders, shape (cranks,
+    throws), deg, cylinder 1's throw at 0.
 
     Raises:
         BalcliError: cylinders with throws of their own; there is no even firing order.
@@ -153,7 +153,7 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
 
 
 def _tell_that_none_is_even(model: EngineFile) -> str:
-    """With the split of the pins by which the file's own order were even, if there is one."""
+    """Return the error, with a splay that would make the file's own order even, if any."""
     told = "crank.throws allow no even firing order, and only even ones are searched"
     splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"

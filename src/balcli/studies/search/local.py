@@ -40,7 +40,7 @@ class Box:
 
     @property
     def size(self) -> int:
-        """How many numbers there are."""
+        """Number of numbers."""
         return len(self.low)
 
     @property
@@ -72,15 +72,15 @@ class Box:
 
 @dataclass(frozen=True)
 class Effort:
-    """How much a search evaluates.
+    """Effort of a search.
 
     Attributes:
-        points: spread over the box.
-        starts: of local searches, at most.
-        exact: share of the box to which an optimum is found.
-        as_good: relative difference of costs that a rounder number may make.
-        same: share of the box: closer optima are one.
-        steps: points that are looked at between two optima.
+        points: Number of points spread over the box.
+        starts: Largest number of local searches.
+        exact: Accuracy of an optimum, as a share of the box.
+        as_good: Relative difference of costs that a rounder number may make.
+        same: Distance, as a share of the box, below which two optima are one.
+        steps: Number of points examined between two optima.
     """
 
     points: int
@@ -102,8 +102,8 @@ class LocalOptima(NamedTuple):
     Attributes:
         places: local optima that keep all limits, best first, shape (optima, numbers); each is the
             roundest point that is as good.
-        lines: for each, another end of a line of equally good points; itself where there is none,
-            shape (optima, numbers).
+        lines: for each, another end of a line of equally good points, or itself, shape (optima,
+            numbers).
         points, merits: the points that were spread over the box.
     """
 
@@ -208,7 +208,7 @@ def _divide(judge: Judge, middle: Array, step: Array, exact: Array) -> Array:
     """Return the minima in middle +- step by golden section, all at once, shape (minima, 1).
 
     The best point so far stays between the ends of its bracket, so that the search never leaves
-    what keeps the limits, however narrow it is.
+    the region within the limits, however narrow.
     """
     low, best, high = middle - step, middle, middle + step
     reached = judge(best)

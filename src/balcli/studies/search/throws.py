@@ -1,8 +1,8 @@
-"""Search over the throws of a crank: which of its angles stands where along it.
+"""Search over the throws of a crank: the sequence of its angles along the crank.
 
-Forces and moments are sums over the throws, tabulated by throw and angle. By branch and bound,
-a beginning of the crank is dropped when nothing that may follow can make its sum better than the
-best that are known.
+Forces and moments are sums over the throws, tabulated by throw and angle. Branch and bound drops
+the first throws of a crank when no sequence of the others can make their sum better than the best
+known ones.
 """
 
 from __future__ import annotations
@@ -151,8 +151,8 @@ class Contributions(NamedTuple):
 def tabulate_contributions(
     model: EngineFile, angles: Array, fixed: int, quantities: tuple[Quantity, ...]
 ) -> Contributions:
-    """Return what the quantities need; throw `fixed` (cylinder 1's) stands at 0, the others at any
-    of `angles` (deg).
+    """Return the contributions to the quantities, with throw `fixed` (cylinder 1's) at 0 and the
+    others at any of `angles` (deg).
     """
     throw_of = {c.number: c.throw for c in plan_cylinders(model).cells}
     count = 1 + max(throw_of.values())
@@ -188,7 +188,7 @@ def find_best_throws(
         model: Engine file with throws.
         objective: Sums over the cylinders.
         count: Most arrangements to return.
-        allowed: Which of some arrangements, shape (candidates, throws), may be; None: all.
+        allowed: Function that tells which arrangements (candidates, throws) are allowed; None: all.
         tell: Called with the share of all arrangements that has been decided; returns whether to
             stop with the best of those.
 
@@ -216,14 +216,14 @@ def find_best_throws(
 
 
 def _count_sequences(left: Iterable[int]) -> int:
-    """Return in how many ways angles can follow each other that are left so often."""
+    """Return the number of sequences of angles, each of which remains so often."""
     times = [*left]
     return math.factorial(sum(times)) // math.prod(map(math.factorial, times))
 
 
 @lru_cache(maxsize=4096)
 def _list_sequences(left: Left) -> NDArray[np.int8]:
-    """Return all sequences of angles that are left so often, shape (sequences, length)."""
+    """Return all sequences of angles, each of which remains so often, (sequences, length)."""
     if not sum(left):
         return np.empty((1, 0), np.int8)
     parts = [
@@ -233,7 +233,7 @@ def _list_sequences(left: Left) -> NDArray[np.int8]:
 
 
 def _take_one(left: Left) -> Iterator[tuple[int, Left]]:
-    """Yield every angle that is left, and what is left without it."""
+    """Yield every remaining angle, and the counts that remain without it."""
     for level, times in enumerate(left):
         if times:
             yield level, (*left[:level], times - 1, *left[level + 1 :])
@@ -245,7 +245,7 @@ class _BestSoFar:
     Attributes:
         rows: Angles of all throws, deg, shape (candidates, throws), best first.
         values: Their costs.
-        worst: What a cost must be below to belong to them.
+        worst: Cost above which a candidate is not one of them.
     """
 
     def __init__(self, count: int, rows: Array, values: Array) -> None:
@@ -260,9 +260,7 @@ class _BestSoFar:
 
 
 class _Tree:
-    """All arrangements of one set of angles, deg, ascending; the first is that of cylinder 1's
-    throw.
-    """
+    """All arrangements of one set of angles, deg, ascending; cylinder 1's throw has the first."""
 
     def __init__(
         self, model: EngineFile, objective: Objective, angles: Array, allowed: Allowed | None
@@ -287,7 +285,7 @@ class _Tree:
     def _grow(
         self, best: _BestSoFar, prefix: tuple[int, ...], left: Left, sums: Complex
     ) -> Iterator[int]:
-        """Try everything that begins so; `sums`: of the beginning, shape (keys, 2)."""
+        """Try all cranks with this beginning; `sums`: its vectors, shape (keys, 2)."""
         if self._find_bound(self._free[len(prefix) :], sums) >= best.worst:
             yield _count_sequences(left)
         elif sum(left) <= BLOCK:
@@ -300,7 +298,7 @@ class _Tree:
                 yield from self._grow(best, (*prefix, level), fewer, more)
 
     def _find_bound(self, to_come: list[int], sums: Complex) -> float:
-        """Return the least possible cost: what is to come may cancel or add its whole size."""
+        """Return the least possible cost: remaining throws may cancel or add their whole size."""
         reach = self._table.reach[:, to_come].sum(axis=1)[:, None]
         least, most = np.maximum(np.abs(sums) - reach, 0.0), np.abs(sums) + reach
 
@@ -324,8 +322,8 @@ class _Tree:
         return float(self._objective.add_up(partial(bound, ends=least)))
 
     def _sum_endings(self, left: Left) -> Complex:
-        """Return what all sequences of what is left add as the last of the free throws, shape
-        (keys, 2, sequences).
+        """Return the vectors of all sequences of the remaining angles as the last free throws,
+        shape (keys, 2, sequences).
         """
         rows = _list_sequences(left)
         columns = zip(self._free[len(self._free) - sum(left) :], rows.T, strict=True)
@@ -333,7 +331,7 @@ class _Tree:
         return sum((self._table.throws[:, :, t, levels] for t, levels in columns), nothing)
 
     def _try(self, best: _BestSoFar, prefix: tuple[int, ...], left: Left, sums: Complex) -> None:
-        """Keep what is good enough of all cranks that begin so and end with what is left."""
+        """Keep the best of all cranks with this beginning and the remaining angles."""
         whole = sums[..., None] + self._add_endings(left)
         quantities = choose_of_engine(self._objective.quantities)
         merit = self._objective.judge({q: self._table.read(q, whole) for q in quantities})
