@@ -11,7 +11,13 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
-from balcli.file.messages import find_table, import_lists, import_tables
+from balcli.file.messages import (
+    CHAPTER_LISTS,
+    DEVICES,
+    find_table,
+    import_table,
+    import_tables,
+)
 from balcli.file.model import EngineFile, Override
 from balcli.file.schema import describe_engine_file
 from balcli.file.table import FileTable, document_keys
@@ -34,9 +40,9 @@ def tables() -> str:
     ]
     named = {f"[{name}]": table for name, table in import_tables().items()}
     named["[cylinder.N]"] = Override
-    for heading, table in (
-        named | {f"[[{name}]]": table for name, table in import_lists().items()}
-    ).items():
+    named |= {f"[[{name}]]": table for name, table in DEVICES.items()}
+    named |= {f"[[{key}]]": import_table(key) for key in CHAPTER_LISTS}
+    for heading, table in named.items():
         parts.append(_part(f"`{heading}`", str(table.__doc__), table, definitions[table.__name__]))
         if table is not Override:
             parts += _describe_inner(heading, table, definitions)
