@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.cases import cases
+from support.cases import cases, slow
 from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, write
@@ -536,7 +536,9 @@ main()
 
 
 @unix
-@pytest.mark.parametrize("content", [b"\xff\xfe", b"backend: none\n", None], ids=["no text", "no backend", "pipe"])
+@pytest.mark.parametrize(
+    "content", [b"\xff\xfe", *slow(b"backend: none\n", None)], ids=["no text", "no backend", "pipe"]
+)
 def test_settings_of_matplotlib_in_the_working_folder_are_ignored(tmp_path, content):
     settings = tmp_path / "matplotlibrc"
     os.mkfifo(settings) if content is None else settings.write_bytes(content)

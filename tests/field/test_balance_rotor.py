@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from support.cases import cases
+from support.cases import cases, slow
 from support.rotors import head, names, polar, random_rotor, run, table, three_runs
 
 from balcli.core.unbalance import STEEL
@@ -235,7 +235,7 @@ def test_the_grade_judges_what_is_there_not_what_fits():
 GRADE = "grade = 6.3\nmass = 1\nspeed = 3000\nradius = [1, 1]\n"
 
 
-@pytest.mark.parametrize("case", ["as found", "corrected", "given", "weighted", "two speeds"])
+@pytest.mark.parametrize("case", ["as found", *slow("corrected", "given", "weighted", "two speeds")])
 def test_the_true_unbalance_lies_within_its_scatter_as_often_as_promised(case):
     """Planted unbalance, readings with errors of known size: 95 of 100 estimates."""
     speeds, sensors = (2, 2) if case == "two speeds" else (1, 3)

@@ -10,6 +10,7 @@ import re
 import tomllib
 
 import pytest
+from support.cases import slow
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
 from support.rotors import three_runs
@@ -223,7 +224,7 @@ def test_check(runs, tmp_path):
     )
 
 
-@pytest.mark.parametrize("form", ["svg", "png", "pdf"])
+@pytest.mark.parametrize("form", ["svg", *slow("png", "pdf")])
 def test_picture(runs, tmp_path, form):
     picture = tmp_path / f"polar.{form}"
     assert run_here("field", runs, "--plot", picture).status == 0

@@ -146,6 +146,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     assert told == "balcli: 'kvasnikov' is the source of kvasnikov-1, kvasnikov-2: name one\n"
 
 
+@pytest.mark.slow
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
     file = write(tmp_path / "i4.toml", GOOD)
     search = ("search", file, "--minimise", "force.2.major", "--over")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 import typer
+from support.cases import slow
 from support.commands import ask, run_here, run_in_terminal, run_python
 from support.paths import ENGINES
 
@@ -144,7 +145,7 @@ LONG = {
 }
 
 
-@pytest.mark.parametrize("command", LONG)
+@pytest.mark.parametrize("command", [*sorted({*LONG} - {"damper"}), *slow("damper")])
 def test_all_that_may_take_long_tells_how_far_it_is_to_the_end(
     command: str, monkeypatch: pytest.MonkeyPatch, tmp_path
 ) -> None:

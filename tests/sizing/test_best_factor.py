@@ -27,6 +27,7 @@ def measure(text: str, factor: float, what: str) -> float:
     return find_crank_loads(after).main_N if what == "main_bearing" else find_peak(find_curve(after, what)).value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "what"),
     [

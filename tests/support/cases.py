@@ -52,3 +52,8 @@ def _fill(value: Any, objects: dict[str, Any]) -> Any:
     for name, found in objects.items():
         value = value.replace(f"{{{name}}}", str(found))
     return value
+
+
+def slow(*arguments: object) -> list[object]:
+    """Values of a parameter that only the slow tests take."""
+    return [pytest.param(each, marks=pytest.mark.slow) for each in arguments]
