@@ -1,24 +1,26 @@
 """Records: a figure of a result is declared once, as an attribute of a record.
 
 A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
-records, and all that programs read derives from their attributes. The name of an attribute is its
-key in JSON and its path in CSV (`worst.speed_rpm`), the ending of the name is its unit, the
-annotation is its type, the line in `Attributes:` of the docstring is its description in the JSON
-Schema.
+records. JSON and its schema derive from their attributes; the CSV of a chapter lists the figures of
+its document, or has rows of its own, and a DataFrame has the rows of CSV unless a renderer makes
+columns (`show.result`). The name of an attribute is its key in JSON and its path in CSV
+(`worst.speed_rpm`), the ending of the name is its unit, the annotation is its type, the line in
+`Attributes:` of the docstring is its description in the JSON Schema.
 
     to_document(record)       the JSON object
-    list_figures(document)    one figure a number, for the lines of CSV
+    list_figures(document)    the numbers and words outside lists, for the lines of CSV
     describe_record(kind)     the JSON Schema
 
 Rules:
 
 * An attribute with the default None is optional: where it is None, its key is left out.
-* A number that is not finite becomes null; a negative zero becomes 0.
-* A complex number becomes a list of its real and imaginary part.
+* A real number that is not finite becomes null; a negative zero becomes 0.
+* A complex number, which has to be finite, becomes a list of its real and imaginary part; CSV
+  leaves lists out.
 * Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
   its value and its crank angle, `WrittenAs` a value as the record that a function makes of it,
-  `Axes(2)` is an array of two axes (no mark: one), `INLINE` puts the keys of a value among those
-  of the other attributes (of a dict, any keys), `HIDDEN` keeps an attribute for Python alone.
+  `Axes(2)` is an array of two axes (no mark: one), `INLINE` lifts the keys of a record, a dict or
+  a `Polar` into the parent object, `HIDDEN` keeps an attribute for Python alone.
 
 Example::
 
@@ -48,7 +50,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 Node = dict[str, Any]  # an object of JSON
 
-# Units by the ending of a name, longest first.
+# Units by the ending of a name; an ending stands before any shorter one that it contains.
 UNITS = {
     "Nms_per_rad": "N·m·s/rad",
     "Nm_per_rad": "N·m/rad",
@@ -61,7 +63,7 @@ UNITS = {
     "m3": "m³",
     **{unit: unit for unit in ("rpm", "deg", "mm", "Hz", "Pa", "kg", "N", "J", "W", "m")},
 }
-_IN_CSV = str.maketrans("·²³", " 23")
+_IN_CSV = str.maketrans("·²³", " 23")  # units in plain characters
 
 
 class Polar(NamedTuple):
@@ -98,7 +100,7 @@ class Reached(NamedTuple):
 
 class WrittenAs(NamedTuple):
     """Mark of a value that is written as the record, or list of records, that a function makes of
-    it; what this function returns, by its annotation, is described in the schema.
+    it; the schema describes the function's return type.
     """
 
     make: Callable[..., object]

@@ -1,7 +1,8 @@
 """Engine file -> engine: the page to read first.
 
-An engine is a crankshaft with throws, and cylinders in banks that share them. `build` makes it in
-stages, each a function of the stages before it (`engine.parts`):
+An engine is a crankshaft with throws, and cylinders in banks: the cylinders of one throw have a
+common crank pin, unless each has a throw or pin of its own. `build` makes it in stages, each a
+function of the stages before it. `engine.parts` makes a stage when it is first needed:
 
 1. plan: which cylinders there are, on which bank and throw (`plan_cylinders`),
 2. gears: piston and rod of each, from the keys that a file may use for them (`find_gears`),
@@ -11,10 +12,11 @@ stages, each a function of the stages before it (`engine.parts`):
 5. places: positions along the crank (`find_places`),
 6. cylinders: arrays of all these, one row a cylinder (`arrange_cylinders`).
 
-Between the stages stand the rules that an engine has to keep, in the groups of `RULES`: a rod lets
-its crank turn, every cylinder is at top dead centre when it fires, and so on. A rule names the keys
-of the file that it needs. Thus a file with some unreadable keys is checked by the same rules as far
-as it can be read (`engine.parse`), and the user sees all mistakes at once.
+An engine has to keep rules: a rod lets its crank turn, every cylinder is at top dead centre when it
+fires, and so on. The groups of `RULES` go from early stages to late ones; the first group with
+mistakes ends the search. A rule names the keys of the file that it needs. Thus a file with some
+unreadable keys is checked by the same rules as far as it can be read (`engine.parse`), and the user
+sees all mistakes at once.
 
 Variants take the same way: `varied` puts arrays in place of figures of the file, and every stage
 works on arrays as it does on numbers.
@@ -60,7 +62,8 @@ def build(
     Args:
         model: Engine file, each table of it checked.
         varied: Arrays, which broadcast against each other, in place of some figures, by dotted name
-            (`rod.ratio`, `crank.throws.2`). With given throws the firing order is then left out.
+            (`rod.ratio`, `crank.throws.2`). With given throws and without [gas], the firing order
+            does not count then.
         rank: Least number of trailing axes. A figure that does not vary along one has length 1
             there, and so has everything that is computed from it.
         gas: Gas of the engine, if it is known already.
@@ -106,16 +109,8 @@ def assemble(
     rank: int = 0,
     gas: EngineGas | None = None,
 ) -> Parts:
-    """Return the stages of an engine that keeps all rules; arguments and errors as for `build`.
-
-    Args:
-        model: Checked engine file.
-        varied: Values of keys that vary, by dotted names, in the units of the file.
-        rank: Number of trailing axes of the varied values.
-        gas: Gas of a variant that differs in nothing of it; None: the file's.
-
-    Raises:
-        InputError: The file has contradictions.
+    """Return the stages of an engine that keeps all rules. Arguments and errors are those of
+    `build`.
     """
     parts = Parts(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
@@ -162,7 +157,7 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 
 def _apply(rule: Rule, parts: Parts) -> Iterator[Problem]:
-    """Yield the mistakes that a rule finds, or those of a stage that it needs."""
+    """Yield the mistakes that a rule finds, or those of a stage that cannot be made for it."""
     try:
         yield from rule.check(parts)
     except InputError as error:
@@ -195,8 +190,8 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
 
 
 def _list_rods(parts: Parts) -> list[tuple[int, bool]]:
-    """Return cylinder numbers, and whether their rods are articulated; number 0 stands for what
-    holds for all, where the plan is not known.
+    """Return the cylinder of each rod, and whether the rod is articulated. Where the plan is not
+    known, 0 stands for the rod of all cylinders.
     """
     if not parts.readable >= {*_PLAN, "articulation"}:
         return [(0, False)]
@@ -229,7 +224,7 @@ def _weigh_rod(parts: Parts, place: RodPlace) -> RunningGear | None:
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
-    """Check that an uneven speed has half orders only with gas in four strokes, their cause."""
+    """Check half orders of the speed: they need gas and four strokes, their only cause."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
@@ -265,7 +260,9 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
 
 
 def check_samples(parts: Parts) -> Iterator[Problem]:
-    """Check that different mechanisms near their lock are few enough to compute within seconds."""
+    """Refuse engines with too many unequal mechanisms whose cranks can barely turn: they would take
+    too long.
+    """
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return
@@ -300,7 +297,7 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
         parts.gas = build_gas(parts)
 
 
-STANDSTILL = 1e-12  # share of the mean speed that is rounding
+STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 _BANKS = ("bank_angle", "banks", "radial", "rods", "numbering", "firing_order")
 _PLAN = frozenset(  # keys that decide which cylinders there are
     {"crank.throws", "crank.positions", *(f"layout.{key}" for key in _BANKS)}

@@ -1,5 +1,5 @@
-"""From the tables of an engine file to its parts, in six stages: plan, rods, pins, firing, places,
-cylinders.
+"""From the tables of an engine file to its parts, in stages: plan, gears, pins, firing angles,
+masses, places, cylinders.
 
 Each stage is a function of the stages before it. `Parts` runs a stage when it is first needed, and
 once: a file with mistakes has the stages that its readable tables allow, and a numbering on trial
