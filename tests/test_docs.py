@@ -5,6 +5,7 @@ command is described.
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
 import docs_examples as guide
@@ -14,6 +15,7 @@ import pytest
 from balcli.cli import COMMANDS
 
 README = guide.ROOT / "README.md"
+TOUR = guide.ROOT / "docs" / "tour.md"
 
 
 @pytest.mark.parametrize(
@@ -35,9 +37,9 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
     )
 
 
-def test_every_python_example_of_the_readme_shows_what_it_prints() -> None:
+def test_every_python_example_of_the_tour_shows_what_it_prints() -> None:
     """So that it is run above, like the commands."""
-    text = README.read_text(encoding="utf-8")
+    text = TOUR.read_text(encoding="utf-8")
     ran = ["\n".join(block.lines) for block in guide.blocks(text) if block.language == "python"]
     assert ran
     assert ran == [one.command for one in guide.shown(text) if one.python]
@@ -63,8 +65,41 @@ def test_nothing_shown_is_rounding(document: Path) -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_readme_describes_every_command(command: str) -> None:
-    assert re.search(rf"^\| `balcli {command}\b", README.read_text(encoding="utf-8"), re.MULTILINE)
+def test_tour_describes_every_command(command: str) -> None:
+    assert re.search(rf"^\| `balcli {command}\b", TOUR.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def test_readme_is_a_first_screen() -> None:
+    lines = README.read_text(encoding="utf-8").splitlines()
+    assert len(lines) <= 120
+    assert max(map(len, lines)) <= 160
+
+
+@pytest.mark.slow
+def test_commands_of_the_readme_table_run(tmp_path: Path) -> None:
+    table = re.findall(r"^\| .+", README.read_text(encoding="utf-8"), re.MULTILINE)
+    commands = [one for row in table for one in re.findall(r"`(balcli [a-z].+?)`", row)]
+    assert len(commands) > 12
+    folder = guide.project(tmp_path)
+    for example in folder.glob("engines/**/*.toml"):
+        shutil.copy(example, folder)
+    for command in commands:
+        guide.printed(guide.Shown(command, [], 0, 0), folder)
+
+
+@pytest.mark.slow
+def test_picture_of_the_readme_is_what_its_command_draws(tmp_path: Path) -> None:
+    """Compare the labels, since the rest depends on the version of matplotlib."""
+    text = README.read_text(encoding="utf-8")
+    picture = guide.ROOT / re.search(r"!\[.+\]\((docs/.+\.svg)\)", text)[1]
+    command = re.search(rf"`(balcli plot .+{picture.name})`", text)[1]
+    shutil.copy(guide.ROOT / "engines" / "i3.toml", tmp_path)
+    guide.printed(guide.Shown(command, [], 0, 0), tmp_path)
+    kept, drawn = picture.read_text("utf-8"), (tmp_path / picture.name).read_text("utf-8")
+    labels = re.findall(">([^<]+)</text>", kept)
+    assert len(labels) > 10
+    assert labels == re.findall(">([^<]+)</text>", drawn)
+    assert picture.stat().st_size < 60_000
 
 
 @pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)

@@ -37,6 +37,7 @@ def test_index_links_of_the_readme_lead_into_the_repository():
     readme = metadata["readme"]["text"]
     links = re.findall(r"\]\(([^)]+)\)", readme)
     assert "https://example.org/x/blob/v1.2/docs/theory.md" in links
+    assert "https://example.org/x/raw/v1.2/docs/i3_ladder.svg" in links
     assert not [link for link in links if not link.startswith(("https://", "#"))]
     assert metadata["urls"]["Issues"] == "https://example.org/x/issues"
     stay = "[a](#b) [c](https://example.org/d) [e](mailto:f@g)"

@@ -34,7 +34,11 @@ class ProjectAddresses(MetadataHookInterface):
 
 
 def link_absolutely(text: str, base: str) -> str:
-    """Markdown whose links to files of the repository begin with the address `base`; links within
-    the page and to elsewhere stay.
+    """Return the Markdown `text` with absolute links to files of the repository.
+
+    Links begin with the address `base`, those of pictures with its raw form, since the page of a
+    file is no picture. Links within the page and to other places stay.
     """
+    raw = base.replace("/blob/", "/raw/")
+    text = re.sub(r"(!\[[^\]]*\])\((?![a-z]+:)([^)\s]+)\)", rf"\1({raw}/\2)", text)
     return re.sub(r"\]\((?!#|[a-z]+:)([^)\s]+)\)", rf"]({base}/\1)", text)
