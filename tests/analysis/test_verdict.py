@@ -73,3 +73,10 @@ def test_small_is_what_is_asked_for():
     assert verdict(found, SI, scales, small=0.01) == (
         "Second order: force of 20 N along x; shafts at +2 and -2 cancel it.",
     )
+
+
+def test_a_couple_is_named_only_beside_a_balanced_moment():
+    """Whether the force was asked for or not."""
+    orders, half = np.array([1.0]), np.array([50 + 0j])
+    moment, couple = (Phasors.of(orders, half, half, np.zeros(1)) for _ in range(2))
+    assert "couple" not in verdict(Spectra(orders, moment=moment, couple=couple), SI)[0]

@@ -15,7 +15,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
-from ..forces.kinds import ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra
 from ..limits import SMALL
 from ..show.engine_facts import tell_pivot
@@ -343,9 +343,11 @@ def verdict(
 
     def judge(k: int, order: float) -> _Order:
         senses = {vector.kind.name: vector.find_large(k, small) for vector in vectors}
-        due = {sense for found in senses.values() for sense in found} if steady else set()
-        couple, moment_balanced = 0.0, all(v.phasors.balanced[k] for v in vectors[1:])
-        if spectra.couple and order <= 2 and moment_balanced:
+        whole = steady and order % 1 == 0  # no device turns at half orders
+        due = {sense for found in senses.values() for sense in found} if whole else set()
+        moments = (vector for vector in vectors if vector.kind is MOMENT)
+        couple, balanced = 0.0, all(vector.phasors.balanced[k] for vector in moments)
+        if spectra.couple and order <= 2 and balanced:
             couple = float(spectra.couple.major[k])
         told = couple > NEGLIGIBLE * of_one.get("roll", 0.0)
         return _Order(

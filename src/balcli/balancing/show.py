@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
@@ -24,7 +24,7 @@ from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
-from ..forces.crankshaft import find_crank_loads
+from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
@@ -73,6 +73,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     """Why and what, the workshop's figures, and both analyses side by side."""
     remedy, engine = result.remedy, result.before.engine
     known = result.before.moments_known
+    loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
@@ -98,7 +99,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         _tell_left(result, system) if remedy.step else "",
         _tell_bearings(result, system),
         tell_best_factors(result, system),
-        _tell_negligible(result),
+        _tell_negligible(result, loads),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
     )
@@ -107,7 +108,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     if not known:
         parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
-    parts += [_orders(result, system), _peaks(result, system), *_crank_loads(result, system)]
+    parts += [_orders(result, system), _peaks(result, system), *_crank_loads(loads, system)]
     fitted = f"{remedy.step} ({remedy.scheme})" if remedy.step else f"{remedy.scheme}{order}"
     return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
 
@@ -146,14 +147,13 @@ def _tell_bearings(result: Balance, system: System) -> str:
     )
 
 
-def _tell_negligible(result: Balance) -> str:
+def _tell_negligible(result: Balance, loads: Sequence[CrankLoads | None]) -> str:
     """Return a sentence where devices balance an order that is small next to one cylinder anyhow; a
     balance factor is of the masses at the pins, whatever they leave together.
     """
     remedy, before = result.remedy, result.before
     if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
         return ""
-    loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     main = [each.main_N or 0.0 for each in loads if each is not None]
     if main and not is_small(main[0] - main[-1], SMALL * before.scales.force):
         return ""  # the bearings are worth it
@@ -253,11 +253,9 @@ def _peaks(result: Balance, system: System) -> Grid:
     )
 
 
-def _crank_loads(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield the largest loads within the crankshaft, if they are known."""
-    states = [find_crank_loads(one.engine) for one in (result.before, result.after)]
-    one, other = states
-    if one is None or other is None:
+def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
+    """Yield the largest loads within the crankshaft before and after, if they are known."""
+    if None in states:
         return
     rows = []
     for name, kind, key, place in (
