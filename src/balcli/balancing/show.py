@@ -52,7 +52,6 @@ from ..show.units import SI, ShownUnit, System
 from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.residual import is_small
-from ..sizing.schemes import FIT
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
 from .scheme_show import (
@@ -77,7 +76,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
-        usual = remedy.scheme not in ("step", FIT)
+        usual = remedy.scheme == "auto"  # what another one fits is no step
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
