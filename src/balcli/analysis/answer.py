@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Literal, TypedDict
 
 from ..core.cylinders import find_travel
-from ..core.peaks import Peak, find_peak
+from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine
@@ -30,6 +30,7 @@ from ..show.figures import (
     EngineState,
     Peaks,
     describe_state,
+    find_peaks,
     list_orders,
     measure_engine,
 )
@@ -201,19 +202,24 @@ def analyze(
     for one in beside:
         check_engine("analyze", one)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
-    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
-    computed = _choose_computed(engine, asked, whole=bool(peaked))
-    visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
-    visible = visible.select_orders(
-        choose_orders(visible, list_gas_orders(engine)) if asked is None else asked
-    )
+    of_gas = () if engine.gas is None else list_gas_orders(engine)
+    # near its lock an engine has tens of thousands: peaks need all of them, tables a few
+    due = DEFAULT_ORDERS if asked is None else asked
+    every = merge_orders(find_relevant_orders(engine), of_gas, due)
+    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = compute_spectra(engine, few, shown)
+    if asked is None:
+        visible = visible.select_orders(choose_orders(visible, of_gas))
+    peak = None
+    if "peak" in wanted:
+        peak = find_peaks(compute_spectra(engine, every, [kind.name for kind in VECTORS]))
     return Analysis(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas"),
-        peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])) if peaked else None,
+        peak=peak,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         **_compute_chapters(engine, asked, wanted, guide_height_m, small),
         why=_explain(engine, visible.orders, shown) if reasons else None,
@@ -251,30 +257,6 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
             f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
         )
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
-
-
-def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Return orders to compute: those asked for; all if none was or the whole curve is needed."""
-    if asked is not None and not whole:
-        return asked
-    due = DEFAULT_ORDERS if asked is None else asked
-    of_gas = () if engine.gas is None else list_gas_orders(engine)
-    return merge_orders(find_relevant_orders(engine), of_gas, due)
-
-
-def _compute_visible_and_whole(
-    engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
-) -> tuple[Spectra, Spectra]:
-    """Return the spectra that may be shown, and those from which peaks are found. An engine near
-    its lock has tens of thousands of orders. Its peaks need all of them; its gas is computed only
-    for the few that may be shown.
-    """
-    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
-        everything = compute_spectra(engine, computed, shown | peaked)
-        return everything.only(shown), everything
-    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = compute_spectra(engine, few, shown)
-    return visible, compute_spectra(engine, computed, peaked) if peaked else visible
 
 
 def _analyze_cylinders(

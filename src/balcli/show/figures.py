@@ -9,7 +9,7 @@ from typing import Annotated, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.peaks import Peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.engine import Engine, SilentCylinders
@@ -212,6 +212,11 @@ class FigureRow(NamedTuple):
     figure: str
     value: float | bool | str | None
     unit: str
+
+
+def find_peaks(spectra: Spectra) -> Peaks:
+    """Return the peaks of force and moment, of all orders that they have."""
+    return Peaks(find_peak(spectra["force"]), find_peak(spectra["moment"]))
 
 
 def measure_engine(engine: Engine) -> EngineSize:
