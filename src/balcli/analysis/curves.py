@@ -327,9 +327,8 @@ def columns(curves: Curves) -> Columns:
 
 def rows(curves: Curves) -> Rows:
     """Return CSV: a line a crank angle, a column a quantity that is known."""
-    known = curves.known()
-    columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
-    return Rows(("crank_deg", *known), zip(*columns, strict=True))
+    found = columns(curves).values
+    return Rows(tuple(found), np.column_stack([*found.values()]).tolist())
 
 
 RENDERER = Columnar(columns=columns)

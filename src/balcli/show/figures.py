@@ -385,9 +385,8 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
         peak: Largest value (SI) and its crank angle.
         unit: Unit of the value.
     """
-    found = Reached("peak", "peak_deg").split(peak)
-    yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
-    yield FigureRow(0, quantity, None, "peak_deg", found["peak_deg"], "deg")
+    for figure in _flattened(Reached("peak", "peak_deg").split(peak), unit):
+        yield FigureRow(0, quantity, None, *figure)
 
 
 def order_rows(
