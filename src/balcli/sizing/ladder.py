@@ -159,13 +159,11 @@ class Ladder:
     def _explain(self, out: LeftOut) -> str:
         """Return the effect of an omitted step, and the option that lists it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
-        moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
-        does = f"it would take {out.force_N:.4g} N{moment}"
+        does, hint = "take", f"; --small {math.floor(share)}% lists it"
         if fall is not None:
-            change = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load"
-            does = f"it would {change} by {abs(fall):.4g} N"
-        hint = f"; --small {math.floor(share)}% lists it" if fall is None or fall > 0 else ""
-        return f"{does}, {abs(share):.2g} % of one cylinder{hint}"
+            does = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load by"
+            hint = hint if fall > 0 else ""
+        return f"it would {does} {abs(share):.2g} % of one cylinder's first order{hint}"
 
     def measure(self, out: LeftOut) -> float:
         """Return the size of the part that a step would cancel, or by how much it would lower a
