@@ -30,17 +30,6 @@ def test_equal_strokes():
     assert len(found.reasons) == 1
 
 
-@pytest.mark.parametrize("goal", ["dead-centres", "strokes"])
-def test_pins_that_are_even_stay(goal):
-    found = even_knuckles(even_knuckles(enginefile.parse(RADIAL), goal).model, goal)
-    assert found.reasons[0].startswith("knuckle pins stay where they are: ")
-
-
-def test_mirror_images_get_mirrored_angles():
-    angles = np.array(even_knuckles(enginefile.parse(RADIAL)).angles_deg)
-    assert np.allclose(angles[1:] + angles[:0:-1], 360, atol=1e-9)
-
-
 def test_two_rows_are_set_by_the_first():
     text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
     found = even_knuckles(enginefile.parse(text))
@@ -119,9 +108,8 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     for state, path in (("before", file), ("after", out)):
         told = ask_json("analyze", path, "--orders", "1-4")
         rolls = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
-        assert [rolls[entry["order"]] for entry in told["orders"]] == [
-            entry["roll_total_Nm"] for entry in told["orders"]
-        ]
+        for entry in told["orders"]:
+            assert rolls[entry["order"]] == pytest.approx(entry["roll_total_Nm"], rel=1e-12)
     table = run(file).out
     assert "with gas," in table
     assert "stays as it is" not in table

@@ -228,18 +228,6 @@ def test_an_engine_of_rotating_masses_alone_has_a_ladder(command, tmp_path):
     assert "What balances it" in run_here(command, path).out
 
 
-def test_a_fall_by_rounding_lists_no_step():
-    """Engines with weights at every throw already: nothing falls, whatever is called small."""
-    engine = build_text(ROTATING)
-    fitted = fit_devices(engine, find_ladder(engine).fit())
-    assert [step.step for step in find_ladder(fitted, small=0.0).steps] == [AS_DRAWN]
-
-
-def test_what_a_step_leaves_is_told_whatever_orders_are_shown():
-    told = ask("balance", ROOT / "engines" / "i3.toml", "--orders", "4")
-    assert "Leaves order 2: moment 282.9 N·m." in told
-
-
 @pytest.mark.parametrize(
     ("step", "right"), [(1, "counterweights"), ("1", "counterweights"), ("shaft at -1", "shaft at -1")]
 )
@@ -275,10 +263,3 @@ def test_the_command_that_fits_the_same_is_named():
     told = ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder", "--small", "2%")
     assert "balcli balance --small 2% fits step" in told
     assert "balcli balance" not in ask("balance", ROOT / "engines" / "i3.toml", "--step", "1").partition("What is")[0]
-
-
-def test_a_scheme_is_not_told_to_take_what_is_small():
-    """With --small 50% most is: then no other scheme is named for it."""
-    told = refusal("balance", ROOT / "engines" / "i5.toml", "--scheme", "couple-shaft", "--small", "50%")
-    assert "small compared with one cylinder's" in told
-    assert " takes the " not in told

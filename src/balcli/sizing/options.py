@@ -148,7 +148,7 @@ def _are(values: object, kind: type) -> bool:
         return False
     try:
         sizes = [abs(complex(cast(Any, one))) for one in values if isinstance(one, kind)]
-        return len(sizes) == len(values) and max(sizes) < math.inf
+        return len(sizes) == len(values) and all(size < math.inf for size in sizes)
     except OverflowError:
         return False
 
