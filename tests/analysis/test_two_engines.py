@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.cases import cases
-from support.commands import ask_json, refusal
+from support.commands import refusal
 from support.engines import build_text
 from support.paths import write
 
@@ -231,21 +231,6 @@ def file(tmp_path):
         'name = "single"\n[crank]\nstroke = 90\nthrow_mass = 0.8\n' + PARTS.format(operation=""),
     )
     return str(path)
-
-
-def test_the_json_says_how_the_second_engine_stands(file):
-    document = ask_json("sum", file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2")
-    assert document["format"] == "balcli.sum/1"
-    assert document["arrangement"] == {
-        "phase_deg": 180.0,
-        "at_mm": [0.0, 0.0, 100.0],
-        "turn_deg": 0.0,
-        "reverse": False,
-        "load": "first",
-    }
-    assert [entry["order"] for entry in document["orders"]] == [1, 2]
-    assert document["orders"][0]["force_N"]["balanced"]
-    assert not document["orders"][0]["moment_Nm"]["balanced"]
 
 
 @cases("analysis/two_engines", "arrangements_that_cannot_be_are_refused")

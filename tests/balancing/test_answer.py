@@ -140,16 +140,6 @@ def test_a_rotary_engine_has_no_factor(tmp_path):
     assert "the cylinders turn and the crank pins stand still" in refusal("balance", file, "--scheme", "factor")
 
 
-def test_weights_of_a_rotary_engine_stand_on_its_cylinders(tmp_path, file):
-    path = write(
-        tmp_path / "rotary.toml",
-        SINGLE.replace("strokes = 4", "radial = 5\nrotary = true") + "[cylinder.2]\npiston_mass = 0.6\n",
-    )
-    told = "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis"
-    assert told in " ".join(run(path).out.split())
-    assert "Counterweights stand" not in run(file).out
-
-
 # ------------------------------------------------------------------ the workshop
 def engine():
     return build_text(SINGLE)
@@ -169,14 +159,6 @@ def test_practical_figures_follow_from_their_definitions():
     assert STEEL * math.pi * 0.05**2 / 2 * weight.disc_thickness_mm / 1e3 * 4 * 0.05 / (3 * math.pi) == pytest.approx(
         weight.unbalance_kg_m
     )
-
-
-def test_given_thickness_sets_the_radius():
-    remedy = balance(engine()).remedy
-    for p in find_practical(engine(), remedy, Tools(thickness=0.03)):
-        assert p.disc_thickness_mm == 30
-        assert STEEL * 0.03 * 2 / 3 * (p.disc_radius_mm / 1e3) ** 3 == pytest.approx(p.unbalance_kg_m)
-    assert find_practical(engine(), Remedy("auto"), Tools()) == ()
 
 
 def test_drill_depth_removes_the_unbalance():

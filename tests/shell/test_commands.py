@@ -8,7 +8,6 @@ import csv
 import json
 import re
 import sys
-from contextlib import nullcontext
 from functools import partial
 from types import ModuleType
 
@@ -38,17 +37,12 @@ def four(tmp_path):
     return write(tmp_path / "four.toml", GOOD)
 
 
-# ------------------------------------------------------------------ pictures and pages
-
-
-@pytest.mark.parametrize("what", ["bank", "modes", "pressure"])
-@pytest.mark.parametrize("option", ["--scheme=factor", "--factor=51%", "--planes=ends"])
-def test_plot_refuses_a_scheme_where_nothing_is_compared(balcli, tmp_path, what, option):
-    picture = tmp_path / "x.svg"
-    found = balcli("plot", ENGINES / "i6_diesel.toml", picture, "--what", what, option)
-    told = f"--what {what} shows the engine as it is: leave --scheme and its options out"
-    assert found == (2, "", f"balcli: {told}\n")
-    assert not picture.exists()
+def test_plot_refuses_a_scheme_where_nothing_is_compared(tmp_path):
+    for what in ("bank", "modes", "pressure"):
+        for option in ("--scheme=factor", "--factor=51%", "--planes=ends"):
+            told = refusal("plot", ENGINES / "i6_diesel.toml", tmp_path / "x.svg", "--what", what, option)
+            assert told == f"--what {what} shows the engine as it is: leave --scheme and its options out"
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("command", ["plot", "report", "mounts"])
@@ -102,21 +96,6 @@ def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pair
     assert found.rows == (Row(task="task", method="way", seconds=0.008, error=0.5),)  # of one variant of a thousand
     assert [ratio.value for ratio in found.ratios] == pytest.approx([5, 2])
     assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
-
-
-def test_the_quickest_of_several_runs_counts(monkeypatch):
-    class Timer:
-        def __init__(self, run):
-            pass
-
-        def timeit(self, number):
-            return 0.004
-
-        def repeat(self, times, number):
-            return [number * seconds for seconds in (0.007, 0.003, 0.9, 0.005, 0.004)][:times]
-
-    monkeypatch.setattr(bench.timeit, "Timer", Timer)
-    assert bench.time_run(lambda: None) == pytest.approx(0.003)
 
 
 # ------------------------------------------------------------------ sweeps: cluster, files,
@@ -186,22 +165,6 @@ def test_workers_that_are_all_killed_are_a_message(monkeypatch, four):
     assert [(part.variants, again) for part, again in client.given] == [(1, True), (1, True)]
     values = [part.parameters[0].values.tolist() for part, _ in client.given]
     assert values == [[80], [90]]  # a task brings what it computes, and no more
-
-
-def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
-    from balcli.studies import sweep_write as cluster
-
-    monkeypatch.setitem(
-        sys.modules,
-        "distributed",
-        dask(
-            LocalCluster=lambda **options: nullcontext("own"),
-            Client=lambda at, **options: nullcontext(f"client of {at}"),
-        ),
-    )
-    for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
-        with cluster.connect_cluster(address) as share:
-            assert share.args == (found,)
 
 
 def test_no_pyarrow_no_parquet(balcli, four, tmp_path, monkeypatch):

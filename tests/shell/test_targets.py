@@ -178,16 +178,6 @@ def test_new_leaves_even_a_dangling_link_alone(balcli, good):
     assert good.read_text() == GOOD
 
 
-def test_a_folder_for_records_that_cannot_be_made(balcli, good):
-    Path("expected").write_text("a file")
-    assert balcli("check", good, "--update") == (
-        2,
-        "0 engines recorded\n",
-        "balcli: expected: cannot be made (File exists)\n",
-    )
-    assert Path("expected").read_text() == "a file"
-
-
 # ------------------------------------------------------------------ no room, no right
 def _partly(self: Path, data: bytes) -> int:
     with self.open("wb") as stream:

@@ -133,18 +133,6 @@ def test_curves_have_no_moments(balcli, twin):
     assert "moment_x_Nm" in found["curves"]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
-def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
-    picture = tmp_path / "picture.svg"
-    assert balcli("plot", twin, "--what", what, "-o", picture)[::2] == (0, warning(twin))
-    text = picture.read_text(encoding="utf-8")
-    drawn = len(re.findall("not known:", text))
-    assert drawn == {"factor": 0}.get(what, 1)
-    if what == "factor":
-        assert "moment (dashed grey)" not in text
-
-
 def test_rows_in_python_have_no_figure_of_a_moment(twin):
     """Nor a direction: the axis of a vector that is not known was 90 deg."""
     row, *_ = analyze(load(twin)).rows()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.cases import cases
-from support.commands import refusal, run_here
+from support.commands import run_here
 from support.engines import build_text, changed
 from support.paths import write
 from support.remedies import SMALL, figures, size_scheme, write_engine
@@ -157,21 +157,6 @@ def test_what_is_left_is_the_engine_without_what_the_factor_takes(name, weights,
 def find_orders(curve: np.ndarray) -> np.ndarray:
     """Its vectors of orders -8 to 8, without the rounding of higher ones."""
     return np.roll(np.fft.fft(curve, norm="forward"), 8)[:17]
-
-
-def test_two_planes_by_the_lever():
-    """Ford 302: 2972.1 g on every throw, at 38.1 mm; by hand to planes at -200 and 250 mm."""
-    throws = zip((-166.875, -55.625, 55.625, 166.875), (0, 90, 270, 180), strict=True)
-    one = (1872.1 + 1100) * 38.1
-    front = rear = 0j
-    for z, angle in throws:
-        pin = -one * np.exp(1j * math.radians(angle))
-        front += pin * (250 - z) / 450
-        rear += pin * (z + 200) / 450
-    first, second = fit(FORD, 0.51, planes=(-0.2, 0.25)).counterweights
-    for found, wanted in ((first, front), (second, rear)):
-        assert found.unbalance == pytest.approx(abs(wanted), rel=1e-12)
-        assert found.angle == pytest.approx(math.degrees(np.angle(wanted)), abs=1e-9)
 
 
 # ------------------------------------------------------------------ what is there already
@@ -405,17 +390,6 @@ Permitted by ISO 21940-11, G 16, 46 kg, 6000 rpm.
     assert [line for line in wanted if line not in lines] == []
     assert max(map(len, page.splitlines())) == 80
     assert page == run_here("balance", ford, *asked, "--units", "imperial").out
-
-
-def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
-    page = run_here("balance", ford, "--format", "card").out
-    assert "Balance factor    50 % of" in page
-    run_here("balance", ford, "--format", "card", "-o", tmp_path / "card.txt")
-    assert (tmp_path / "card.txt").read_text(encoding="utf-8") == page
-    assert refusal("balance", ford, "--format", "card", "--scheme", "auto") == (
-        "--format card: scheme auto has no bobweight card; leave --scheme out, or choose --scheme factor"
-    )
-    assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
 
 
 def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():

@@ -83,14 +83,6 @@ def test_effect_is_what_the_analysis_says(slot):
     assert change == pytest.approx(find_effect(slot.make_device(u), parts, reference), abs=1e-14)
 
 
-def test_more_slots_than_needed_share_the_work():
-    """The least sum of squares: at every throw of a row, equal weights for a force."""
-    fit = size_unbalances(
-        [Slot("counterweight", 1, 1, z) for z in (-0.1, 0.0, 0.1)], residual(forward=3, moment=0), (FORCE, MOMENT)
-    )
-    assert fit.unbalances == pytest.approx([-1, -1, -1])
-
-
 @pytest.mark.parametrize("force", [3.7, -3.7, 0.3j, -0.3j])
 def test_what_is_not_needed_is_exactly_nothing(force):
     """A force in one of the two planes; its part that is 0 stays 0, so that angles are plain."""

@@ -211,21 +211,6 @@ def test_small_lists_a_step_that_is_left_out(tmp_path):
 
 
 # ------------------------------------------------------------------ what people ask for otherwise
-ROTATING = (
-    write_engine([0, 100, 200, 300], [0, 180, 180, 0])
-    .replace("mass = 0.6", "mass = 0")
-    .replace("mass = 0.5", "mass = 0")
-)
-
-
-@pytest.mark.parametrize("command", ["analyze", "balance"])
-def test_an_engine_of_rotating_masses_alone_has_a_ladder(command, tmp_path):
-    """One cylinder makes nothing beside which a part is small."""
-    path = write(tmp_path / "rotating.toml", ROTATING)
-    found = json.loads(run_here(command, path, "-f", "json").out)["ladder"]
-    assert found["scale"] == {"force_N": 0.0, "moment_Nm": 0.0}
-    assert [step["step"] for step in found["steps"]] == [AS_DRAWN, WEIGHTS_AT_THROWS]
-    assert "What balances it" in run_here(command, path).out
 
 
 @pytest.mark.parametrize(
@@ -263,3 +248,20 @@ def test_the_command_that_fits_the_same_is_named():
     told = ask("analyze", ROOT / "engines" / "i3.toml", "--only", "ladder", "--small", "2%")
     assert "balcli balance --small 2% fits step" in told
     assert "balcli balance" not in ask("balance", ROOT / "engines" / "i3.toml", "--step", "1").partition("What is")[0]
+
+
+ROTATING = (
+    write_engine([0, 100, 200, 300], [0, 180, 180, 0])
+    .replace("mass = 0.6", "mass = 0")
+    .replace("mass = 0.5", "mass = 0")
+)
+
+
+@pytest.mark.parametrize("command", ["analyze", "balance"])
+def test_an_engine_of_rotating_masses_alone_has_a_ladder(command, tmp_path):
+    """One cylinder makes nothing beside which a part is small."""
+    path = write(tmp_path / "rotating.toml", ROTATING)
+    found = json.loads(run_here(command, path, "-f", "json").out)["ladder"]
+    assert found["scale"] == {"force_N": 0.0, "moment_Nm": 0.0}
+    assert [step["step"] for step in found["steps"]] == [AS_DRAWN, WEIGHTS_AT_THROWS]
+    assert "What balances it" in run_here(command, path).out

@@ -58,14 +58,3 @@ def test_minimax_in_several_planes_takes_the_moment_too():
         r"choose two planes with some distance between them$",
     ):
         size_scheme(engine, "minimax", planes=(0.1,))
-
-
-def test_minimax_without_a_force():
-    """Nothing can be gained; a moment turning with the crank is still taken if planes are named."""
-    engine = build_text(SMALL["three"])
-    remedy = size(engine, "minimax")
-    assert not remedy.devices
-    assert "no counterweight makes the largest force smaller than it is" in remedy.note
-    in_planes = size_scheme(engine, "minimax", planes="ends")
-    assert [d.position for d in in_planes.counterweights] == [-100, 100]
-    assert (figures(in_planes)["improvement"], figures(in_planes)["relative error bound"]) == (0, 0)

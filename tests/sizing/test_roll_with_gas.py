@@ -37,8 +37,7 @@ harmonics = "tangential.csv"
 @pytest.fixture
 def four(tmp_path):
     (tmp_path / "tangential.csv").write_text(f"order,cos,sin\n0,2,0\n0.5,1,3\n2,{COS},{SIN}\n")
-    path = write(tmp_path / "four.toml", FILE)
-    return str(path)
+    return str(write(tmp_path / "four.toml", FILE))
 
 
 def find_second_order():

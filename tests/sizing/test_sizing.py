@@ -7,15 +7,14 @@ import math
 
 import numpy as np
 import pytest
-from support.cases import cases
-from support.engines import build_text, engine_text
+from support.engines import build_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.sizing import size, size_auto
+from balcli.sizing.sizing import size
 
 # ------------------------------------------------------------------ all schemes
 UNEVEN = SMALL["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"  # its two vectors act at different places
@@ -59,23 +58,6 @@ def test_no_roll_about_the_crank_whatever_the_point_of_reference():
     plain, moved = (build_text(SMALL["four"] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
     here, there = (devices(size(e, "two-shaft", options)) for e in (plain, moved))
     assert there == [pytest.approx(device, rel=1e-10, abs=1e-9) for device in here]
-
-
-def test_places_along_the_crank_are_figures_that_people_can_read():
-    """Where two forces act together: `(m1 z1 + m2 z2)/(m1 + m2)`, in mm."""
-    crank = "stroke = 100\nthrows = [0, 0]\npositions = [{}, {}]"
-    for first, second in ((-50, 50), (17.3, 94.1), (-211.7, 3.3), (0, 100)):
-        for share in (1, 3, 9):
-            crank_text = crank.format(first, second)
-            remedy = size_auto(build_text(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n"))
-            assert {d.position for d in remedy.shafts} == {round((first + share * second) / (1 + share), 9)}
-            assert [d.position for d in remedy.counterweights] == [first, second]  # at both throws
-
-
-@cases("sizing/sizing", "a_remedy_says_its_scheme_and_its_order")
-def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
-    remedy = size(build_text((SMALL | {"centred": write_engine(0)})[name]), scheme)
-    assert (remedy.scheme, remedy.order) == (scheme, order)
 
 
 OPTIONS = {
@@ -195,12 +177,6 @@ def test_no_roll_by_the_nearest_places(order, frame):
     for step in (1e-3, 1e-3j, -1e-3, -1e-3j):
         other = size_scheme(at_crank, "two-shaft", order=order, roll="zero", at=(first + step,))
         assert sum(abs(complex(*s.at)) ** 2 for s in other.shafts) > near
-
-
-def test_four_shafts_are_for_the_orders_that_are_there():
-    assert {*size(build_text(SMALL["four"]), "four-shaft").details} == {"order_2"}
-    assert {s.ratio for s in size(star(3), "four-shaft").shafts} == {1, -2}
-    assert "there is no free force of orders 1 and 2" in size(build_text(SMALL["three"]), "four-shaft").note
 
 
 @pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
