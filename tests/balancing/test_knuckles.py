@@ -37,21 +37,6 @@ def test_two_rows_are_set_by_the_first():
     assert np.abs(found.after.top_deg).max() < 1e-9
 
 
-@pytest.mark.parametrize(
-    ("goal", "own", "uneven"),
-    [
-        ("dead-centres", "rod_length = 170", False),  # the pin is on the axis, however long the rod
-        ("strokes", "rod_length = 170", True),
-        ("dead-centres", "piston_offset = 4", True),
-    ],
-)
-def test_a_cylinder_of_the_second_row_that_is_not_as_the_first_is_named(goal, own, uneven):
-    text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
-    found = even_knuckles(enginefile.parse(f"{text}\n[cylinder.10]\n{own}\n"), goal)
-    told = "not cylinder 10: all knuckle pins of a bank get the angle that suits its first throw"
-    assert found.reasons[1:] == (told,) * uneven
-
-
 def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
     """On the cylinder's axis when the crank pin is: turned on by the master rod's lean there,
     arcsin(lambda sin Delta).
@@ -77,7 +62,7 @@ def test_an_engine_without_articulated_rods():
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
     assert (
         str(caught.value)
-        == "knuckles: this engine has no articulated rods; an engine file describes them in [articulation]"
+        == "knuckles: this engine has no articulated rods whose crank turns; an engine file describes them in [articulation]"
     )
 
 

@@ -62,12 +62,9 @@ def test_a_format_that_is_said_needs_no_ending_that_is_known(name):
 
 
 PICTURES = ".svg, .png or .pdf"
-DRAWN = "; pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and field"
 
 
-@cases(
-    "shell/file_names", "an_ending_that_cannot_be_is_refused", DRAWN=DRAWN, PICTURES=PICTURES, SEARCH=SEARCH, VARY=VARY
-)
+@cases("shell/file_names", "an_ending_that_cannot_be_is_refused", PICTURES=PICTURES, SEARCH=SEARCH, VARY=VARY)
 def test_an_ending_that_cannot_be_is_refused(args, can):
     name, *rest = args
     option, target = {"-o": "--output"}.get(rest[-2], rest[-2]), rest[-1]

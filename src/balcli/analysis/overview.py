@@ -151,7 +151,6 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
 _MOST_WORDS = 25  # of a sentence
-_MOST_TOLD = 8  # near the lock dozens of orders matter: these one by one, the others together
 _MOST_NAMED = 5  # orders in a row
 _AXES = {"0.0": "x", "90.0": "y"}
 _SENSES = {1: "with the crank", -1: "against the crank"}
@@ -319,12 +318,7 @@ def verdict(
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
     matter = [one for one in every if one.large or one.couple]
-    alone = matter if len(matter) <= _MOST_TOLD + 1 else matter[:_MOST_TOLD]
-    told = [one.tell() for one in alone]
-    if more := matter[len(alone) :]:
-        span = f"{order_name(more[0].order)} to {order_name(more[-1].order)}"
-        largest = _tell_largest([(one, v) for one in more for v in one.large])
-        told.append(f"Orders {span}, {len(more)} more: at most {largest}.")
+    told = [one.tell() for one in matter]
     if not steady and any(one.large for one in every):
         told.append(_UNEVEN)
     names = " and ".join(vector.kind.name for vector in vectors)

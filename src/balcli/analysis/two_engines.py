@@ -390,10 +390,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
     against = ", and turns against the first" if how.reverse else ""
     yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
-    slower = second.speed_rpm != first.speed_rpm and not second.speed_assumed
-    other = slower or second.ripple not in ((), first.ripple)
-    ignored = "; what the second's file says of its speed does not count" * other
-    yield "speed", f"both at {tell_speed(first)}{ignored}"
+    yield "speed", f"both at {tell_speed(first)}, the speed of the first"
     if fired := [which for which, engine in named.items() if engine.gas is not None]:
         yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
     if result.assumed:

@@ -275,15 +275,10 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
         raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
     engine = build(model)
     c, linkage = engine.cylinders, engine.cylinders.linkage
-    if model.articulation is not None and model.layout.rotary:
+    if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError(
-            "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
-            "turns only"
-        )
-    if model.articulation is None or not isinstance(linkage, Articulated):
-        raise BalcliError(
-            "knuckles: this engine has no articulated rods; an engine file describes them in "
-            "[articulation]"
+            "knuckles: this engine has no articulated rods whose crank turns; an engine file "
+            "describes them in [articulation]"
         )
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
@@ -306,12 +301,6 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     better = model.with_table("articulation", knuckle_angles=angles_deg)
     after = find_travel(build(better).cylinders)
     reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
-    uneven = np.abs(measure(after)) > 10 * close
-    uneven[rows] = False  # of these the reasons list the banks
-    if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
-        told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
-        alike = "all knuckle pins of a bank get the angle that suits its first throw"
-        reasons = (*reasons, f"not {told}: {alike}")
     return Knuckles(better, angles_deg, find_travel(c), after, reasons)
 
 

@@ -16,7 +16,7 @@ from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Slider
-from .planes import DeviceTable, find_order, find_unbalance, name_kind
+from .planes import DeviceTable, find_order, find_unbalance
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
@@ -171,11 +171,9 @@ def _plan_holes(
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
         raise HolesDoNotFitError(
-            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm of "
-            f"{name_kind(device)} at z = {device.position:g} mm do not fit: {fitting:g} holes side "
-            f"by side have room on {1e3 * room:g} mm (--width) and make at most "
-            f"{1e6 * fitting * of_one:.6g} g mm; use a larger drill or --radius, a larger "
-            "--max-depth, or --slug"
+            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
+            f"fit: {fitting:g} holes side by side have room on {1e3 * room:g} mm (--width); use a "
+            "larger drill, --radius or --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
