@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, list_words, refuse_more, wrong_type
+from ..errors import BalcliError, InputError, check_number, list_words, refuse_more, wrong_type
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
@@ -179,11 +179,8 @@ def read_position(name: str, value: object) -> tuple[float, float, float]:
     Raises:
         TypeError: It is not three numbers.
     """
-    try:
-        numbers = list(islice(value, 4))  # type: ignore[call-overload]
-        if any(isinstance(number, str) for number in numbers):
-            raise TypeError
-        x, y, z = map(float, numbers)
-    except (TypeError, ValueError, OverflowError):
-        raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
+    wanted = "give x, y and z in m, such as (0.3, 0, 0)"
+    if not isinstance(value, Iterable) or len(numbers := list(islice(value, 4))) != 3:
+        raise wrong_type(name, value, wanted)
+    x, y, z = (check_number(name, number, wanted) for number in numbers)
     return x, y, z

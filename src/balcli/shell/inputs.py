@@ -187,9 +187,9 @@ def find_expected(paths: Sequence[Path]) -> list[Path]:
 
 def _walk(folder: Path) -> Iterator[Path]:
     """Yield all files in a folder and those within it that are not hidden."""
-    for place, inner, files in os.walk(folder):
-        inner[:] = [name for name in inner if not name.startswith(".")]
-        yield from (Path(place, name) for name in files)
+    for path in folder.rglob("*"):
+        if not any(part.startswith(".") for part in path.relative_to(folder).parts[:-1]):
+            yield path
 
 
 def _is_engine(path: Path) -> bool:
