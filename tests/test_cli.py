@@ -277,7 +277,7 @@ def test_new_never_overwrites_without_force(balcli, tmp_path):
     assert balcli("new", "vee", target) == (
         2,
         "",
-        f"balcli: {target}: already exists; choose another name, or --force to overwrite it\n",
+        f"balcli: {target}: already exists; choose another name, or --force\n",
     )
     assert target.read_text() == written
     assert balcli("new", "vee", target, "--force") == (0, "", "")

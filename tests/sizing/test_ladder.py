@@ -240,7 +240,7 @@ def test_the_third_step_that_is_left_out_says_what_it_would_do(engine):
 
 @pytest.mark.parametrize("small", [-0.01, 0.51, float("nan")])
 def test_what_counts_as_small_is_checked_by_every_function(small):
-    with pytest.raises(BalcliError, match="give a share of one cylinder from 0 to 50"):
+    with pytest.raises(BalcliError, match="give a share from 0 to 50"):
         find_ladder(load(ROOT / "engines" / "i3.toml"), small=small)
 
 

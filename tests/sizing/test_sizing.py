@@ -100,8 +100,7 @@ def test_planes_are_named_or_given():
         size_scheme(engine, "counterweights", planes="left")
     with pytest.raises(
         BalcliError,
-        match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along "
-        r"z$",
+        match=r"--planes: give ends, or two places along z, for opposite eccentrics$",
     ):
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
@@ -187,7 +186,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,
-        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it and none",
+        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it; leave out --roll",
     ):
         size_scheme(engine, "two-shaft", order=order, roll="zero")
     remedy = size_scheme(engine, "two-shaft", order=order, at=(0.03j,))
@@ -259,11 +258,7 @@ def test_peaks_along_and_across_are_those_of_the_curve():
 def test_factors_at_their_bounds(share):
     engine = build_text(SMALL["one"])
     assert figures(size_scheme(engine, "factor", factor=(share,)))["factor"] == share
-    with pytest.raises(
-        BalcliError,
-        match=r"--factor -?2: is no share of the reciprocating mass; (did you mean 2%\? )?give one such as 0.5 or 51%, "
-        r"or a range such as 50%:54%:1%$",
-    ):
+    with pytest.raises(BalcliError, match=r"--factor -?2: (did you mean 2%\? )?give shares such as 0.5, 51% or"):
         size_scheme(engine, "factor", factor=(share * (1 + 1e-15), 0.5))
 
 
@@ -316,5 +311,5 @@ def test_what_is_no_option_is_told_in_words(scheme, options, told):
 )
 def test_places_beyond_every_engine_are_refused(options, told):
     """Most likely mm where m are wanted."""
-    with pytest.raises(BalcliError, match=f"^{told} from the origin is farther than any engine "):
+    with pytest.raises(BalcliError, match=f"^{told} from the origin; at most 50 m"):
         options.check("two-shaft" if options.planes is None else "factor")

@@ -78,5 +78,5 @@ def test_an_inline_list_of_devices_is_written_anew():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_what_no_file_can_describe_is_not_written(scheme):
     remedy = size_scheme(build_text(SINGLE), scheme)
-    with pytest.raises(BalcliError, match=f"scheme {scheme}: an engine file cannot describe its devices"):
+    with pytest.raises(BalcliError, match=f"scheme {scheme}: no engine file can describe its devices"):
         insert_remedy(SINGLE.encode(), remedy)

@@ -101,9 +101,7 @@ class Request(NamedTuple):
             given |= dict.fromkeys((f"--only {word}" for word in PARTS if word in self.parts), True)
         for option in (option for option, is_given in given.items() if is_given):
             if self.marine:
-                raise BalcliError(
-                    f"--format marine: {option} adds nothing to this sheet; leave one of them out"
-                )
+                raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")
             if self.over_speed:
                 raise BalcliError(f"{option}: is of one speed; give one, such as --speed 3000")
         if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):

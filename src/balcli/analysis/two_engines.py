@@ -106,20 +106,13 @@ class Arrangement:
         """
         for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
             if not abs(value) <= FARTHEST_DEG:
-                raise BalcliError(
-                    f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
-                )
+                raise BalcliError(f"--{option} {value:g}: give up to {FARTHEST_DEG:g} degrees")
         if not all(abs(value) <= FARTHEST_M for value in self.at_m):
-            raise BalcliError(
-                f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off"
-            )
+            raise BalcliError(f"--at: give a place up to {FARTHEST_M:g} m away")
         if self.load not in LOADS:
             raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
         if self.load != "first" and not self.reverse:
-            raise BalcliError(
-                f"--load {self.load}: cranks that turn alike roll the frame alike, whichever "
-                "drives the load; it matters with --reverse"
-            )
+            raise BalcliError(f"--load {self.load}: makes a difference only with --reverse")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

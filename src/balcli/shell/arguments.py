@@ -120,10 +120,7 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
         return None
     found = check_orders(orders)
     if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
-        raise BalcliError(
-            f"orders: {found[0]:g} to {found[-1]:g}; those of torsional vibration are above 0, to "
-            f"{HIGHEST_TORSION_ORDER} at most"
-        )
+        raise BalcliError(f"orders: give orders above 0, to {HIGHEST_TORSION_ORDER} at most")
     return found
 
 

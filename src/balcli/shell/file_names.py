@@ -148,10 +148,8 @@ def format_of(
     written = endings.get(ending)
     if written is not None:
         if asked not in (None, written):
-            raise BalcliError(
-                f"{option} {output}: {ending} is {written}, but --format says {asked}; leave one "
-                "of them out"
-            )
+            told = f"{option} {output}: {ending} is {written}, but --format says {asked}"
+            raise BalcliError(f"{told}; leave one of them out")
         return written
     usual = asked or default
     if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):

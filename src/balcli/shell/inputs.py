@@ -64,10 +64,7 @@ def read_engine(
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
-        raise BalcliError(
-            f"{path}: no such file; several words of --only stand with commas between them: "
-            f"--only force,{path}"
-        )
+        raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
     from ..engine import load, parse
 
     text = read_bytes(path)

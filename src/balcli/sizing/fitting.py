@@ -181,10 +181,8 @@ def solve_exactly(
     left = fit.left * size + 2 * EPS * largest
     if left > max(noise, LEFT * size):
         raise BalcliError(
-            f"order {residual.order}: the places given are too much alike: unbalances of "
-            f"{largest * 1e6:.3g} g mm would work against each other (condition number "
-            f"{fit.condition:.3g}), and their rounding alone would leave {left / size:.1g} of what "
-            "shakes; choose planes farther apart"
+            f"order {residual.order}: unbalances of {largest * 1e6:.3g} g mm would work against "
+            f"each other and leave {left / size:.1g} of what shakes; choose planes farther apart"
         )
     if len(slots) == 1:  # a compromise would leave rounding in the force, too
         return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)

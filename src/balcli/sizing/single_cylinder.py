@@ -91,8 +91,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
             x = _iterate(lambda x: _step_to_mean(design, engine, x), x, _FARTHEST_TO_MEAN)
     except (np.linalg.LinAlgError, ArithmeticError):
         raise BalcliError(
-            f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
-            "second order is too strong for an eccentric smaller than its pin radius"
+            f"eccentric-slider: there is no optimum of design {design} at lambda = {lam:g}"
         ) from None
     remaining, _ = _linearize(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
@@ -279,10 +278,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     _require_one_cylinder(engine, "eccentric-slider")
     c = engine.cylinders
     if np.any(c.eps):
-        raise BalcliError(
-            "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
-            f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
-        )
+        raise BalcliError("eccentric-slider is for a cylinder without piston offset")
     mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
     optima = find_optima(float(np.ravel(c.lam)[0]))
     designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
@@ -375,6 +371,4 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _require_one_cylinder(engine: Engine, scheme: str) -> None:
     if engine.cylinders.count != 1:
-        raise BalcliError(
-            f"{scheme} is for a single cylinder; this engine has {engine.cylinders.count} cylinders"
-        )
+        raise BalcliError(f"{scheme} is for one cylinder; this engine has {engine.cylinders.count}")

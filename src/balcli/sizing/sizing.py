@@ -71,10 +71,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: nothing of order 1 turns with the crank.
     """
     if options.order not in (None, 1):
-        raise BalcliError(
-            f"order {options.order} cannot be cancelled by anything on the crankshaft, which turns "
-            "at order 1: use a shaft scheme"
-        )
+        raise BalcliError(f"order {options.order}: counterweights turn at order 1; use shafts")
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if options.planes == "throws":

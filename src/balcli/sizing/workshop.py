@@ -95,8 +95,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     rim = tools.radius or float(engine.cylinders.radius)
     if tools.drill is not None and tools.drill > 2 * rim:
         raise BalcliError(
-            f"--drill: a hole of {1e3 * tools.drill:g} mm is wider than its rim of radius "
-            f"{1e3 * rim:g} mm (--radius, else the crank radius)"
+            f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of {1e3 * rim:g} mm"
         )
     return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
 
@@ -113,19 +112,11 @@ def _refuse_impossible(tools: Tools) -> None:
     if strange:
         raise BalcliError(f"{', '.join(strange)}; give figures above 0")
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
-        raise BalcliError(
-            "--max-depth, --slug and --width are for holes: give the diameter of the drill with "
-            "--drill"
-        )
+        raise BalcliError("--max-depth, --slug and --width are for holes: give --drill")
     if tools.slug is not None and tools.slug <= STEEL:
-        raise BalcliError(
-            f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel in whose place it "
-            f"is put ({STEEL / 1e3:g} g/cm3); tungsten alloy has 17 to 18.5"
-        )
+        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel there")
     if tools.thickness is not None and tools.disc is not None:
-        raise BalcliError(
-            "a semicircular disc has its radius or its thickness given, not both: the other follows"
-        )
+        raise BalcliError("a disc has its radius or its thickness given: the other follows")
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:
