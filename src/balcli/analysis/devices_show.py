@@ -24,7 +24,7 @@ from ..show.sheet import (
 from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
-from .records import KEYS, find_value
+from .records import find_value
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 _ROUNDING = 1e-12  # of what one cylinder makes
 _HARDLY = 0.05  # % of one cylinder, which would be printed as 0.0
+_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # of CSV
 ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
@@ -274,7 +275,7 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, floa
         system: System of units.
     """
     own = FIELDS[type(device)]
-    figures = {field: find_value(device, field) for field in KEYS if field in own}
+    figures = {field: find_value(device, field) for field in _ORDER if field in own}
     figures |= zip(("at_x", "at_y"), figures.pop("at", ()), strict=False)
     for field, value in figures.items():
         if field in ("position", "at_x", "at_y"):

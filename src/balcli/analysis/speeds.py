@@ -44,6 +44,7 @@ from .comparison import (
     find_lines_that_matter,
     fit_unit,
     list_lines,
+    make_line,
     show_sizes,
 )
 from .devices_show import ladder_grid
@@ -257,14 +258,7 @@ def _list_lines(
     for k, one in enumerate(found):
         single[k, :4] = np.repeat([one.of_one_cylinder["force"], one.of_one_cylinder["moment"]], 2)
     return tuple(
-        Line(
-            quantity=kind.key,
-            order=one.order,
-            values=tuple(figures[:, k, i].tolist()),
-            ratios=(),
-            kind=kind,
-            single=tuple(single[:, i].tolist()),
-        )
+        make_line(kind, one.order, tuple(figures[:, k, i].tolist()), tuple(single[:, i].tolist()))
         for k, one in enumerate(listed[0])
         for i, kind in enumerate(FIGURES)
     )

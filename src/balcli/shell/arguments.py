@@ -21,7 +21,6 @@ from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLE
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _MOST_GIVEN = 1_000_000  # speeds of a list, equal ones included
-_REAL = (int, float, np.integer, np.floating)
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
@@ -137,11 +136,10 @@ def check_inertia(name: str, value: object) -> float | None:
     """
     if value is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, _REAL):
-        raise wrong_type(name, value, "give a moment of inertia in kg m2, such as 0.1")
-    if not 0 < value < LARGEST_INERTIA:
+    number = check_number(name, value, "give a moment of inertia in kg m2, such as 0.1")
+    if not 0 < number < LARGEST_INERTIA:
         raise BalcliError(f"{name}: {shorten(value)}; give a moment of inertia in kg m2, above 0")
-    return float(value)
+    return number
 
 
 def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> int:

@@ -144,8 +144,11 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
+    named = "all orders"
+    if options.orders is not None:
+        named = f"orders {', '.join(f'{order:g}' for order in sorted({1, *options.orders}))}"
     reason = (
-        f"The largest force over a revolution, {_name_orders(options)}, becomes as small as a "
+        f"The largest force over a revolution, {named}, becomes as small as a "
         "counterweight can make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
@@ -159,13 +162,6 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         **({} if options.orders is not None else _compare_with_half(fitting.engine, circle)),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
-
-
-def _name_orders(options: SchemeOptions) -> str:
-    if options.orders is None:
-        return "all orders"
-    named = ", ".join(f"{order:g}" for order in sorted({1, *options.orders}))
-    return f"orders {named}"
 
 
 def _split(

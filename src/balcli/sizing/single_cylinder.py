@@ -213,18 +213,16 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
     slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
-    top, best = -np.inf, None
-    for triple in map(list, combinations(range(len(values)), 3)):
-        system = np.column_stack([slopes[triple], -np.ones(3)])
-        if abs(np.linalg.det(system)) < _SINGULAR:
-            continue
-        weights = np.linalg.solve(system.T, [0, 0, -1.0])
-        solution = np.linalg.solve(system, -np.abs(values[triple]))
-        if np.all(weights >= _BELOW_0) and solution[2] > top:
-            top, best = solution[2], solution[:2]
-    if best is None:
+    triples = np.array([*combinations(range(len(values)), 3)])
+    systems = np.concatenate([slopes[triples], -np.ones((len(triples), 3, 1))], axis=2)
+    regular = np.abs(np.linalg.det(systems)) >= _SINGULAR
+    systems, triples = systems[regular], triples[regular]
+    weights = np.linalg.solve(systems.transpose(0, 2, 1), np.array([[0], [0], [-1.0]]))
+    solutions = np.linalg.solve(systems, -np.abs(values)[triples][..., None])[..., 0]
+    balanced = solutions[np.all(weights[..., 0] >= _BELOW_0, axis=1)]
+    if not len(balanced):
         raise ArithmeticError("no three extremes balance")
-    return np.asarray(best)
+    return np.asarray(balanced[balanced[:, 2].argmax(), :2])
 
 
 def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
