@@ -342,7 +342,10 @@ def sheet(result: Comparison, system: System) -> Sheet:
     """
     first, *others = result.engines
     heads = ("", first, *(head for name in others for head in (name, "ratio")))
-    parts: list[Facts | Grid | Text] = [_tell_speeds(result), *assumed_facts(result.assumed)]
+    told = [tell_speed(engine) for engine in result.compared]
+    one_for_all = ("speed", told[0])
+    speeds = Facts((("speeds", "; ".join(told)) if len(set(told)) > 1 else one_for_all,))
+    parts: list[Facts | Grid | Text] = [speeds, *assumed_facts(result.assumed)]
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):
         every = [line for line in result.figures if line.kind == kind]
@@ -362,13 +365,6 @@ def sheet(result: Comparison, system: System) -> Sheet:
     if nothing:
         parts.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", tuple(parts))
-
-
-def _tell_speeds(result: Comparison) -> Facts:
-    """Return one speed for all engines, or each in their order."""
-    told = [tell_speed(engine) for engine in result.compared]
-    one_for_all = len(set(told)) == 1
-    return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:

@@ -83,13 +83,13 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
     """Yield the parts that only some engines have, or that were asked for."""
     if result.travel is not None and whole:
-        yield from sections.lay_out_strokes(result.travel, system)
+        yield sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:
-        yield from sections.lay_out_guide(result.guide, system)
+        yield sections.lay_out_guide(result.guide, system)
     if result.why is not None:
-        yield from sections.lay_out_symmetry(result.why)
+        yield sections.lay_out_symmetry(result.why)
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:

@@ -324,7 +324,7 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
         if each.ladder is not None:
             yield ladder_grid(each.ladder, each.engine, system)
     if first.why is not None:
-        yield from sections.lay_out_symmetry(first.why)
+        yield sections.lay_out_symmetry(first.why)
 
 
 def _kind_part(
