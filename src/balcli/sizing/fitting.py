@@ -224,18 +224,15 @@ class Fitting(NamedTuple):
         """Return the fitting with devices of these unbalances (kg m) in these slots. Devices of
         zero unbalance are left out, and counterweights negligible against the moving masses.
         """
-        first_axis_deg, dust = float(self.engine.first_axis_deg), LEFT * self._find_moving()
+        first_axis_deg = float(self.engine.first_axis_deg)
+        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
+        dust = LEFT * float(sum(masses) * self.engine.cylinders.radius)
         tables = [
             slot.make_table(unbalance, first_axis_deg)
             for slot, unbalance in zip(slots, unbalances, strict=True)
             if abs(unbalance) > (dust if slot.kind == "counterweight" else 0)
         ]
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
-
-    def _find_moving(self) -> float:
-        """Return the sum of all moving masses at the crank radius, kg m."""
-        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
-        return float(sum(masses) * self.engine.cylinders.radius)
 
     def cancel(
         self,
