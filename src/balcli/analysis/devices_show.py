@@ -216,10 +216,6 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs stand where weight is to be added and count less the steel removed for them"
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
-    if any((p.holes or 0) > 1 for p in practical):
-        shallow = tools.max_depth is not None and 1e3 * tools.max_depth < practical[0].radius_mm
-        limit = "--max-depth" if shallow else "the radius"
-        note += f" One hole would be deeper than {limit}."
     note = " ".join([note, *explain_holes(practical, tools, unit)])
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, rows, note)
