@@ -47,7 +47,7 @@ def test_index_links_of_the_readme_lead_into_the_repository():
 def test_where_the_project_lives_is_said_in_one_place():
     addresses = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["custom"]
     owner = re.match(r"https://[^/]+/[^/]+/", addresses["repository"])[0]
-    written = [*ROOT.glob("*.*"), *ROOT.glob("docs/*.md"), *ROOT.glob(".github/**/*.*")]
+    written = [*ROOT.glob("*.*"), *ROOT.glob("docs/**/*.md"), *ROOT.glob(".github/**/*.*")]
     assert [file.name for file in written if file.is_file() and owner in file.read_text("utf-8", "replace")] == [
         "pyproject.toml"
     ]
