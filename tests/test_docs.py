@@ -25,7 +25,10 @@ def name_document(path: Path) -> str:
 
 @pytest.mark.parametrize(
     "document",
-    [pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=name_document(path)) for path in guide.DOCUMENTS],
+    [
+        pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=name_document(path))
+        for path in guide.DOCUMENTS
+    ],
 )
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
@@ -67,6 +70,12 @@ def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> 
 def test_nothing_shown_is_rounding(document: Path) -> None:
     lines = [line for one in guide.shown(document.read_text(encoding="utf-8")) for line in one.expected]
     assert [line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b", line)] == []
+
+
+def test_front_page_begins_with_a_picture_and_a_result() -> None:
+    text = (guide.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    parts = [text.index(part) for part in ("![", "```console", "## I want to …", "## Install")]
+    assert parts == sorted(parts)
 
 
 def test_a_recipe_is_a_page_of_one_task() -> None:
