@@ -111,6 +111,16 @@ def test_citation_is_of_this_version():
     assert f"\nversion: {balcli.__version__}\n" in text("CITATION.cff")
 
 
+def test_conda_recipe_has_our_version_and_dependencies():
+    recipe = text("tools/conda/recipe.yaml").replace("matplotlib-base", "matplotlib")
+    needed = re.findall(r"    - (\S+ >=\S+)", recipe.partition("  run:\n")[2].partition("\ntests:")[0])
+    assert [each.replace(" ", "") for each in needed] == [
+        f"python{PROJECT['project']['requires-python']}",
+        *PROJECT["project"]["dependencies"],
+    ]
+    assert f'version: "{balcli.__version__}"' in recipe
+
+
 @pytest.mark.parametrize("page", PAGES)
 def test_links_of_community_pages_lead_to_files(page):
     for target in re.findall(r"\]\(([^)\s#]+)", text(page)):

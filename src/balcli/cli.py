@@ -224,7 +224,7 @@ def _options(
             "--quiet",
             callback=_quiet,
             expose_value=False,
-            help="Results and errors alone: no warnings, no progress.",
+            help="No warnings and no progress.",
         ),
     ] = False,
     verbose: Annotated[
@@ -234,7 +234,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Print also what was read and assumed, and the run time, on standard error.",
+            help="Print also what was read, and the run time.",
         ),
     ] = False,
     digits: Annotated[
@@ -248,7 +248,7 @@ def _options(
             envvar="BALCLI_DIGITS",
             show_envvar=False,
             show_default=False,
-            help=f"Significant digits of figures in tables; default: {USUAL_DIGITS}.",
+            help=f"Significant digits in tables; default: {USUAL_DIGITS}.",
         ),
     ] = None,
 ) -> None:

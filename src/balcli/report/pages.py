@@ -238,7 +238,7 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
         lines = {label: each.values(crank).real for label, each in scalars.items()}
         if not scalars:
             values, (up, across) = curve.values(crank), subject.name_components(quantity)
-            lines = {up: values.real, across: values.imag, "size": np.abs(values)}
+            lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
         old = None if before is None else read(before.values(crank))
         draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
 

@@ -56,33 +56,30 @@ def sweep(
         VariantsFormat | None,
         format_option(
             VariantsFormat,
-            "How to write the variants; default: by the ending of -o (.csv, .json, .parquet, .txt, "
-            ".md), else a table in a terminal and csv in a pipe. Tables show 50 variants whole, of "
-            "more the first and the last.",
+            "Default: by the ending of -o, else a table in a terminal and csv in a pipe. Of more "
+            "than 50 variants tables show the first and the last.",
         ),
     ] = None,
     output: Annotated[
         Place | None,
         optional(
             "FILE|FOLDER/",
-            "Write into this file, whose ending determines the format; or into a folder, as "
-            "numbered Parquet files that threads or workers write; the same sweep again computes "
-            "missing ones. - is standard output.",
+            "File to write, or a folder for numbered Parquet files, of which the same sweep "
+            "computes missing ones; - is standard output.",
             "--output",
             "-o",
             parser=read_place,
         ),
     ] = None,
     force: Annotated[
-        bool, typer.Option("--force", help="Replace the earlier sweep that is in the folder.")
+        bool, typer.Option("--force", help="Replace the earlier sweep in the folder.")
     ] = False,
     progress: ProgressAtOnce = False,
     plot: Annotated[
         Path | None,
         optional(
             "FILE",
-            "Also draw the quantities over one parameter (curves) or two (contours); "
-            ".svg, .png or .pdf.",
+            "Also draw the quantities over one or two parameters; .svg, .png or .pdf.",
             "--plot",
         ),
     ] = None,
@@ -94,7 +91,7 @@ def sweep(
             min=1,
             max=MOST_THREADS,
             show_default=False,
-            help="Number of threads if the sweep takes more than a second; default: one a core.",
+            help="Threads of a long sweep; default: one a core.",
         ),
     ] = None,
     dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",
