@@ -10,31 +10,48 @@ file by their dotted names.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.engine import Engine
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
+from ..engine.load import SPEED
 from ..engine.parts import Parts
 from ..file.model import EngineFile
+from ..file.units import (
+    ANGLE,
+    INERTIA,
+    LENGTH,
+    MASS,
+    SPEED as SPEED_OF_ROTATION,
+    UNBALANCE,
+    convert,
+)
+from ..forces.kinds import FORCE
 from ..show.figures import clean
+from ..show.units import System
 from ..studies.parameters import find_numbers
-
-if TYPE_CHECKING:
-    from ..core.phasors import Figure
 
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "cylinder")  # with numbers to change
 _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
+_UNITS = {  # spellings that the page reads, by dimension
+    LENGTH: ("cm", "m", "in", "ft"),
+    MASS: ("g", "lb", "oz"),
+    UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
+    ANGLE: ("rad", "turn"),
+    SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
+    INERTIA: ("kg m^2", "lb in^2"),
+}
 _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 
 def explain_still(engine: Engine) -> str:
     """Return why the page cannot compute an engine itself; empty if it can."""
-    if engine.rotary or isinstance(engine.cylinders.linkage, Rotary):
+    if isinstance(engine.cylinders.linkage, Rotary):
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
         return "it has articulated rods"
@@ -50,7 +67,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
         text: Text of the file, to be written anew with other numbers; empty: not known.
     """
     parts = Parts(model)
-    numbers = _list_numbers(model, parts)
+    numbers = _list_numbers(model, float(engine.speed_rpm))
     throws: dict[int, int] = {}  # cylinder by whose firing a throw stands
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
@@ -62,6 +79,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
         "text": text,
         "known": engine.places_known,
         "up": engine.up_deg,
+        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
         "reference": None if reference is None else list(reference),
         "numbers": numbers,
@@ -78,14 +96,67 @@ def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
     }
 
 
-def _list_numbers(model: EngineFile, parts: Parts) -> list[Node]:
-    """Return the numbers of the file that the page may change, with their values and units."""
+def describe_one(
+    model: EngineFile, engine: Engine, system: System, text: str = "", name: str = ""
+) -> Node | None:
+    """Return what the panel of an engine's page needs; None if the page cannot compute it.
+
+    Args:
+        model: Engine file.
+        engine: Engine of the file.
+        system: Units of the drawings.
+        text: Text of the file; empty: not known.
+        name: Name of the file; empty: not known.
+    """
+    if explain_still(engine):
+        return None
+    return make_book({"": describe_engine(model, engine, text)}, system, Path(name).name)
+
+
+def make_book(
+    engines: Mapping[str, Node], system: System, file: str = "", *, choice: bool = False
+) -> Node:
+    """Return all that the panel of the page needs.
+
+    Args:
+        engines: Engines as of `describe_engine`, by key.
+        system: Units of the drawings.
+        file: Name of the file; empty: not known.
+        choice: Whether the reader chooses among the engines.
+    """
+    units = {"force": system.force, "moment": system.moment}
+    return {
+        "engines": engines,
+        "file": file.removesuffix(".toml"),
+        "choice": choice,
+        "units": {
+            dimension.unit: {unit: convert(f"1 {unit}", dimension) for unit in others}
+            for dimension, others in _UNITS.items()
+        },
+        "show": {
+            kind: {
+                "name": unit.name,
+                "thousand": f"k{unit.name}" if unit.size == 1 else "",
+                "size": unit.size,
+            }
+            for kind, unit in units.items()
+        },
+    }
+
+
+def _list_numbers(model: EngineFile, speed_rpm: float) -> list[Node]:
+    """Return the numbers of the file that the page may change, with their values and units.
+
+    Args:
+        model: Engine file.
+        speed_rpm: Speed of the engine, which an option may have given.
+    """
     tables = dict(model.tables())
     found = []
     for name, number in find_numbers(model).items():
         if not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
             continue
-        value = _find_value(tables, name)
+        value = speed_rpm if name == SPEED else _find_value(tables, name)
         if value is None:
             continue
         found.append({"name": name, "value": value, "unit": number.dimension.unit})
@@ -191,9 +262,5 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
 def _describe_rod(rod: RodFigures, name: Callable[[str], str]) -> Node:
     found: Node = {key: name(key) for key in _OF_ROD if getattr(rod, key) is not None}
     if rod.pendulum is not None:
-        found |= {"period": _plain(rod.pendulum.period), "pivot": rod.pendulum.pivot}
+        found |= {"period": float(rod.pendulum.period), "pivot": rod.pendulum.pivot}
     return found
-
-
-def _plain(value: Figure) -> float:
-    return float(value)

@@ -42,6 +42,7 @@ from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
+from .live import explain_still
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
 from .study import Study, analyze_steps
@@ -262,10 +263,13 @@ def page(
     twisted: TorsionAnalysis | None = None,
     turning: Engine | None = None,
     tell: Tell = tell_nobody,
+    *,
+    live: Node | None = None,
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
     gas. All text from the engine file is escaped. `tell` is called with the share of the pictures
-    of forces and moments that is drawn.
+    of forces and moments that is drawn; `live` has the numbers to change on the page
+    (`live.make_book`).
     """
     from markupsafe import Markup
 
@@ -282,6 +286,10 @@ def page(
         pictures.append(Markup(draw_panel(*panel)))
         tell(len(pictures) / (len(alone) + len(beside)))
     return _template().render(
+        whole=True,
+        live=live,
+        live_script=_read_live() if live else None,
+        still=explain_still(result.engine),
         title=own.title,
         version=__version__,
         facts=own.parts[0],
@@ -296,6 +304,32 @@ def page(
         script=_read("report.js"),
         **_gather_chapters(mounted, twisted, turning, system),
     )
+
+
+def play_page(live: Node) -> str:
+    """Return a page on which one chooses among engines and changes their numbers.
+
+    Args:
+        live: Engines as of `live.make_book`.
+    """
+    return _template().render(
+        whole=False,
+        live=live,
+        live_script=_read_live(),
+        still="",
+        title="Change an engine and see its balance",
+        version=__version__,
+        verdict=None,
+        scene=None,
+        style=_read("report.css"),
+        script=_read("report.js"),
+        **dict.fromkeys(("mounts", "torsion", "running")),
+    )
+
+
+def _read_live() -> Markup:
+    """Return the scripts of the panel: the kernel, and the controls."""
+    return _read("engine.js") + _read("live.js")
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
