@@ -14,11 +14,14 @@ from pathlib import Path
 
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
+from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
 from ..engine.load import SPEED
+from ..engine.parse import parse
 from ..engine.parts import Parts
+from ..file import examples
 from ..file.model import EngineFile
 from ..file.units import (
     ANGLE,
@@ -31,7 +34,7 @@ from ..file.units import (
 )
 from ..forces.kinds import FORCE
 from ..show.figures import clean
-from ..show.units import System
+from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
 _TABLES = ("crank", "rod", "piston", "layout", "operation", "cylinder")  # with numbers to change
@@ -114,7 +117,7 @@ def describe_one(
 
 
 def make_book(
-    engines: Mapping[str, Node], system: System, file: str = "", *, choice: bool = False
+    engines: Mapping[str, Node], system: System, file: str = "", *, choice: str = ""
 ) -> Node:
     """Return all that the panel of the page needs.
 
@@ -122,7 +125,7 @@ def make_book(
         engines: Engines as of `describe_engine`, by key.
         system: Units of the drawings.
         file: Name of the file; empty: not known.
-        choice: Whether the reader chooses among the engines.
+        choice: Engine to begin with, where the reader chooses; empty: there is one engine.
     """
     units = {"force": system.force, "moment": system.moment}
     return {
@@ -142,6 +145,18 @@ def make_book(
             for kind, unit in units.items()
         },
     }
+
+
+def make_examples() -> Node:
+    """Return what the panel needs for the choice among all example engines."""
+    engines = {}
+    for name in examples.names():
+        written = examples.text(name)
+        model = parse(written, name)
+        engine = build(model)
+        if not explain_still(engine):
+            engines[name] = describe_engine(model, engine, written)
+    return make_book(engines, SI, choice="vtwin45")
 
 
 def _list_numbers(model: EngineFile, speed_rpm: float) -> list[Node]:

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import tomli_w
 
 from ..analysis import show as analysis
 from ..analysis.answer import Analysis, analyze
@@ -20,7 +22,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
 from ..core.records import Node
-from ..engine.engine import Engine
+from ..engine.engine import Engine, take_model
 from ..errors import BalcliError, warn
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -35,14 +37,14 @@ from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text
-from ..show.units import ShownUnit, System
+from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
 from ..torsion import plot as twisting, show as torsion
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
-from .live import explain_still
+from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
 from .study import Study, analyze_steps
@@ -306,15 +308,41 @@ def page(
     )
 
 
-def play_page(live: Node) -> str:
-    """Return a page on which one chooses among engines and changes their numbers.
+class Explorer:
+    """The page of an engine in a frame of a notebook.
 
     Args:
-        live: Engines as of `live.make_book`.
+        text: The page.
     """
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def _repr_html_(self) -> str:
+        style = "width:100%;height:900px;border:1px solid #ccc"
+        return f'<iframe style="{style}" srcdoc="{escape(self._text, quote=True)}"></iframe>'
+
+
+def explore(engine: Engine) -> Explorer:
+    """Return the page of an engine for a notebook: `Engine.explore`.
+
+    Args:
+        engine: Engine that comes from a file.
+
+    Raises:
+        BalcliError: No file describes the engine.
+    """
+    model = take_model(engine)
+    found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
+    live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
+    return Explorer(page(found.result, found.balanced, SI, *found[2:], live=live))
+
+
+def make_play_page() -> str:
+    """Return a page on which one chooses among the example engines and changes their numbers."""
     return _template().render(
         whole=False,
-        live=live,
+        live=make_examples(),
         live_script=_read_live(),
         still="",
         title="Change an engine and see its balance",

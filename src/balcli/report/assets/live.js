@@ -75,7 +75,9 @@
   function writeAddress() {
     const parts = changes().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
     if (book.choice) parts.unshift(`engine=${data.key}`);
-    history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname + location.search);
+    try {
+      history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname + location.search);
+    } catch { /* a frame of a notebook has no address */ }
   }
   // Numbers of the address; what it says wrongly is told, the rest applies.
   function readAddress() {
@@ -273,7 +275,7 @@
         slider.value = numbers[name];
       } catch (error) { tell([error.message]); field.value = short(numbers[name]); }
     });
-    const head = make("label", { htmlFor: field.id }, label.replaceAll("_", " "));
+    const head = make("label", { htmlFor: field.id }, label.replace(/^throws\./, "throw ").replaceAll("_", " "));
     return make("div", { className: "number" }, head, whole ? "" : slider, field, make("span", {}, unit || ""));
   }
   function removeDevice(table) {
