@@ -123,16 +123,16 @@ const Kernel = (() => {
   // ------------------------------------------------------------------ orders
   // Forward and backward phasors of orders 0 to `most` of values [x, y] at even angles.
   function transform(values, most) {
-    const found = [];
-    const turns = values.map((_, k) => polar(1 / values.length, TURN * k / values.length));
+    const found = [], count = values.length;
+    const turns = values.map((_, k) => polar(1 / count, TURN * k / count));
     for (let n = 0; n <= most; n++) {
-      let a = [0, 0], b = [0, 0];
-      values.forEach((v, k) => {
-        const [c, s] = turns[n * k % values.length];
-        a = [a[0] + v[0] * c + v[1] * s, a[1] + v[1] * c - v[0] * s];
-        b = [b[0] + v[0] * c - v[1] * s, b[1] + v[1] * c + v[0] * s];
-      });
-      found.push(n ? [a, b] : [a, [0, 0]]);
+      let ax = 0, ay = 0, bx = 0, by = 0;
+      for (let k = 0; k < count; k++) {
+        const [x, y] = values[k], [c, s] = turns[n * k % count];
+        ax += x * c + y * s; ay += y * c - x * s;
+        bx += x * c - y * s; by += y * c + x * s;
+      }
+      found.push(n ? [[ax, ay], [bx, by]] : [[ax, ay], [0, 0]]);
     }
     return found;
   }
@@ -155,21 +155,39 @@ const Kernel = (() => {
     const loads = Array.from({ length: SAMPLES }, (_, k) => load(engine, TURN * k / SAMPLES)), most = bound(engine);
     const series = (pick, limit, count = ORDERS) => transform(loads.map(pick), count).map((pair) =>
       pair.map((v) => size(v) <= ROUNDING * limit ? [0, 0] : v));
-    const kinds = {
-      force: series((v) => v.force, most.force), moment: series((v) => v.moment, most.moment),
+    return withPeaks({
+      force: series((v) => v.force, most.force, SAMPLES / 2 - 1), moment: series((v) => v.moment, most.moment, SAMPLES / 2 - 1),
       couple: series((v) => [v.couple, 0], most.about), torque: series((v) => [v.torque, 0], most.about),
       roll: series((v) => [v.couple - v.torque, 0], most.about),
-    };
-    const peak = {};
-    for (const kind of ["force", "moment"]) {
-      peak[kind] = findPeak(series((v) => v[kind], most[kind], SAMPLES / 2 - 1), loads.map((v) => size(v[kind])));
-    }
-    return { kinds, peak };
+    }, loads);
   }
+
+  function withPeaks(kinds, loads) {
+    const peak = {};
+    for (const kind of ["force", "moment"]) peak[kind] = findPeak(kinds[kind], loads.map((v) => size(v[kind])));
+    return { kinds, peak, loads };
+  }
+
+  // Force and moment with further devices: each adds to one order.
+  function addDevices(engine, { kinds, loads }, devices) {
+    const sums = { force: [...kinds.force], moment: [...kinds.moment] }, square = engine.omega ** 2;
+    const vectors = devices.map((d) => ({ n: d.order, pair: [d.forward, d.backward].map((v) => scaled(v, d.order ** 2 * square)), z: d.z }));
+    const lever = (v, z) => [-(z - engine.reference[2]) * v[1], (z - engine.reference[2]) * v[0]];
+    for (const { n, pair, z } of vectors) {
+      sums.force[n] = pair.map((v, k) => drop(add(sums.force[n][k], v), v));
+      sums.moment[n] = pair.map((v, k) => drop(add(sums.moment[n][k], lever(v, z)), lever(v, z)));
+    }
+    const more = loads.map((v, k) => vectors.reduce(({ force, moment }, { n, pair, z }) => {
+      const f = add(times(pair[0], polar(1, n * TURN * k / SAMPLES)), times(pair[1], polar(1, -n * TURN * k / SAMPLES)));
+      return { force: add(force, f), moment: add(moment, lever(f, z)) };
+    }, v));
+    return withPeaks({ ...kinds, ...sums }, more);
+  }
+  const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
 
   // The largest size of a vector over a revolution, by Newton's method from the samples next to it.
   function findPeak(phasors, sizes) {
-    const orders = phasors.map(([a, b], n) => ({ n, a, b })).filter(({ a, b }) => size(a) + size(b) > 0);
+    const least = 1e-14 * Math.max(...sizes), orders = phasors.map(([a, b], n) => ({ n, a, b })).filter(({ a, b }) => size(a) + size(b) > least);
     const value = (theta, power) => orders.reduce((v, { n, a, b }) => {
       const turned = [times(a, polar(n ** power, n * theta)), times(b, polar((-n) ** power, -n * theta))];
       const [x, y] = add(...turned);
@@ -179,8 +197,7 @@ const Kernel = (() => {
     const most = Math.max(...sizes), found = [];
     if (!orders.length) return { value: 0, theta: null };
     sizes.forEach((v, k) => {
-      const [before, after] = [sizes.at(k - 1), sizes[(k + 1) % sizes.length]];
-      if (v < before || v < after || v < 0.98 * most) return;
+      if (v < sizes.at(k - 1) || v < sizes[(k + 1) % sizes.length] || v < 0.98 * most) return;
       let theta = TURN * k / sizes.length;
       for (let step = 0; step < 8; step++) {
         const [p, d1, d2] = [0, 1, 2].map((power) => value(theta, power));
@@ -212,7 +229,7 @@ const Kernel = (() => {
       const large = due.filter((each) => share(each.part) && share(each.part) >= SMALL * (1 - 1e-9));
       if (!large.length) return;
       const devices = [...steps.at(-1).devices, ...large.flatMap((each) => cancel(engine, each, M / F))];
-      steps.push({ step: name, devices, found: compute({ ...engine, devices: [...engine.devices, ...devices] }) });
+      steps.push({ step: name, devices, found: addDevices(engine, drawn, devices) });
       if (name === "counterweights" || Math.max(...large.map((each) => share(each.part))) >= WORTH_A_SHAFT) auto = name;
     };
     step("counterweights", [[1, 1]]);

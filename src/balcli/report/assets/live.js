@@ -8,7 +8,7 @@
     counterweight: { unbalance: "g mm", angle: "deg", position: "mm" },
     shaft: { ratio: "", unbalance: "g mm", angle: "deg", "at.1": "mm", "at.2": "mm", position: "mm" },
   };
-  let data, original, numbers, engine, ladder, past = [], future = [];
+  let data, original, numbers, engine, ladder, before, past = [], future = [];
 
   const make = (tag, attributes = {}, ...children) => {
     const made = document.createElement(tag);
@@ -202,7 +202,7 @@
   function describeVariant(label, made, found) {
     const turn = Math.PI / 180 * (made.up || 0), [c, s] = [Math.cos(turn), -Math.sin(turn)];
     const turned = ([x, y]) => [x * c - y * s, x * s + y * c];
-    const rows = (kind) => found.kinds[kind].map(([a, b], n) => [n, ...[...turned(a), ...turned(b)].map((v) => v / book.show[kind].size)]);
+    const rows = (kind) => found.kinds[kind].slice(0, 13).map(([a, b], n) => [n, ...[...turned(a), ...turned(b)].map((v) => v / book.show[kind].size)]);
     const beside = {};
     return {
       label, force: rows("force"), moment: made.known ? rows("moment") : [],
@@ -226,11 +226,11 @@
     }));
   }
   function makeScene() {
-    const before = Kernel.assemble(data, original), old = Kernel.compute(before), now = ladder.steps[0].found;
+    const now = ladder.steps[0].found, old = before.found;
     const deg = (angle) => angle * 180 / Math.PI, changed = changes().length > 0;
-    const variants = [describeVariant("before", before, old)];
+    const variants = [describeVariant("before", before.made, old)];
     if (changed) variants.push(describeVariant("now", engine, now));
-    const { force_N: F, moment_Nm: M } = Kernel.describe(engine, ladder).ladder.scale;
+    const { force: F, moment: M } = ladder.scale;
     const unit = (kind, scale) => ({ ...book.show[kind], least: 1e-3 * (scale || 1) / book.show[kind].size });
     const counts = (n) => [now, old].some(({ kinds }) => ["force", "moment"].some((kind) => kinds[kind][n].some((v) => Math.hypot(...v))));
     return {
@@ -239,7 +239,7 @@
         number: c.number, axis: deg(c.axis) - (engine.up || 0), phase: deg(c.psi), z: 1e3 * c.z, rod: 1e3 * c.l, offset: 1e3 * c.e,
       })),
       variants, shown: variants.length - 1, units: { force: unit("force", F), moment: unit("moment", M) },
-      orders: now.kinds.force.map((_, n) => n).filter(counts),
+      orders: Array.from({ length: 13 }, (_, n) => n).filter(counts),
     };
   }
 
@@ -355,6 +355,8 @@
     data = { ...book.engines[key], key: book.choice ? key : book.file };
     original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
     [numbers, past, future] = [{ ...original }, [], []];
+    const made = Kernel.assemble(data, original);
+    before = { made, found: Kernel.compute(made) };
     const { next, wrong } = readAddress();
     if (!apply(next, { remember: false, wrong, rebuild: true })) {
       const told = byId("live-wrong").textContent;

@@ -259,17 +259,18 @@ draw(scene) {
     let rows = [], scale = 1;
     const point = ([x, y]) => `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`;
     const turns = (of) => Array.from({ length: 361 }, (_, k) => sum(of, k));
-    const path = (of) => "M" + turns(of).map(point).join("L");
-    const largest = (of) => Math.max(0, ...turns(of).map((v) => Math.hypot(...v)));
+    const path = (values) => "M" + values.map(point).join("L");
+    const largest = (values) => Math.max(0, ...values.map((v) => Math.hypot(...v)));
     return {
       choose(all, before) {
         rows = all;
-        const most = Math.max(largest(rows), before ? largest(before) : 0), matters = most && most >= unit.least;
+        const values = turns(rows), earlier = before ? turns(before) : [];
+        const most = Math.max(largest(values), largest(earlier)), matters = most && most >= unit.least;
         const full = nice(matters ? most : 1000 * unit.least || 1);
         scale = HALF / full;
         for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round, full) : "";
-        set(curve, { d: path(rows) });
-        set(old, { d: before ? path(before) : "" });
+        set(curve, { d: path(values) });
+        set(old, { d: before ? path(earlier) : "" });
       },
       turn(theta, showChain) {
         const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
