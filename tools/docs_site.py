@@ -54,6 +54,9 @@ def on_files(files: Any, config: Any) -> Any:
     for source, target in PAGES.items():
         text = (ROOT / source).read_text(encoding="utf-8")
         made[target] = link_here(text, config.extra["repository"])
+    from balcli.report.page import make_play_page
+
+    made["play.html"] = make_play_page()
     for notebook in NOTEBOOKS:
         made |= _convert_notebook(notebook)
     with TemporaryDirectory() as folder:

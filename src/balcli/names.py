@@ -108,6 +108,7 @@ QUANTITIES = {
 }
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
+EXPLORE = "report.page:explore"
 
 
 def import_name(place: str) -> Any:

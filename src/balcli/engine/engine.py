@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, list_tables
-from ..names import NOTEBOOK, VARY, import_name
+from ..names import EXPLORE, NOTEBOOK, VARY, import_name
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -140,6 +140,15 @@ class Engine:
         check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
+
+    def explore(self) -> Any:
+        """Return the page of the engine for a notebook: the engine in motion, and its numbers to
+        change.
+
+        Raises:
+            BalcliError: No file describes this engine.
+        """
+        return import_name(EXPLORE)(self)
 
     def to_dict(self) -> Node:
         """Return the tables of the engine file, from which `load` makes the same engine, with

@@ -62,18 +62,20 @@ def report(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
-    from . import page as pages
+    from . import live, page as pages
 
     options = parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units, small
     )
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
-    _, model, engine = read_engine(path, parse_speed(speed))
+    text, model, engine = read_engine(path, parse_speed(speed))
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     with reporting("pictures") as tell:
-        text = pages.page(found.result, found.balanced, SYSTEMS[units], *found[2:], tell)
-    emit(text, output)
+        system = SYSTEMS[units]
+        book = live.describe_one(model, engine, system, text.decode(), name_file(path))
+        page = pages.page(found.result, found.balanced, system, *found[2:], tell, live=book)
+    emit(page, output)
 
 
 def complete_pages(typed: str) -> list[str]:

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import tomli_w
 
 from ..analysis import show as analysis
 from ..analysis.answer import Analysis, analyze
@@ -20,7 +22,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
 from ..core.records import Node
-from ..engine.engine import Engine
+from ..engine.engine import Engine, take_model
 from ..errors import BalcliError, warn
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -35,13 +37,14 @@ from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text
-from ..show.units import ShownUnit, System
+from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
 from ..torsion import plot as twisting, show as torsion
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
+from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
 from .study import Study, analyze_steps
@@ -262,10 +265,13 @@ def page(
     twisted: TorsionAnalysis | None = None,
     turning: Engine | None = None,
     tell: Tell = tell_nobody,
+    *,
+    live: Node | None = None,
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
     gas. All text from the engine file is escaped. `tell` is called with the share of the pictures
-    of forces and moments that is drawn.
+    of forces and moments that is drawn; `live` has the numbers to change on the page
+    (`live.make_book`).
     """
     from markupsafe import Markup
 
@@ -282,6 +288,10 @@ def page(
         pictures.append(Markup(draw_panel(*panel)))
         tell(len(pictures) / (len(alone) + len(beside)))
     return _template().render(
+        whole=True,
+        live=live,
+        live_script=_read_live() if live else None,
+        still=explain_still(result.engine),
         title=own.title,
         version=__version__,
         facts=own.parts[0],
@@ -296,6 +306,58 @@ def page(
         script=_read("report.js"),
         **_gather_chapters(mounted, twisted, turning, system),
     )
+
+
+class Explorer:
+    """The page of an engine in a frame of a notebook.
+
+    Args:
+        text: The page.
+    """
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def _repr_html_(self) -> str:
+        style = "width:100%;height:900px;border:1px solid #ccc"
+        return f'<iframe style="{style}" srcdoc="{escape(self._text, quote=True)}"></iframe>'
+
+
+def explore(engine: Engine) -> Explorer:
+    """Return the page of an engine for a notebook: `Engine.explore`.
+
+    Args:
+        engine: Engine that comes from a file.
+
+    Raises:
+        BalcliError: No file describes the engine.
+    """
+    model = take_model(engine)
+    found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
+    live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
+    return Explorer(page(found.result, found.balanced, SI, *found[2:], live=live))
+
+
+def make_play_page() -> str:
+    """Return a page on which one chooses among the example engines and changes their numbers."""
+    return _template().render(
+        whole=False,
+        live=make_examples(),
+        live_script=_read_live(),
+        still="",
+        title="Change an engine and see its balance",
+        version=__version__,
+        verdict=None,
+        scene=None,
+        style=_read("report.css"),
+        script=_read("report.js"),
+        **dict.fromkeys(("mounts", "torsion", "running")),
+    )
+
+
+def _read_live() -> Markup:
+    """Return the scripts of the panel: the kernel, and the controls."""
+    return _read("engine.js") + _read("live.js")
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
