@@ -142,7 +142,7 @@ def test_picture_of_the_readme_is_what_its_command_draws(tmp_path: Path) -> None
 @pytest.mark.parametrize("document", guide.DOCUMENTS, ids=name_document)
 def test_links_lead_to_files_and_headings_that_exist(document: Path) -> None:
     for target in re.findall(r"\]\(([^)\s]+)\)", document.read_text(encoding="utf-8")):
-        if target.startswith("http"):
+        if target.startswith("http") or target == "play.html":  # which the site makes
             continue
         file, _, heading = target.partition("#")
         there = document.parent / file if file else document
