@@ -108,8 +108,7 @@ class Spectra:
         if orders is self.orders:
             return self
         wanted = np.asarray(orders, float)
-        rows = np.searchsorted(self.orders, wanted)
-        found = {kind.name: p.select_rows(rows) for kind, p in self.items()}
+        found = {kind.name: p.select_orders(wanted) for kind, p in self.items()}
         return Spectra(wanted, self.up_deg, **found)
 
     def select_place(self, place: int) -> Spectra:
