@@ -10,7 +10,7 @@ What belongs to a cylinder is keyed by its number. Angles count from x in the se
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -22,7 +22,7 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
-from ..file.model import ONE_BY_ONE, PISTON_PARTS, Articulation, EngineFile
+from ..file.model import PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
     RodFigures,
@@ -48,11 +48,6 @@ from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
     from .gas import EngineGas
-
-# Keys of a file without mistakes that can be relied on (`file.read.Draft`).
-ALL_KEYS = frozenset(EngineFile.model_fields) | {
-    f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
-}
 
 
 # ------------------------------------------------------------------ pistons and rods
@@ -335,8 +330,6 @@ class Parts:
         model: The file.
         varied: Arrays of variants in place of some figures, by dotted name.
         rank: Trailing axes of the engine, if more than `varied` has.
-        readable: Keys of the file that can be relied on (`file.read.Draft`). A stage that needs
-            others must not be asked for.
         known_gas: Gas of the cylinders, if that is known; else the rules build it.
     """
 
@@ -356,17 +349,15 @@ class Parts:
         model: EngineFile,
         varied: Mapping[str, Figure] | None = None,
         rank: int = 0,
-        readable: Iterable[str] = ALL_KEYS,
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self.gas = model, known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
-        self.readable = frozenset(readable)
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
-        given = "crank.throws" in self.readable and model.crank.throws is not None
+        given = model.crank.throws is not None
         # Beside given throws a firing order would have to fit every variant; only the gas of a
         # single one needs it.
         needed = model.gas is not None and not self.rank

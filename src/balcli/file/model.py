@@ -378,11 +378,6 @@ def label_table(table: FileTable, number: int) -> str:
     return name if name.isidentifier() else str(number)
 
 
-# Tables on which most depends: what depends on some of their keys does not on others, which may
-# be mistaken.
-ONE_BY_ONE: dict[str, type[FileTable]] = {"crank": Crank, "layout": Layout}
-
-
 class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
