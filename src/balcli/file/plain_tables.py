@@ -15,9 +15,9 @@ import numpy as np
 from ..core.records import Node
 from ..errors import InputError, Problem, wrong_type
 from ..limits import MOST_KEY_VALUES
-from .fields import RIGID, Number
+from .fields import RIGID
 from .model import EngineFile, label_table
-from .table import FileTable, document_keys
+from .table import FileTable
 from .toml import name_file, parse_toml, read_bytes
 
 
@@ -205,41 +205,3 @@ def choose_assumed(
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)
     return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
-
-
-_TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
-_TOLD = "left out: "  # in the description of a key: what follows is taken
-
-
-def list_assumed(model: EngineFile) -> Iterator[str]:
-    """Yield each default in words, such as "operation.speed = 1000 rpm", or "rod.inertia: two
-    masses at the ends".
-    """
-    idle = _list_idle(model)
-    for name in _TABLES:
-        table: FileTable = getattr(model, name)
-        for key, field in table.keys().items():
-            path = f"{name}.{key}"
-            if key in table.model_fields_set or path in idle:
-                continue
-            _, told, taken = document_keys(type(table))[key].description.partition(_TOLD)
-            unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
-            if told:
-                yield f"{path}: {taken}"
-            elif isinstance(field.default, str):
-                yield f"{path} = {field.default}"
-            elif isinstance(field.default, int | float) and field.default is not False:
-                yield f"{path} = {field.default:g} {unit}".rstrip()
-
-
-def _list_idle(model: EngineFile) -> set[str]:
-    """Return keys in whose place others stand, or that have no effect in this engine."""
-    found = {"rod.inertia"} if model.rod.pendulum is not None else set()
-    layout = model.layout
-    one_throw = len(model.crank.throws or (0,)) == 1 and layout.firing_order is None
-    one_bank = layout.bank_angle is None and layout.banks is None and layout.radial is None
-    if one_bank:
-        found |= {"crank.splay", "layout.rods", "layout.stagger"}
-    if one_throw and one_bank:
-        found |= {"layout.firing_intervals"}
-    return found
