@@ -293,7 +293,11 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        raise InputError([_impossible(order, ready, total, cycle)])
+        told = (
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
+            f"cycle has {cycle:g}: change firing_order or crank.throws, or leave crank.throws out"
+        )
+        raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):
         shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
         intervals[shortest] += 360.0
@@ -344,25 +348,6 @@ def check_firing(
                 "deg); change crank.throws, crank.splay, firing_order or firing_intervals",
             )
             return
-
-
-def _impossible(
-    order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
-) -> Problem:
-    """Return the message for a firing order that takes longer than a cycle, with the first cylinder
-    that would be late if the engine fired evenly.
-    """
-    interval = cycle / len(order)
-    off = np.array([ready[i] - ready[order[0]] - k * interval for k, i in enumerate(order)])
-    late = np.flatnonzero(np.abs(_centred(off)) > TOLERANCE_DEG)
-    culprit = order[late[0] if len(late) else -1]
-    return Problem(
-        "layout.firing_order",
-        f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle "
-        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first "
-        f"that is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
-        "change firing_order or crank.throws, or leave crank.throws out",
-    )
 
 
 def _to_whole_turn(angle: float) -> float:

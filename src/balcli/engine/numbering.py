@@ -101,13 +101,11 @@ class Candidate:
             intervals or another splay.
         numberings: Numberings of this engine, the one of `model` first.
         change: The other key that makes it fit, with its value; may be empty.
-        splay: The other splay, deg; 0 without.
     """
 
     model: EngineFile
     numberings: list[Rows]
     change: str = ""
-    splay: float = 0.0
 
     @cached_property
     def parts(self) -> Parts:
@@ -141,7 +139,7 @@ class Candidate:
         0.1 m apart where the file gives no spacing.
         """
         model, orders = self.model, np.array([1.0, 2.0])
-        if not self._knows_places:
+        if not self._places_known:
             model = model.with_table("crank", spacing=100.0)
         parts = Parts(model)
         c, (x, y, z) = parts.cylinders, parts.places.reference
@@ -163,13 +161,12 @@ class Candidate:
         mass = max(float(each.reciprocating) for each in parts.weighed.values())
         radius = float(np.max(c.radius))
         one = mass * radius * (self.model.operation.speed * RPM) ** 2
-        known = self._knows_places or parts.plan.throws == 1
-        return max(force, known * moment / max(float(np.ptp(c.z)), 2 * radius)) / (one or np.inf)
+        arm = max(float(np.ptp(c.z)), 2 * radius)
+        return max(force, self._places_known * moment / arm) / (one or np.inf)
 
     @property
-    def _knows_places(self) -> bool:
-        crank = self.model.crank
-        return crank.spacing is not None or crank.positions is not None
+    def _places_known(self) -> bool:
+        return are_places_known(self.model, self.parts.plan)
 
     def describe(self) -> str:
         """Return the line of this engine in a list: keys to copy, throws, balance."""
@@ -177,8 +174,7 @@ class Candidate:
         force, moment = (
             " and ".join(f"{v:.4g}" for v in sizes) for sizes in (p.major for p in self.balance)
         )
-        known = self._knows_places or self.parts.plan.throws == 1
-        told = f"{moment} N m" if known else "not known"
+        told = f"{moment} N m" if self._places_known else "not known"
         same = " or ".join(map(write_rows, self.numberings[1:]))
         return (
             f"{keys}{self.change and ', '}{self.change}: throws "
@@ -203,7 +199,16 @@ class Candidate:
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
         left = (float(abs(p.backward[0]) + p.major[1]) for p in self.balance)
-        return *(float(f"{size:.6g}") for size in left), abs(self.splay), position
+        return *(float(f"{size:.6g}") for size in left), abs(self.model.crank.splay), position
+
+
+def _change(
+    model: EngineFile, path: str, value: float | Sequence[float], numberings: Sequence[Rows] = ()
+) -> Candidate:
+    """Return the engine of a file with another value of a key."""
+    table, _, key = path.partition(".")
+    text = f"{value:g}" if isinstance(value, (int, float)) else f"[{_join(value)}]"
+    return Candidate(model.with_table(table, **{key: value}), [*numberings], f"{path} = {text}")
 
 
 def find_missed(parts: Parts) -> list[Problem]:
@@ -339,8 +344,7 @@ def _split_pins(one: Candidate) -> Iterator[Candidate]:
     """Yield the engine with the splay that makes it fit, if there is one."""
     splay = find_fitting_splay(one.model)
     if splay is not None:
-        split = one.model.with_table("crank", splay=splay)
-        yield Candidate(split, one.numberings, f"crank.splay = {splay:g}", splay)
+        yield _change(one.model, "crank.splay", splay, one.numberings)
 
 
 def _find_remedies(parts: Parts) -> list[Candidate]:
@@ -354,12 +358,8 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
     tier = next(list_tiers(plan, radial=model.layout.radial is not None))
     uneven = [] if model.layout.firing_intervals else list(_list_shared_intervals(parts))
     by_intervals = [
-        Candidate(
-            model.with_table("layout", numbering=rows, firing_intervals=intervals),
-            [rows],
-            f"layout.firing_intervals = [{_join(intervals)}]",
-        )
-        for rows in tier
+        _change(one.model, "layout.firing_intervals", intervals, one.numberings)
+        for one in _number(model, tier)
         for intervals in uneven
     ]
     by_splay = [split for one in _number(model, tier) for split in _split_pins(one)]
@@ -389,7 +389,7 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
         twin = next(filter(one.is_same, engines), None)
         if twin is None:
             engines.append(one)
-        elif one.numberings[0] not in twin.numberings and one.splay == twin.splay:
+        elif one.numberings[0] not in twin.numberings and one.change == twin.change:
             twin.numberings += one.numberings
     return sorted(engines, key=lambda one: one.rank(tier.index(one.numberings[0])))
 
@@ -405,20 +405,18 @@ def _suggest(parts: Parts) -> str:
     ways: list[Candidate] = []
     if intervals is not None:
         later = (*intervals[1:], intervals[0])
-        keys = f"layout.firing_intervals = [{_join(later)}]"
-        ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
+        ways.append(_change(model, "layout.firing_intervals", later))
     usual = find_engines_meant(parts)[0][:1] if model.layout.numbering else []
     for one in usual:
         one.change = f"layout.numbering = {write_rows(one.numberings[0])}"
     ways += usual
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
-        keys = f"crank.throws = [{_join(throws)}], which count in the sense of rotation"
-        ways.append(Candidate(model.with_table("crank", throws=throws), [], keys))
+        ways.append(_change(model, "crank.throws", throws))
+        ways[-1].change += ", which count in the sense of rotation"
         if len(throws) > 1:
-            free = model.with_table("crank", throws=None)
-            listed = _join(_count_throws_from_first(Parts(free)))
-            ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
+            needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
+            ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
     fitting = [way for way in ways if not find_missed(way.parts)]

@@ -33,7 +33,7 @@ from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, un
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
-from ..errors import NO_GAS, BalcliError, list_values, wrong_type
+from ..errors import NO_GAS, BalcliError, check_number, check_type, list_values
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -314,7 +314,9 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         BalcliError: There are none, some are no orders, or half orders that no engine has.
         TypeError: They are no numbers.
     """
-    asked = sorted(set(_list_numbers(orders)))
+    wanted = "give numbers, such as [1, 2, 4]"
+    check_type("orders", orders, Iterable, wanted)
+    asked = sorted({check_number("orders", n, wanted) for n in list_values("orders", orders)})
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(shorten(n) for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
@@ -326,18 +328,6 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
             "for whole orders"
         )
     return np.array(asked, float)
-
-
-def _list_numbers(orders: object) -> list[float]:
-    strange: object = orders
-    is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
-    if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
-        given = list_values("orders", orders)
-        strangers = [one for one in given if not isinstance(one, (int, float, np.number))]
-        if not strangers:
-            return given
-        strange = strangers[0]
-    raise wrong_type("orders", strange, "give numbers, such as [1, 2, 4]")
 
 
 def parse_order(text: str) -> float | None:
