@@ -16,7 +16,7 @@ import numpy as np
 
 from .cylinders import Cylinders, Device
 from .mechanisms.closed_form import Harmonics, Series
-from .phases import SUM, Phases, Vectors
+from .phases import SUM, Phases
 from .phasors import Array, Complex, Figure, Phasors, put_together
 
 
@@ -104,8 +104,8 @@ class Loads:
         return self.phases.add_figures(mean[None])[0]
 
     @cached_property
-    def _pulls(self) -> Vectors:
-        """Force of each cylinder in its own frame, N, shape (orders, cylinders, *trailing): `m_rec
+    def _pulls(self) -> Series:
+        """Force of each cylinder in its own frame, N, as `Phases.add_vectors` takes it: `m_rec
         r (-s'') + m_rot r e^{i psi}` times the square of the speed, and that of a linkage's masses
         on their curves.
         """
@@ -123,7 +123,7 @@ class Loads:
             across: Complex = np.asarray(1j * y.c, np.complex128)
             forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
             error = error + phases.rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
-        return Vectors(put_together(forward, mirrored), error)
+        return Series(put_together(forward, mirrored), error)
 
     @cached_property
     def _inertia(self) -> Series:

@@ -19,7 +19,6 @@ from __future__ import annotations
 import math
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
 
 import numpy as np
 
@@ -32,19 +31,6 @@ TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
 ANGLE = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
 _ALL = slice(None)
-
-
-class Vectors(NamedTuple):
-    """A rotating vector of each cylinder in its own frame, x along its axis.
-
-    Attributes:
-        sides: shape (2, orders, cylinders or 1, *trailing); forward ones, then the conjugates of
-            backward ones; a single one stands for all cylinders.
-        error: rounding error of either, shape (orders, cylinders or 1, *trailing).
-    """
-
-    sides: Array | Complex
-    error: Array
 
 
 class Phases:
@@ -86,17 +72,21 @@ class Phases:
 
     # -------------------------------------------------------------- sums over the cylinders
     def add_vectors(
-        self, vectors: Vectors, arms: Array | None = None, sizes: Array | None = None
+        self, vectors: Series, arms: Array | None = None, sizes: Array | None = None
     ) -> Phasors:
         """Sum of the cylinders' vectors, or of these (real) multiples of them.
 
         Args:
+            vectors: A rotating vector of each cylinder in its own frame, x along its axis, shape
+                (2, orders, cylinders or 1, *trailing): forward ones, then the conjugates of
+                backward ones, with the rounding error of either; a single one stands for all
+                cylinders.
             arms: shape (cylinders, *trailing).
             sizes: bounds of the arms that their rounding errors grow with, same shape.
         """
-        sums = self._add(self._planar, vectors.sides, arms)
+        sums = self._add(self._planar, vectors.c, arms)
         np.conjugate(sums[1], out=sums[1])
-        return Phasors(self.orders, sums, self.add_figures(vectors.error, sizes))
+        return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
         """Sum of the cylinders' scalars about z."""
