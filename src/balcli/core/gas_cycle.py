@@ -199,19 +199,16 @@ class _Cycle:
             return [(self.piston.angle_of(travel), _hold(self.limit))]
         if self.process.cycle != "wiebe":
             return []
-        before = self._expand(self.constant)
-        return [
-            (self.start, before),
-            (self.end, lambda angle: before(angle) + heat * self._rise(angle)),
-        ]
+
+        def burn(angle: Array) -> Array:
+            constant = self.constant + (self.index - 1) * heat * self._grow(angle)
+            return constant / self.find_volume(angle) ** self.index
+
+        return [(self.start, self._expand(self.constant)), (self.end, burn)]
 
     def _find_last(self, heat: float) -> float:
         """Return the volume at the end of constant pressure, m3."""
         return self.charge + (heat - self.least) / self.share
-
-    def _rise(self, angle: Array) -> Array:
-        """Return the pressure that one unit of heat adds by Wiebe's law."""
-        return (self.index - 1) * self._grow(angle) / self.find_volume(angle) ** self.index
 
     def _find_burnt(self, angle: Array) -> Array:
         xi = np.clip((angle - self.start) / (self.end - self.start), 0, 1)

@@ -47,7 +47,7 @@ from .parts import Parts
 from .rods import check_ends, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
-    from ..file.gas_tables import Bearing, Flywheel
+    from ..file.gas_tables import Flywheel
 
 
 def build(
@@ -76,6 +76,10 @@ def build(
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
+    bearings = None
+    if (table := model.bearing) is not None:
+        pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
+        bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
     return Engine(
         name=model.name,
         source=model.source,
@@ -96,7 +100,7 @@ def build(
         gas=parts.gas,
         crank_inertia=divide(inertia, 1e6),
         flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
-        bearings=None if model.bearing is None else _find_bearings(model.bearing),
+        bearings=bearings,
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )
@@ -127,11 +131,6 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
     if mass is None or radius is None:
         return divide(inertia, 1e6)
     return mass * (radius * 1e-3) ** 2
-
-
-def _find_bearings(table: Bearing) -> Bearings:
-    pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
-    return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
 
 
 # ------------------------------------------------------------------ rules between the stages

@@ -66,11 +66,18 @@ def plan_cylinders(model: EngineFile) -> Plan:
     banks = count_banks(layout)
     shared = layout.rods == "shared" or banks == 1
     throws = _count_throws(crank, layout, banks if shared else 1)
-    _refuse_too_many(throws, banks, shared)
+    if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # more than there is memory for
+        told = (
+            f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
+            f"no engine has more than {MOST_PARTS} cylinders"
+        )
+        raise InputError([Problem("layout" if banks > 1 else "crank.throws", told)])
     all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
     places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
     numbers, problems = _number_cylinders(layout, places, banks)
-    problems += _check_positions(crank, throws)
+    if crank.positions is not None and len(crank.positions) != throws:
+        told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
+        problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
         problems.append(
             Problem(
@@ -126,26 +133,6 @@ def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
         )
         raise InputError([Problem("layout.firing_order", message)])
     return max(cylinders // rods, 1)
-
-
-def _refuse_too_many(throws: int, banks: int, shared: bool) -> None:
-    """Raise InputError for more cylinders (banks x throws) than there is memory for."""
-    if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
-        return
-    message = (
-        f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
-        f"no engine has more than {MOST_PARTS} cylinders"
-    )
-    raise InputError([Problem("layout" if banks > 1 else "crank.throws", message)])
-
-
-def _check_positions(crank: Crank, throws: int) -> Iterator[Problem]:
-    if crank.positions is not None and len(crank.positions) != throws:
-        yield Problem(
-            "crank.positions",
-            f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
-            "give one position a throw",
-        )
 
 
 def _number_cylinders(
@@ -290,7 +277,9 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
         InputError: The order takes more than a cycle.
     """
     following = [*order[1:], order[0]]
-    intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
+    turned = [(ready[b] - ready[a]) % 360 for a, b in zip(order, following, strict=True)]
+    # An angle within the tolerance of 0 is a whole turn.
+    intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
         told = (
@@ -338,7 +327,7 @@ def check_firing(
     first = find_first(fires)
     for i, wanted in find_pins(fires, tops, sense).items():
         ahead = pins[i] - pins[first]
-        off = float(np.max(np.abs(_centred(ahead - wanted))))
+        off = float(np.max(np.abs(np.remainder(ahead - wanted + 180.0, 360.0) - 180.0)))
         if off > TOLERANCE_DEG:
             yield Problem(
                 "layout.firing_order",
@@ -348,14 +337,3 @@ def check_firing(
                 "deg); change crank.throws, crank.splay, firing_order or firing_intervals",
             )
             return
-
-
-def _to_whole_turn(angle: float) -> float:
-    """Return an angle in (0, 360]; an angle within the tolerance of 0 is a whole turn."""
-    turned = angle % 360
-    return turned if turned > TOLERANCE_DEG else turned + 360
-
-
-def _centred(angle: Figure) -> Figure:
-    """Return an angle in [-180, 180)."""
-    return np.remainder(angle + 180.0, 360.0) - 180.0

@@ -176,21 +176,19 @@ class Candidate:
         )
         told = f"{moment} N m" if self._places_known else "not known"
         same = " or ".join(map(write_rows, self.numberings[1:]))
+        first = next(c for c in self.parts.plan.cells if c.number == 1)
+        angles = bank_angles(self.model.layout, self.parts.figures)
+        side = float(np.remainder(angles[first.bank] + 180.0, 360.0)) - 180.0
+        bank = f"bank {first.bank + 1}"
+        if len(angles) == 2 and side:
+            bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
         return (
             f"{keys}{self.change and ', '}{self.change}: throws "
-            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 {self._place_first()};"
+            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 on {bank}, throw "
+            f"{first.throw + 1};"
             f" orders 1 and 2: force {force} N, moment {told}"
             + (f"; the same engine: {same}" if same else "")
         )
-
-    def _place_first(self) -> str:
-        cell = next(c for c in self.parts.plan.cells if c.number == 1)
-        angles = bank_angles(self.model.layout, self.parts.figures)
-        side = float(np.remainder(angles[cell.bank] + 180.0, 360.0)) - 180.0
-        bank = f"bank {cell.bank + 1}"
-        if len(angles) == 2 and side:
-            bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
-        return f"on {bank}, throw {cell.throw + 1}"
 
     def rank(self, position: int) -> tuple[float, ...]:
         """Return the key to sort lines by: force and moment that counterweights leave, splay, and
@@ -568,21 +566,18 @@ def _find_usual_orders(parts: Parts) -> str:
     if plan.banks == 1:
         order = parts.order or ()
         turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
-        built = len(throws) % 2 or throws == throws[::-1] or _is_two_fours(throws)
+        built = len(throws) % 2 or throws == throws[::-1]
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
+        if len(throws) == 8 and not built:  # two cranks of straight fours in series, at 90 deg
+            fours = [[round((t - one[0]) % TURN) for t in one] for one in (throws[:4], throws[4:])]
+            across = round(abs(throws[4] - 180)) == 90
+            built = across and fours == [[0, 180, 180, 0]] * 2
         return "" if built else USUAL_ORDERS.get(len(throws), "")
     if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
         return ""
     built = all(map(_are_opposite, throws[::2], throws[1::2]))
     return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
-
-
-def _is_two_fours(throws: Sequence[float]) -> bool:
-    """Return whether throws are those of two cranks of straight fours in series, at 90 deg."""
-    fours = [[round((throw - one[0]) % TURN) for throw in one] for one in (throws[:4], throws[4:])]
-    across = len(throws) == 8 and round(abs(throws[4] - 180)) == 90
-    return across and fours == [[0, 180, 180, 0]] * 2
 
 
 def _are_opposite(first: float, second: float) -> bool:

@@ -177,15 +177,11 @@ class TableReader:
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not _is_miscounted(finding):
+            elif not (  # a list whose members have findings of their own was not counted in full
+                finding["type"] == "too_short"
+                and len(finding["input"]) >= finding["ctx"]["min_length"]
+            ):
                 self.problems.append(self._describe(path, finding, table))
-
-
-def _is_miscounted(finding: ErrorDetails) -> bool:
-    """Return whether a list is called too short only because members of it, which have findings of
-    their own, were not counted.
-    """
-    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
 
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
@@ -242,7 +238,13 @@ def check_tables(
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
-    _refuse_strangers(reader, data)
+    for key in filter(lambda key: key not in KNOWN, data):
+        inside = data[key]
+        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
+            reader.refuse_key("", key, KNOWN, inside)
+            continue
+        for inner, value in inside.items():  # of an unknown table: each with the table that has it
+            reader.refuse_key(printable(key), inner, None, value)
     for key, example in REQUIRED.items():
         if key not in data and not body_alone:
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
@@ -292,21 +294,6 @@ def change_figures(
     if reader.problems:
         raise reader.refusal("")
     return model.model_copy(update=changed)
-
-
-def _refuse_strangers(reader: TableReader, data: Mapping[str, object]) -> None:
-    """Refuse keys of the file itself that no engine file has. For an unknown table such as
-    `[engine]`, each of its keys is refused, with the table that has it.
-    """
-    for key in data:
-        if key in KNOWN:
-            continue
-        inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
-            reader.refuse_key("", key, KNOWN, inside)
-        else:
-            for inner, value in inside.items():
-                reader.refuse_key(printable(key), inner, None, value)
 
 
 def _read_text(reader: TableReader, key: str, value: object) -> str | None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from inspect import getsource
-from itertools import chain, pairwise
+from itertools import pairwise
 from textwrap import dedent
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
@@ -112,9 +112,13 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield the contradictions between the keys of this table that its rules find."""
-        for rule in _list_rules(type(self)):
-            yield from rule(self)
+        """Yield the contradictions between the keys of this table that its rules find, those of its
+        bases first.
+        """
+        for base in reversed(type(self).__mro__):
+            for name, rule in vars(base).items():
+                if name.startswith("_check_"):
+                    yield from rule(self)
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""
@@ -141,13 +145,6 @@ class FileTable(BaseModel):
             if document.example is not None:
                 properties[key]["examples"] = [document.example]
         return node
-
-
-@cache
-def _list_rules(table: type[FileTable]) -> list[Callable[[FileTable], Iterator[str]]]:
-    """Return the rules of a table, those of its bases first."""
-    names = (vars(base).items() for base in reversed(table.__mro__))
-    return [rule for name, rule in chain.from_iterable(names) if name.startswith("_check_")]
 
 
 @cache

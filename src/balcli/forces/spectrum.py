@@ -29,7 +29,7 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..engine.gas import CylinderGas, EngineGas
@@ -250,7 +250,13 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    found, crank = {}, _find_crankshaft(engine) / (c.count if each else 1)
+    # `crank.inertia` beyond the unbalanced masses of the throws, which turn with the pins
+    found, crank = {}, engine.crank_inertia
+    if crank is None or engine.rotary:
+        crank = 0.0
+    else:
+        throws = sum(masses.share for masses in engine.weighed) * c.radius**2
+        crank = (crank - throws) * engine.omega**2 / (c.count if each else 1)
     for name, phasors in steady.items():
         if name == "torque":
             inertia = lowest.mean_inertia + crank
@@ -260,16 +266,6 @@ def _compute_inertia(
             mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
         found[name] = mixed.select_orders(orders)
     return found
-
-
-def _find_crankshaft(engine: Engine) -> Figure:
-    """Return the part of `crank.inertia` beyond the unbalanced masses of the throws, which turn
-    with the pins, times the square of the speed, N m; 0 where the file does not give it.
-    """
-    if engine.crank_inertia is None or engine.rotary:
-        return 0.0
-    throws = sum(masses.share for masses in engine.weighed) * engine.cylinders.radius**2
-    return (engine.crank_inertia - throws) * engine.omega**2
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:

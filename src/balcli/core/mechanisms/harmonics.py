@@ -206,7 +206,11 @@ def sample_mechanisms(
         if len(rows) > most:
             waiting.append((count, rows[most:]))
             rows = rows[:most]
-        motion = move(unit_circle(count)[:, None], *(values[rows] for values in figures))
+        circle = unit(np.arange(count) * (360 / count))[:, None]
+        motion = move(circle, *(values[rows] for values in figures))
+        inside = (n % 1 == 0) & (n < count // 2)  # orders that the samples have
+        numbers = np.where(inside, n, 0).astype(int)
+        scale = (np.where(numbers == 0, 1, 2) * inside)[:, None]
         enough = np.ones(len(rows), bool)
         for name in _OF_ROD.union(_SAMPLED if motion.points else ()).intersection(wanted):
             samples = _SAMPLED[name](motion)
@@ -215,32 +219,13 @@ def sample_mechanisms(
             if name not in series:
                 shape = len(n), len(counts)
                 series[name] = Series(np.zeros(shape, complex), np.zeros(shape[1]))
-            series[name].c[:, rows] = _pick_orders(spectrum, n)
+            series[name].c[:, rows] = spectrum[numbers] * scale
             np.asarray(series[name].noise)[rows] = SAMPLING * rounding
             enough &= _is_enough(spectrum, rounding, highest) | (count >= MOST_SAMPLES)
         taken[rows] = count
         if not enough.all():
             waiting.append((2 * count, rows[~enough]))
     return series, taken
-
-
-def unit_circle(count: int) -> Complex:
-    """Return e^{i psi} at `count` evenly spaced psi, each component within 2 ulp of itself."""
-    return unit(np.arange(count) * (360 / count))
-
-
-def _pick_orders(spectrum: Complex, orders: Numbers) -> Complex:
-    """Return the coefficients of these orders, shape (orders, mechanisms), 0 for orders that are
-    not whole or beyond the samples.
-
-    Args:
-        spectrum: `rfft` of the samples with norm "forward", shape (samples/2 + 1, mechanisms).
-        orders: shape (orders,).
-    """
-    inside = (orders % 1 == 0) & (orders < len(spectrum) - 1)
-    numbers = np.where(inside, orders, 0).astype(int)
-    scale = np.where(numbers == 0, 1, 2) * inside
-    return np.asarray(spectrum[numbers] * scale[:, None])
 
 
 def _amplify_rounding(samples: Array, condition: Array | float) -> Array:

@@ -203,29 +203,14 @@ def hang(
         lam, eps, knuckle, lead_deg: of the articulated rods, as in `Articulated`.
         master_lam, master_eps: of the master rods.
     """
-    pin = follow_knuckle(on_circle(psi), knuckle, lead_deg, master_lam, master_eps)
+    crank, lead = on_circle(psi), unit(lead_deg)
+    master = SliderCrank(crank * lead, master_lam, master_eps)  # e^{i psi_m}, turned back by lead
+    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
+    bend = compose(master.spin**2, -master.spin_rate)
+    pin = PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)
     lean = lam * pin.z.imag - eps
     condition = 1 / (1 - np.minimum(np.abs(lean), 1 - EPS))
     return Motion(pin, lam, lean, np.sqrt((1 - lean) * (1 + lean)), (pin,), condition)
-
-
-def follow_knuckle(
-    crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
-) -> PointMass:
-    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods.
-
-    Args:
-        crank: e^{i psi} of the cylinders.
-        knuckle: Knuckle pin from the crank pin, in crank radii, on the master rod.
-        lead_deg: Crank angle of the master less the cylinder's own, deg.
-        lam: Crank radius / rod length of the masters.
-        eps: Offset / rod length of the masters.
-    """
-    lead = unit(lead_deg)
-    master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
-    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
-    bend = compose(master.spin**2, -master.spin_rate)
-    return PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)
 
 
 @dataclass(frozen=True)
