@@ -31,7 +31,7 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults, list_mass_defaults
+from ..file.plain_tables import list_chapter_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -454,39 +454,39 @@ def _list_firing(parts: Parts) -> Iterator[str]:
 
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield the defaults of speed, places, inertia and gas that the file does not give."""
-    model, gas = parts.model, parts.model.gas
-    together = parts.plan.rods_on_throw > 1 and model.articulation is None
-    if "speed" not in model.operation.model_fields_set:
-        yield f"operation.speed = {model.operation.speed:g}"
-    if not are_places_known(model, parts.plan):
-        yield "crank.spacing = 0"
-    if together and "stagger" not in model.layout.model_fields_set:
-        yield "layout.stagger = 0"
-    yield from _list_masses(parts)
-    if gas is not None:
-        own = sum(one.indicator is not None for one in model.cylinder.values())
-        computed = gas.cycle is not None and own < len(parts.plan.cells)
-        measured = gas.indicator is not None or own > 0
-        yield from gas.list_assumed(model.layout.strokes, measured, computed)
-
-
-def _list_masses(parts: Parts) -> Iterator[str]:
-    """Yield masses and inertias that the file does not give, those of rods as of two masses at the
-    ends, and the piston offset of a narrow vee.
+    """Yield the defaults of speed, places, masses, inertias and gas that the file does not give:
+    inertias of rods as of two masses at the ends, the piston offset for a narrow vee.
     """
-    model, hinged = parts.model, parts.model.articulation
-    yield from list_mass_defaults(model)
-    rods = {"rod": model.rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
-    for path, rod in rods.items():
-        spin = float(parts.weigh_gear(parts.find_rod(0, rod is not model.rod)).spin)
-        if spin > 0 and rod.inertia is None and rod.pendulum is None:
+    model, gas, hinged = parts.model, parts.model.gas, parts.model.articulation
+    crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
+    together = parts.plan.rods_on_throw > 1 and hinged is None
+    uneven = model.flywheel is not None or running.speed_ripple
+    left_out = {
+        f"operation.speed = {running.speed:g}": not running.has("speed"),
+        "crank.spacing = 0": not are_places_known(model, parts.plan),
+        "layout.stagger = 0": together and not layout.has("stagger"),
+        "crank.throw_mass = 0": not (crank.has("throw_mass") or layout.rotary),
+        "crank.inertia = 0": crank.inertia is None and uneven,
+        "flywheel.inertia = 0": crank.inertia is not None and model.flywheel is None,
+        "rod.mass = 0": rod.mass is None and rod.small_end is None,
+        "rod.cg = 0": rod.mass and rod.cg is None,
+    }
+    yield from (default for default, counts in left_out.items() if counts)
+    rods = {"rod": rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
+    for path, each in rods.items():
+        spin = float(parts.weigh_gear(parts.find_rod(0, each is not rod)).spin)
+        if spin > 0 and each.inertia is None and each.pendulum is None:
             yield f"{path}.inertia = {1e6 * spin:g}"
-    first, *others = (float(angle) for angle in bank_angles(model.layout, parts.figures))
+    first, *others = (float(angle) for angle in bank_angles(layout, parts.figures))
     own = any(one.piston_offset is not None for one in model.cylinder.values())
     if len(others) == 1 and not (model.piston.has("offset") or own):
         vee = abs((others[0] - first + 180) % TURN - 180)
         yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
+    if gas is not None:
+        diagrams = sum(one.indicator is not None for one in model.cylinder.values())
+        computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
+        measured = gas.indicator is not None or diagrams > 0
+        yield from gas.list_assumed(layout.strokes, measured, computed)
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:

@@ -159,35 +159,19 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
     member: `mount.dynamic_factor = 1`.
     """
-    if (torsion := model.torsion) is not None:
-        for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
-            of_steel = (part for part in parts if part.is_of_unnamed_steel)
-            yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
-        if not (torsion.has("loss") or torsion.has("damping")):
-            yield "torsion.loss = 0"
-    if model.body is not None and not model.body.has("gravity"):
-        yield "body.gravity = [-1, 0, 0]"
-    if model.body is not None and model.gas is not None and not model.body.has("carries_load"):
-        yield "body.carries_load = false"
-    if not all(one.has("loss") or one.has("damping") for one in model.mount):
-        yield "mount.loss = 0"
-    if not all(one.has("dynamic_factor") for one in model.mount):
-        yield "mount.dynamic_factor = 1"
-
-
-def list_mass_defaults(model: EngineFile) -> Iterator[str]:
-    """Yield masses and inertias of crank, flywheel and rod that the file does not give."""
-    crank, rod = model.crank, model.rod
-    if not (crank.has("throw_mass") or model.layout.rotary):
-        yield "crank.throw_mass = 0"
-    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
-        yield "crank.inertia = 0"
-    if crank.inertia is not None and model.flywheel is None:
-        yield "flywheel.inertia = 0"
-    if rod.mass is None and rod.small_end is None:
-        yield "rod.mass = 0"
-    elif rod.mass and rod.cg is None:
-        yield "rod.cg = 0"
+    torsion, body, mounts = model.torsion, model.body, model.mount
+    for end, parts in (("front", torsion.front), ("rear", torsion.rear)) if torsion else ():
+        of_steel = (part for part in parts if part.is_of_unnamed_steel)
+        yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
+    undamped = torsion is not None and not (torsion.has("loss") or torsion.has("damping"))
+    left_out = {
+        "torsion.loss = 0": undamped,
+        "body.gravity = [-1, 0, 0]": body is not None and not body.has("gravity"),
+        "body.carries_load = false": body and model.gas and not body.has("carries_load"),
+        "mount.loss = 0": not all(one.has("loss") or one.has("damping") for one in mounts),
+        "mount.dynamic_factor = 1": not all(one.has("dynamic_factor") for one in mounts),
+    }
+    yield from (default for default, counts in left_out.items() if counts)
 
 
 # Tables that count in some subjects alone.
