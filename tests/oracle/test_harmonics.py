@@ -283,9 +283,9 @@ def test_what_does_not_vary_has_one_mechanism():
     eps = np.zeros((3, 2, 4))
     eps[1] = [0.01, 0.02, 0.03, 0.04]
     few = find_distinct(lam, eps)
-    assert few.figures[1].tolist() == [0, 0.01, 0.02, 0.03, 0.04]
-    assert few.which[:, 0].tolist() == [[0] * 4, [1, 2, 3, 4], [0] * 4]
-    assert np.array_equal(few.which[:, 0], few.which[:, 1])
+    assert few[0][1].tolist() == [0, 0.01, 0.02, 0.03, 0.04]
+    assert few[1][:, 0].tolist() == [[0] * 4, [1, 2, 3, 4], [0] * 4]
+    assert np.array_equal(few[1][:, 0], few[1][:, 1])
 
 
 def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():

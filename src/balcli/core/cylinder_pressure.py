@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from .cylinders import Cylinders, find_travel
 from .mechanisms import slidercrank
-from .mechanisms.linkage import Articulated, Linkage, Rotary
+from .mechanisms.linkage import Articulated, Rotary
 from .mechanisms.motion import Motion
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
@@ -118,7 +118,9 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
         cylinders: Without trailing axes.
         area: Area of the bores, m2, one or one each.
     """
-    linkage = _find_articulation(cylinders.linkage)
+    # What moves the pistons along their axes; in rotary engines it is the same.
+    kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
+    linkage = kind if isinstance(kind, Articulated) else None
     c, found = replace(cylinders, linkage=linkage), []
     lam, eps, *sizes = (np.broadcast_to(v, c.count) for v in (c.lam, c.eps, area, *find_travel(c)))
     for row in range(c.count):
@@ -137,15 +139,6 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
         piston = GasPiston(bore, stroke, upper, lower, float(c.radius), lam[rows], eps[rows], own)
         found.append(piston)
     return found
-
-
-def _find_articulation(linkage: Linkage | None) -> Articulated | None:
-    """Return what moves the pistons along their axes where not all rods are on the crank pin; in
-    rotary engines it is the same.
-    """
-    if isinstance(linkage, Rotary):
-        return linkage.hung
-    return linkage if isinstance(linkage, Articulated) else None
 
 
 # ---------------------------------------------------------------- pressure and torque

@@ -135,7 +135,12 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
         curves: without trailing axes, each of all orders that count.
         orders: (orders,) wanted, whole steps.
     """
-    felt = np.stack([_sample(curve, timetable) * timetable.stay for curve in curves])
+    series = np.zeros((len(curves), len(timetable.clock)), complex)
+    for own, curve in zip(series, curves, strict=True):
+        rows = np.rint(curve.orders / timetable.step).astype(int)
+        np.add.at(own, rows, curve.forward)
+        np.add.at(own, -rows, curve.backward)
+    felt = np.fft.ifft(series, norm="forward") * timetable.stay
     found = np.empty((2, len(orders), len(curves)), complex)
     for k, order in enumerate(orders):
         wave = np.exp(1j * order * timetable.clock)
@@ -144,15 +149,6 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
     sizes = [np.sum(np.abs(curve.vectors)) for curve in curves]
     noises = [np.full(orders.shape, 8 * EPS * size) for size in sizes]
     return [Phasors(orders, found[:, :, k], noise).drop_noise() for k, noise in enumerate(noises)]
-
-
-def _sample(curve: Phasors, timetable: Timetable) -> Complex:
-    """Return values (samples,) at the crank angles of a timetable."""
-    series = np.zeros(len(timetable.clock), complex)
-    rows = np.rint(curve.orders / timetable.step).astype(int)
-    np.add.at(series, rows, curve.forward)
-    np.add.at(series, -rows, curve.backward)
-    return np.fft.ifft(series, norm="forward")
 
 
 def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:

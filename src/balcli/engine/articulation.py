@@ -12,7 +12,6 @@ from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Figure
 from ..errors import Problem
 from ..file.fields import counted
-from ..file.model import EngineFile
 from ..limits import NEAREST_TO_LOCK
 from .layout import Plan
 from .parts import Parts
@@ -85,49 +84,32 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
     if parts.model.articulation is None:
         return
     cylinders, numbers = parts.cylinders, parts.numbers
-    linkage = cast(Linkage, cylinders.linkage)
+    linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
-    leans = _sample_leans(hung, cylinders.lam, cylinders.eps)
-    turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
-    for row, number in enumerate(numbers):
-        worst = int(leans[row].argmax())
-        lean = leans[row, worst] + _rise_above(leans[row], worst)
-        if hung.master[row] != row and lean > 1 - NEAREST_TO_LOCK:
-            yield _lock(parts.model, number, lean, (360 / STEPS * worst - turned[row]) % 360)
-
-
-def _sample_leans(hung: Articulated, lam: Array, eps: Array) -> Array:
-    """Return the largest |sine| of each rod's angle to its cylinder's axis, of all variants, over a
-    revolution: shape (cylinders, STEPS); 0 if no rod can come near its lock.
-    """
-    count = len(hung.master)
     if np.all(hung.bound_lean(lam, eps) <= 1 - NEAREST_TO_LOCK):
-        return np.zeros((count, STEPS))
+        return
 
     def find_largest(motion: Motion) -> Array:
         lean = np.abs(motion.lean)
-        return lean.reshape(count, -1, lean.shape[-1]).max(axis=1)
+        return lean.reshape(len(numbers), -1, lean.shape[-1]).max(axis=1)
 
     with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
-        return hung.sample(find_largest, revolution(STEPS), lam, eps)
-
-
-def _lock(model: EngineFile, number: int, lean: float, crank_deg: float) -> Problem:
-    own = model.cylinder.get(number)
-    general = own is None or (own.rod_length is None and own.rod_ratio is None)
-    return Problem(
-        "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
-        f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of cylinder "
-        f"{number} stands {lean:.9g} rod lengths off the path of its piston pin; at most 1 - "
-        f"{NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the knuckle radius "
-        "smaller",
-    )
-
-
-def _rise_above(values: Array, top: int) -> float:
-    """Return the height above a sampled maximum (index `top`) of the parabola through it and its
-    neighbours.
-    """
-    before, at, after = values[top - 1], values[top], values[(top + 1) % len(values)]
-    bend = 2 * at - before - after
-    return float((after - before) ** 2 / (8 * bend)) if bend > 0 else 0.0
+        leans = hung.sample(find_largest, revolution(STEPS), lam, eps)
+    turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
+    for row, number in enumerate(numbers):
+        worst = int(leans[row].argmax())
+        before, at, after = (leans[row, (worst + k) % STEPS] for k in (-1, 0, 1))
+        bend = 2 * at - before - after
+        # The top of the parabola through the sampled maximum and its neighbours
+        lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
+        if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
+            continue
+        own, crank_deg = parts.model.cylinder.get(number), (360 / STEPS * worst - turned[row]) % 360
+        general = own is None or (own.rod_length is None and own.rod_ratio is None)
+        yield Problem(
+            "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
+            f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of "
+            f"cylinder {number} stands {lean:.9g} rod lengths off the path of its piston pin; at "
+            f"most 1 - {NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the "
+            "knuckle radius smaller",
+        )

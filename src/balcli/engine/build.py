@@ -14,9 +14,8 @@ function of the stages before it. `engine.parts` makes a stage when it is first 
 
 An engine has to keep rules: a rod lets its crank turn, every cylinder is at top dead centre when it
 fires, and so on. The groups of `RULES` go from early stages to late ones; the first group with
-mistakes ends the search. A rule names the keys of the file that it needs. Thus a file with some
-unreadable keys is checked by the same rules as far as it can be read (`engine.parse`), and the user
-sees all mistakes at once.
+mistakes ends the search. A file with mistakes in tables that do not make the engine is checked by
+the same rules, so that the user sees all mistakes at once (`engine.parse`).
 
 Variants take the same way: `varied` puts arrays in place of figures of the file, and every stage
 works on arrays as it does on numbers.
@@ -26,7 +25,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -35,6 +34,7 @@ from ..core.phasors import Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
+from ..file.read import Draft
 from ..limits import MOST_SAMPLES
 from .articulation import check_articulation, check_knuckles
 from .devices import build_devices
@@ -44,10 +44,10 @@ from .gas import EngineGas
 from .layout import are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
-from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
+from .rods import check_ends, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
-    from ..file.gas_tables import Bearing, Flywheel
+    from ..file.gas_tables import Flywheel
 
 
 def build(
@@ -76,6 +76,10 @@ def build(
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
+    bearings = None
+    if (table := model.bearing) is not None:
+        pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
+        bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
     return Engine(
         name=model.name,
         source=model.source,
@@ -96,7 +100,7 @@ def build(
         gas=parts.gas,
         crank_inertia=divide(inertia, 1e6),
         flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
-        bearings=None if model.bearing is None else _find_bearings(model.bearing),
+        bearings=bearings,
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )
@@ -129,39 +133,34 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
     return mass * (radius * 1e-3) ** 2
 
 
-def _find_bearings(table: Bearing) -> Bearings:
-    pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
-    return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
-
-
 # ------------------------------------------------------------------ rules between the stages
-class Rule(NamedTuple):
-    """A check, and the keys of the file that must be readable for it."""
+# Tables without whose figures no contradiction between tables can be found.
+_NEEDED = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"})
 
-    check: Callable[[Parts], Iterator[Problem]]
-    needs: frozenset[str]
+
+def list_contradictions(draft: Draft) -> list[Problem]:
+    """Return the contradictions between the tables of a file with mistakes; none if a table that
+    makes the engine cannot be read.
+    """
+    return find_contradictions(Parts(draft.model)) if draft.readable >= _NEEDED else []
 
 
 def find_contradictions(parts: Parts) -> list[Problem]:
-    """Return the contradictions between tables of a file, as far as the file could be read.
+    """Return the contradictions between tables of a file.
 
     The rules of a group presuppose those of the groups before it, so that only the first group with
     mistakes is reported, each mistake once.
     """
     for rules in RULES:
-        applicable = [rule for rule in rules if rule.needs <= parts.readable]
-        problems = [problem for rule in applicable for problem in _apply(rule, parts)]
+        problems: list[Problem] = []
+        for check in rules:
+            try:
+                problems += check(parts)
+            except InputError as error:  # a stage that cannot be made
+                problems += error.problems
         if problems:
             return list(dict.fromkeys(problems))
     return []
-
-
-def _apply(rule: Rule, parts: Parts) -> Iterator[Problem]:
-    """Yield the mistakes that a rule finds, or those of a stage that cannot be made for it."""
-    try:
-        yield from rule.check(parts)
-    except InputError as error:
-        yield from error.problems
 
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
@@ -182,45 +181,16 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
     Whether an articulated rod can follow its knuckle pin depends on its master: `check_knuckles`.
     """
     checked = set()
-    for number, articulated in _list_rods(parts):
-        rod = (number if number in parts.tables else 0, articulated)
-        if rod not in checked:
-            checked.add(rod)
-            yield from _check_rod(parts, parts.find_rod(number, articulated))
-
-
-def _list_rods(parts: Parts) -> list[tuple[int, bool]]:
-    """Return the cylinder of each rod, and whether the rod is articulated. Where the plan is not
-    known, 0 stands for the rod of all cylinders.
-    """
-    if not parts.readable >= {*_PLAN, "articulation"}:
-        return [(0, False)]
-    try:
-        return [(number, number in parts.masters) for number in parts.plan.numbers]
-    except InputError:
-        own = () if parts.model.articulation else parts.tables
-        return [(number, False) for number in (0, *own)]
-
-
-def _check_rod(parts: Parts, place: RodPlace) -> Iterator[Problem]:
-    one_end = list(check_ends(place))
-    yield from one_end
-    gear = _weigh_rod(parts, place)
-    if gear is None:
-        return
-    if not one_end:
-        yield from check_rod_inertia(place, gear)
-    if "crank.stroke" in parts.readable and not place.articulated:
-        yield from check_turning(place, gear, parts.radius)
-
-
-def _weigh_rod(parts: Parts, place: RodPlace) -> RunningGear | None:
-    """Return a rod, with its piston as far as [piston] is readable; None without a rod length."""
-    if parts.readable >= {"crank.stroke", "piston"}:
-        return parts.weigh_gear(place)
-    if "crank.stroke" in parts.readable:
-        return weigh_rod(place.rod, place.rod.length_for(parts.radius))
-    return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
+    for number in parts.plan.numbers:
+        place = parts.find_rod(number, number in parts.masters)
+        rod = number if number in parts.tables else 0, place.articulated
+        if rod in checked:
+            continue
+        checked.add(rod)
+        gear, one_end = parts.weigh_gear(place), list(check_ends(place))
+        yield from one_end or check_rod_inertia(place, gear)
+        if not place.articulated:
+            yield from check_turning(place, gear, parts.radius)
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
@@ -298,21 +268,11 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
 
 
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
-_BANKS = ("bank_angle", "banks", "radial", "rods", "numbering", "firing_order")
-_PLAN = frozenset(  # keys that decide which cylinders there are
-    {"crank.throws", "crank.positions", *(f"layout.{key}" for key in _BANKS)}
-)
-_WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
-RULES = (
-    (  # plan and gears
-        Rule(check_cylinders, _PLAN),
-        Rule(check_articulation, _PLAN | {"crank.splay", "articulation"}),
-        Rule(check_rods, frozenset({"rod"})),
-        Rule(check_half_orders, frozenset({"operation", "layout.strokes", "gas"})),
-        Rule(check_speed, frozenset({"operation"})),
-    ),
-    (Rule(check_knuckles, _WHOLE),),  # pins
-    (Rule(check_numbering, _WHOLE),),  # firing
-    (Rule(check_samples, _WHOLE),),  # cylinders
-    (Rule(check_gas, _WHOLE | {"gas"}),),
+RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
+    # plan and gears
+    (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
+    (check_knuckles,),  # pins
+    (check_numbering,),  # firing
+    (check_samples,),  # cylinders
+    (check_gas,),
 )

@@ -66,11 +66,18 @@ def plan_cylinders(model: EngineFile) -> Plan:
     banks = count_banks(layout)
     shared = layout.rods == "shared" or banks == 1
     throws = _count_throws(crank, layout, banks if shared else 1)
-    _refuse_too_many(throws, banks, shared)
+    if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # more than there is memory for
+        told = (
+            f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
+            f"no engine has more than {MOST_PARTS} cylinders"
+        )
+        raise InputError([Problem("layout" if banks > 1 else "crank.throws", told)])
     all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
     places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
     numbers, problems = _number_cylinders(layout, places, banks)
-    problems += _check_positions(crank, throws)
+    if crank.positions is not None and len(crank.positions) != throws:
+        told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
+        problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
         problems.append(
             Problem(
@@ -128,26 +135,6 @@ def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
     return max(cylinders // rods, 1)
 
 
-def _refuse_too_many(throws: int, banks: int, shared: bool) -> None:
-    """Raise InputError for more cylinders (banks x throws) than there is memory for."""
-    if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
-        return
-    message = (
-        f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
-        f"no engine has more than {MOST_PARTS} cylinders"
-    )
-    raise InputError([Problem("layout" if banks > 1 else "crank.throws", message)])
-
-
-def _check_positions(crank: Crank, throws: int) -> Iterator[Problem]:
-    if crank.positions is not None and len(crank.positions) != throws:
-        yield Problem(
-            "crank.positions",
-            f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
-            "give one position a throw",
-        )
-
-
 def _number_cylinders(
     layout: Layout, places: Sequence[tuple[int, int]], banks: int
 ) -> tuple[list[int], list[Problem]]:
@@ -202,11 +189,7 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    missing = [n for n in wanted if n not in times]
-    if len(missing) == 1:
-        parts.append(f"cylinder {missing[0]} is missing")
-    elif missing:
-        parts.append(f"cylinders {_join(missing)} are missing")
+    parts += [f"cylinder {n} is missing" for n in wanted if n not in times]
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 
@@ -290,10 +273,16 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
         InputError: The order takes more than a cycle.
     """
     following = [*order[1:], order[0]]
-    intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
+    turned = [(ready[b] - ready[a]) % 360 for a, b in zip(order, following, strict=True)]
+    # An angle within the tolerance of 0 is a whole turn.
+    intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        raise InputError([_impossible(order, ready, total, cycle)])
+        told = (
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
+            f"cycle has {cycle:g}: change firing_order or crank.throws, or leave crank.throws out"
+        )
+        raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):
         shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
         intervals[shortest] += 360.0
@@ -334,7 +323,7 @@ def check_firing(
     first = find_first(fires)
     for i, wanted in find_pins(fires, tops, sense).items():
         ahead = pins[i] - pins[first]
-        off = float(np.max(np.abs(_centred(ahead - wanted))))
+        off = float(np.max(np.abs(np.remainder(ahead - wanted + 180.0, 360.0) - 180.0)))
         if off > TOLERANCE_DEG:
             yield Problem(
                 "layout.firing_order",
@@ -344,33 +333,3 @@ def check_firing(
                 "deg); change crank.throws, crank.splay, firing_order or firing_intervals",
             )
             return
-
-
-def _impossible(
-    order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
-) -> Problem:
-    """Return the message for a firing order that takes longer than a cycle, with the first cylinder
-    that would be late if the engine fired evenly.
-    """
-    interval = cycle / len(order)
-    off = np.array([ready[i] - ready[order[0]] - k * interval for k, i in enumerate(order)])
-    late = np.flatnonzero(np.abs(_centred(off)) > TOLERANCE_DEG)
-    culprit = order[late[0] if len(late) else -1]
-    return Problem(
-        "layout.firing_order",
-        f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle "
-        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first "
-        f"that is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
-        "change firing_order or crank.throws, or leave crank.throws out",
-    )
-
-
-def _to_whole_turn(angle: float) -> float:
-    """Return an angle in (0, 360]; an angle within the tolerance of 0 is a whole turn."""
-    turned = angle % 360
-    return turned if turned > TOLERANCE_DEG else turned + 360
-
-
-def _centred(angle: Figure) -> Figure:
-    """Return an angle in [-180, 180)."""
-    return np.remainder(angle + 180.0, 360.0) - 180.0

@@ -199,7 +199,7 @@ class EngineVariants:
         return remember(self._engines, tuple(values.items()), make)
 
 
-class FiguresOfVariants(Generic[Asked]):
+class FiguresOfVariants(EngineVariants, Generic[Asked]):
     """Evaluates quantities of variants of a file one by one.
 
     Args:
@@ -214,8 +214,8 @@ class FiguresOfVariants(Generic[Asked]):
         model: EngineFile,
         quantities: Sequence[Asked],
     ) -> None:
+        super().__init__(model)
         self._evaluate, self._quantities = evaluate, quantities
-        self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for one variant, by the figures that vary.
@@ -223,7 +223,7 @@ class FiguresOfVariants(Generic[Asked]):
         Raises:
             InputError, BalcliError: No engine can have these figures, or a quantity is not known.
         """
-        return self._evaluate(self._engines.build(values), self._quantities)
+        return self._evaluate(self.build(values), self._quantities)
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:

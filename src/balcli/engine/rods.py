@@ -14,7 +14,7 @@ from ..core.phasors import EPS, Figure
 from ..errors import Problem
 from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
-from .figures import PendulumTest, RodFigures, or_zero
+from .figures import RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
@@ -162,7 +162,17 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     if np.all(gear.spin >= 0):
         return
     if (pendulum := place.rod.pendulum) is not None:
-        yield Problem(place.path("pendulum"), _describe_pendulum(pendulum, gear))
+        from_big_end = gear.length * gear.small_end / (gear.small_end + gear.big_end)
+        arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
+        spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
+        worst = spin.argmin()
+        shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
+        told = (
+            f"period {period.flat[worst]:g} s is too quick: with the centre of mass "
+            f"{1e3 * arm.flat[worst]:g} mm from the pivot a full swing takes more than "
+            f"{shortest:.4g} s"
+        )
+        yield Problem(place.path("pendulum"), told)
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
@@ -175,20 +185,6 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends "
         f"cannot stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} "
         "mm, or the rod's inertia",
-    )
-
-
-def _describe_pendulum(pendulum: PendulumTest, gear: RunningGear) -> str:
-    whole = gear.small_end + gear.big_end
-    from_big_end = gear.length * gear.small_end / whole
-    arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
-    spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
-    worst = spin.argmin()
-    shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-    return (
-        f"period {period.flat[worst]:g} s is too quick: with the centre of mass "
-        f"{1e3 * arm.flat[worst]:g} mm from the pivot a full swing takes more than "
-        f"{shortest:.4g} s"
     )
 
 

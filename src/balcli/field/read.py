@@ -59,14 +59,8 @@ def check_runs(data: Mapping[str, object], file: str = "") -> RunsFile:
         runs = reader.read_list("run", data["run"], Run, MOST_RUNS) or ()
     if not reader.problems and model is not None:
         model = model.model_copy(update={"run": runs})
-    head, broken = model, set[str]()
-    if model is None:
-        refused = reader.refused[""]
-        if isinstance(refused.draft, RunsFile) and "planes" not in refused.broken:
-            head, broken = refused.draft, refused.broken  # as far as it can be read
-    if head is not None:
-        misfits = _find_misfits(head, runs, data.get("run"))
-        reader.problems += (misfit for misfit in misfits if broken.isdisjoint(misfit.missing))
+    if model is not None:
+        reader.problems += _find_misfits(model, runs, data.get("run"))
     if reader.problems or model is None:
         raise reader.refusal(file)
     return model

@@ -92,7 +92,11 @@ def find_suspicious(model: EngineFile) -> list[str]:
     Args:
         model: the engine file.
     """
-    figures = (*_list_pistons(model), *_list_rods(model), *_list_cranks(model), *_list_gas(model))
+    figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
+    question = ask_unit("bar", "130 psi", "0.9 MPa")
+    for key, usual in PRESSURES.items() if model.gas else ():
+        if (value := getattr(model.gas, key)) is not None:
+            figures.append(Figure(f"gas.{key} is", value, *usual, question))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
 
@@ -238,13 +242,6 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
         if inertia:
             question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
             yield Figure(f"{name}.inertia is", inertia, least, math.inf, " kg mm^2", question)
-
-
-def _list_gas(model: EngineFile) -> Iterator[Figure]:
-    question = ask_unit("bar", "130 psi", "0.9 MPa")
-    for key, usual in PRESSURES.items() if model.gas else ():
-        if (value := getattr(model.gas, key)) is not None:
-            yield Figure(f"gas.{key} is", value, *usual, question)
 
 
 def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:

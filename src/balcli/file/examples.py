@@ -94,8 +94,6 @@ def text(name: str) -> str:
         return known[name].read_text(encoding="utf-8")
     near = get_close_matches(name.lower()[:100], known, 3)
     hint = f" Did you mean {' or '.join(near)}?" if near else ""
-    if name.lower() in groups():
-        hint = f" It is a class: balcli engines --class {name.lower()}."
     raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
 
 
@@ -149,8 +147,6 @@ def template(kind: str) -> str:
     if kind not in KINDS:
         near = nearest(kind, KINDS)
         hint = f" Did you mean {near}?" if near else ""
-        if kind in names():
-            hint = f" A finished one is among the examples: balcli engines {kind}."
         raise BalcliError(
             f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
         )

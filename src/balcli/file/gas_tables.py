@@ -12,17 +12,7 @@ from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
-IntakePressure = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
-Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
-Index = Annotated[float, Number(PLAIN, least=1, most=5)]
-ExpansionIndex = Annotated[float, Number(PLAIN, above=1, most=5)]
-CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
-Efficiency = Annotated[float, Number(PLAIN, above=0, most=1)]
-ExhaustAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
-IntakeAngle = Annotated[float, Number(ANGLE, least=360, below=720)]
-Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
-Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
 
 _GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
@@ -51,14 +41,14 @@ class Gas(FileTable):
     """Gauge: above the atmosphere of 1.01325 bar. Example: 'gauge'"""
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """A computed cycle, by how it burns. Example: 'wiebe'"""
-    compression_ratio: Ratio | None = None
+    compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
     """Largest over smallest volume of the cylinder; with a diagram it gives the volume.
     Example: 10.5"""
-    compression_index: Index = 1.32
+    compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
     """n of p V^n = const. Example: 1.35"""
-    expansion_index: ExpansionIndex = 1.28
+    expansion_index: Annotated[float, Number(PLAIN, above=1, most=5)] = 1.28
     """n of p V^n = const, and while it burns. Example: 1.27"""
-    intake: IntakePressure = 1.0
+    intake: Annotated[float, Number(PRESSURE, above=0, most=1e6)] = 1.0
     """Absolute, while it is filled. Example: 1.8"""
     exhaust: Pressure = 1.05
     """Absolute, while it empties; four-stroke. Example: 1.3"""
@@ -67,23 +57,23 @@ class Gas(FileTable):
     value. Example: 10"""
     bmep: MeanPressure | None = None
     """Instead of imep, with mechanical_efficiency. Example: 8.5"""
-    mechanical_efficiency: Efficiency | None = None
+    mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
     """Brake over indicated mean effective pressure. Example: 0.85"""
     max_pressure: Pressure | None = None
     """Absolute; that the cycle is to have, or (dual) at which it burns on. Example: 70"""
-    cut_off: CutOff | None = None
+    cut_off: Annotated[float, Number(PLAIN, least=1, most=1000)] | None = None
     """Volume after over before burning at constant pressure. Example: 2"""
     heat: Heat | None = None
     """Supplied in each cycle of a cylinder. Example: 1400"""
     burn_start: Angle = -15.0
     """Wiebe: cycle angle. Example: -10"""
-    burn_duration: Duration = 50.0
+    burn_duration: Annotated[float, Number(ANGLE, above=0, most=720)] = 50.0
     """Wiebe: crank angle. Example: 60"""
-    burn_shape: Exponent = 2.0
+    burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
     """Wiebe: exponent m. Example: 1.5"""
-    exhaust_opens: ExhaustAngle | None = None
+    exhaust_opens: Annotated[float, Number(ANGLE, above=0, most=360)] | None = None
     """Cycle angle; left out: lower dead centre. Example: 140"""
-    intake_closes: IntakeAngle | None = None
+    intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
     """Cycle angle, four-stroke; left out: lower dead centre. Example: 580"""
     harmonics: Annotated[str, FileName()] | None = None
     """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from

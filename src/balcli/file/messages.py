@@ -79,7 +79,7 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         example = "{ length = 200 }" if document.example is None else shorten(document.example)
         return Problem.of_missing(place, f"give it, such as {key} = {example}")
     if kind == "value_error":
-        message = str(finding["ctx"]["error"])
+        message = "; ".join(finding["ctx"]["error"].args)
     elif kind in ("too_short", "too_long"):
         message = _describe_length(value, finding["ctx"], document.description)
     elif kind == "tuple_type" and field and find_table(field.annotation):

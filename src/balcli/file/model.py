@@ -77,13 +77,6 @@ class Crank(FileTable):
     splay: Angle = 0.0
     """Split pins: angle by which each further bank's pin leads the one before it. Example: -30"""
 
-    def _check_places(self) -> Iterator[str]:
-        if self.throws and self.positions and len(self.throws) != len(self.positions):
-            yield (
-                f"positions has {counted(len(self.positions), 'place')} for "
-                f"{counted(len(self.throws), 'throw')}; give one for each throw"
-            )
-
 
 class Pendulum(FileTable):
     """A pendulum test of a rod: swung about one of its bores."""
@@ -376,11 +369,6 @@ def label_table(table: FileTable, number: int) -> str:
     """
     name = getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
-
-
-# Tables on which most depends: what depends on some of their keys does not on others, which may
-# be mistaken.
-ONE_BY_ONE: dict[str, type[FileTable]] = {"crank": Crank, "layout": Layout}
 
 
 class EngineFile(FileTable):

@@ -104,8 +104,7 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
             decoded, message = "", _TOO_DEEP
         except ValueError:  # Python reads no more digits
             decoded, message = "", "has a number of thousands of digits"
-    kind = _find_format(decoded)
-    raise InputError([Problem("", f"is {kind}, {right}" if kind else message)], file)
+    raise InputError([Problem("", message if _looks_like_toml(decoded) else f"is {right}")], file)
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
@@ -132,18 +131,10 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
     return decoded, ""
 
 
-def _find_format(text: str) -> str:
-    """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
-    found = re.search(r"^[ \t]*([^\s#].*)", text, re.M)
-    first = found[1] if found else ""
-    if first[:1] == "{" or (first[:1] == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
-        return "JSON"
-    if first[:1] == "<":
-        return "XML or HTML"
-    if re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[^\]])""", text, re.M) or not first:
-        return ""
-    parted = re.search(r"[,;\t]|\d\s+[-+.\d]", first) is not None
-    return "a table of columns (CSV)" if parted else "a file of another program"
+def _looks_like_toml(text: str) -> bool:
+    """Return whether a text was probably meant as TOML: it is empty, or has a key or a heading."""
+    found = re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))""", text, re.M)
+    return found is not None or not re.search(r"^[ \t]*[^\s#]", text, re.M)
 
 
 def _explain(text: str, error: str) -> str:

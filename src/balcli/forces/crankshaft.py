@@ -127,7 +127,12 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
-    _refuse_too_many_results(len(orders), len(z))
+    if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:
+        raise BalcliError(
+            f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights "
+            f"are {len(orders) * len(z)} results, and at most {MOST_RESULTS_ALONG_CRANK} are "
+            "listed; give fewer orders"
+        )
     bearings = None
     if (span := place_bearings(engine.joined_throws_m)) is not None:
         bearings = _with_peaks(span, compute_bearing_forces(loads, z, span), orders)
@@ -160,15 +165,6 @@ def _find_largest_along(places: Array, phasors: Phasors) -> tuple[float, float]:
     peaks = find_largest(phasors)
     most = int(find_first_largest(peaks))
     return float(peaks[most]), 1e3 * float(places[most])
-
-
-def _refuse_too_many_results(orders: int, loads: int) -> None:
-    told = orders * loads
-    if told > MOST_RESULTS_ALONG_CRANK:
-        raise BalcliError(
-            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
-            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are listed; give fewer orders"
-        )
 
 
 def place_bearings(throws_m: Array) -> Array | None:

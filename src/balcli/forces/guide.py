@@ -64,12 +64,15 @@ def compute_guide_moments(
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
-    every = _find_orders(engine) if orders is None else orders
+    every = find_relevant_orders(engine) if orders is None else orders
+    if orders is None and engine.gas is not None:  # no more than are shown of gas
+        few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
+        every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
-    z = np.ravel(engine.cylinders.z)
-    h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
+    c, z = engine.cylinders, np.ravel(engine.cylinders.z)
+    h = _sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
-    height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
+    height = np.broadcast_to(np.ravel(c.radius / c.lam) if height_m is None else height_m, c.count)
     x = None
     if np.ptp(z) and engine.places_known:
         x = _sum_weighted(rolls, (z - z_ref) / height)
@@ -79,21 +82,6 @@ def compute_guide_moments(
     chosen_x = None if x is None else x.select_orders(orders)
     by_number = height[np.argsort(engine.numbers)]
     return GuideMoments(h.select_orders(orders), chosen_x, by_number, engine.gas is not None)
-
-
-def _find_orders(engine: Engine) -> Array:
-    """Return all orders that may be worth showing; with gas, no more than are shown of gas."""
-    relevant = find_relevant_orders(engine)
-    if engine.gas is None:
-        return relevant
-    few = relevant[relevant <= HIGHEST_GAS_ORDER_UNASKED]
-    return merge_orders(few, list_gas_orders(engine))
-
-
-def _rod_lengths(engine: Engine) -> Array:
-    """Return the rod length of each cylinder, m, shape (cylinders,)."""
-    c = engine.cylinders
-    return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
 
 
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:

@@ -67,8 +67,7 @@ class Quantity:
 
     def read_from(self, phasors: Phasors) -> Array:
         """Return the value by the phasors of its kind, SI or degrees, shape (*trailing)."""
-        row = int(np.searchsorted(phasors.orders, self.order))
-        own = phasors.select_row(row)
+        own = phasors.select_orders([self.order])
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
             return (c.real if self.part.endswith("cos") else -c.imag) + 0.0

@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.vibration import Complex, Modes, Real, modal_loss
-from ..engine.build import find_contradictions
+from ..engine.build import list_contradictions
 from ..engine.engine import Engine
 from ..engine.load import build_named
-from ..engine.parts import Parts
 from ..errors import InputError, Problem
 from ..file.doubts import NO_DISTANCE, doubt_losses
 from ..file.fields import printable, shorten
@@ -225,8 +224,7 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
     faults = list(find_mounting_faults(draft.model, draft.readable))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
-        whole = Parts(draft.model, readable=draft.readable)
-        contradictions = find_contradictions(whole) if has_engine and draft.problems else []
+        contradictions = list_contradictions(draft) if draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     doubts = () if engine is None else engine.unlikely

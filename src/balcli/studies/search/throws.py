@@ -167,7 +167,7 @@ def tabulate_contributions(
     table = np.empty((len(keys), 2, len(parts), len(angles)), complex)
     for k, (kind, order) in enumerate(keys):
         for part, spectrum in enumerate(spectra):
-            phasors = spectrum[kind].select_row(orders.index(order))
+            phasors = spectrum[kind].select_orders([order])
             table[k, 0, part], table[k, 1, part] = phasors.forward[0], phasors.backward[0]
     throws = table[:, :, :-1]
     return Contributions(keys, throws, table[:, :, -1, 0], np.abs(throws).max(axis=(1, 3)))
