@@ -237,9 +237,9 @@ def _find_hardest(
     """
     columns = np.zeros(count_columns(system))
     columns[: len(system.shafts)] = [weights.get(name, 0.0) for name in system.shafts]
-    largest = find_largest(system, speeds, columns, together=True)
-    worst = int(largest.value.argmax())
-    return worst, float(largest.rpm[worst]), float(largest.value[worst])
+    rpm, value = find_largest(system, speeds, columns, together=True)
+    worst = int(value.argmax())
+    return worst, float(rpm[worst]), float(value[worst])
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:

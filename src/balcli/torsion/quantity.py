@@ -126,7 +126,7 @@ def _find_largest(
     if not places:
         return {}
     weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
-    largest, by_torque = find_largest(system, speeds, weights).value, stress_by_torque(system)
+    (_, largest), by_torque = find_largest(system, speeds, weights), stress_by_torque(system)
     return {
         q: float(largest[shaft] * (by_torque[shaft] if q.part == "stress" else 1))
         for q, shaft in places.items()
