@@ -331,29 +331,20 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         if chain.clamped[node]:
             raise ValueError("Holzer's table can lead to a clamped node, but not over it")
         node = parents[node]
-    inertial = frequency**2 * chain.inertia
+    inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
     unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
-    matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
-    matrix[range(count), range(count)] = inertial / unit
-    for row, (child, parent, shaft, near, far) in enumerate(branches, count):
-        matrix[row, [child, parent]] = near, far
-        matrix[row, row] = -unit / chain.stiffness[shaft]
-        matrix[[child, parent], row] = -near, -far
-    for node in np.flatnonzero(chain.clamped).tolist():
-        matrix[node] = np.arange(2 * count) == node
-    matrix[last] = np.arange(2 * count) == first
-    right[last] = 1.0
-    matrix[-1, -1] = 1.0  # there is one shaft less than nodes
+    softness = np.diag(unit / chain.stiffness[stiff])
+    matrix = np.block([[np.diag(inertial / unit), -twisting.T], [twisting, -softness]])
+    alone, held = np.eye(len(matrix)), np.flatnonzero(chain.clamped)
+    matrix[held], matrix[last] = alone[held], alone[first]
     try:
-        solution = np.linalg.solve(matrix, right)
+        solution = np.linalg.solve(matrix, alone[last])
     except np.linalg.LinAlgError:
         raise ValueError("a branch is at resonance by itself") from None
-    angle, torque = solution[:count], inertial * solution[:count]
-    total, stiffness, twist = torque.copy(), np.zeros(count), np.zeros(count)
-    for carried, (child, parent, shaft, near, far) in zip(solution[count:], branches, strict=False):
-        total[child] = near * unit * carried
-        stiffness[child] = near**2 * chain.stiffness[shaft]
-        twist[child] = total[child] / stiffness[child]
-        if parent == last:
-            total[last] -= far * unit * carried
-    return Holzer(angle, torque, total, stiffness, twist, float(total[last]))
+    angle, carried = solution[:count], np.zeros(len(stiff))
+    carried[stiff] = unit * solution[count:]
+    total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
+    for child, _, shaft, near, _ in branches:
+        total[child], stiffness[child] = near * carried[shaft], near**2 * chain.stiffness[shaft]
+    twist = np.divide(total, stiffness, out=np.zeros(count), where=stiffness > 0)
+    return Holzer(angle, inertial * angle, total, stiffness, twist, float(total[last]))
