@@ -22,6 +22,7 @@ from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
+from .build import NO_DAMPERS
 from .dampers import DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
@@ -264,7 +265,7 @@ def answer_question(
         InputError: contradictions in the file.
     """
     if question.damper is None or question.speeds_rpm is None:
-        return _analyze_system(source.system(), question, tell)
+        return _analyze_system(source.system(NO_DAMPERS), question, tell)
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens

@@ -29,6 +29,7 @@ from ..file.fields import printable
 from ..file.messages import describe_finding
 from ..file.torsion_tables import Damper
 from ..process import Tell, tell_nobody
+from .build import NO_DAMPERS
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
@@ -154,7 +155,8 @@ def size_damper(
     Raises:
         BalcliError: no node can carry it, or the system has no excitation.
     """
-    node, own = _find_carrier(source.dampers(), asked.node)
+    free_end = source.system(NO_DAMPERS).free_end
+    node, own = _find_carrier(source.dampers, asked.node, free_end)
 
     def build(damper: Damper | None) -> TorsionalSystem:
         return source.system({node: damper}).driven_at(orders)
@@ -210,10 +212,13 @@ def size_damper(
 
 
 def _find_carrier(
-    carriers: Mapping[str, Damper | None], asked: str | None
+    carriers: Mapping[str, Damper | None], asked: str | None, free_end: str
 ) -> tuple[str, Damper | None]:
-    """Return the name of the node that is to carry the damper, and the damper it has."""
-    name = next(iter(carriers), None) if asked is None else asked
+    """Return the name of the node that is to carry the damper, and the damper it has: the asked
+    one, else the free end or the foremost that can.
+    """
+    first = free_end if free_end in carriers else next(iter(carriers), None)
+    name = first if asked is None else asked
     if name is None:
         raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
     if name not in carriers:

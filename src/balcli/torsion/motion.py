@@ -87,7 +87,7 @@ def respond_chain(
     flexible = _find_flexibilities(chain, damping, w, carrying)
     angle, torque, weak, singular = _solve_tree(chain, carrying, own, flexible, load)
     if np.any(weak):
-        some = (each[:, weak] for each in (own, flexible, load))
+        some = own[:, weak], flexible[:, weak], load[:, weak]
         angle[:, weak], torque[:, weak] = _solve_dense(
             chain, carrying, *some, w[weak], singular[weak]
         )
@@ -255,8 +255,8 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     """Return the power (orders, speeds, dampers) that dampers turn to heat, W: rings in oil
     `-w^3 Im J |x|^2/2`, rubber, which is the last of the shafts, `w loss |T|^2/(2 k (1 + loss^2))`.
     """
-    nodes, *rings = np.array(system.rings, float).reshape(-1, 3).T
-    ring = viscous_inertia(*rings, w[..., None])
+    nodes, inertia, damping = np.array(system.rings, float).reshape(-1, 3).T
+    ring = viscous_inertia(inertia, damping, w[..., None])
     oil = -(w[..., None] ** 3) * ring.imag * np.abs(angle[..., nodes.astype(int)]) ** 2
     first = len(system.shafts) - (len(system.nodes) - 1 - system.last)
     loss, stiffness = system.damping.loss[first:], system.chain.stiffness[first:]

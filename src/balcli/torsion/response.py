@@ -295,7 +295,7 @@ def find_response(
         PendulumSwing(system.nodes[each.node], degrees[:, k], worst_swings[k])
         for k, each in enumerate(system.pendulums, end + 1)
     )
-    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[swings.shape[1] :]
+    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[phasors.shape[2] :]
     names = (name.removesuffix(" ring") for name in system.dampers)
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
