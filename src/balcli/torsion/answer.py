@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType
@@ -23,7 +23,7 @@ from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
 from .build import NO_DAMPERS
-from .dampers import DamperAsked, SizedDamper, size_damper
+from .dampers import KINDS_OF_DAMPERS, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -61,40 +61,8 @@ class TorsionQuestion(NamedTuple):
 
     speeds_rpm: Real | None = None
     orders: Real | None = None
-    holzer: tuple[HolzerAsked, ...] = ()
-    damper: DamperAsked | None = None
-
-
-def ask(
-    speeds_rpm: Real | None = None,
-    orders: Real | None = None,
-    holzer: Iterable[HolzerAsked] = (),
-    damper: str | None = None,
-    damper_at: str | None = None,
-    damper_inertia: float | None = None,
-) -> TorsionQuestion:
-    """Return the request of `balcli torsion` and `analyze_torsion`.
-
-    Args:
-        speeds_rpm: Rising speeds of the response, shape (speeds,).
-        orders: Orders of the excitation to use, shape (orders,); None: all.
-        holzer: Requested Holzer tables.
-        damper: Kind of damper to size.
-        damper_at: Name of the node that carries it.
-        damper_inertia: Inertia of its ring or pendulums, kg m2.
-
-    Raises:
-        BalcliError: node or inertia of a damper without its kind; a damper without speeds.
-    """
-    wanted = None
-    if damper is not None:
-        wanted = DamperAsked(damper, damper_at, damper_inertia)
-        if speeds_rpm is None:
-            raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
-    elif damper_at is not None or damper_inertia is not None:
-        option = "--damper-inertia" if damper_at is None else "--damper-at"
-        raise BalcliError(f"{option}: give the kind of damper, with --damper")
-    return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
+    holzer: Sequence[HolzerAsked] = ()
+    damper: DamperAsked = DamperAsked()
 
 
 @dataclass(frozen=True)
@@ -260,12 +228,19 @@ def answer_question(
         tell: Called with the share of the work that is done.
 
     Raises:
-        BalcliError: a response without excitation or through an undamped resonance; a mode that
-            does not exist; Holzer's table of a chain with loops; a damper that no node can carry.
+        BalcliError: node or inertia of a damper without its kind; a damper without speeds; a
+            response without excitation or through an undamped resonance; a mode that does not
+            exist; Holzer's table of a chain with loops; a damper that no node can carry.
         InputError: contradictions in the file.
     """
-    if question.damper is None or question.speeds_rpm is None:
+    kind, node, inertia = question.damper
+    if kind is None:
+        if node is not None or inertia is not None:
+            option = "--damper-inertia" if node is None else "--damper-at"
+            raise BalcliError(f"{option}: give the kind of damper, with --damper")
         return _analyze_system(source.system(NO_DAMPERS), question, tell)
+    if question.speeds_rpm is None:
+        raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
     sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
@@ -339,7 +314,6 @@ def _tabulate(
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 
-KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 _UNNAMED = "chain file"  # in messages, a text or dict
 
 
@@ -389,7 +363,7 @@ def analyze_torsion(
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     speeds = check_speeds("analyze_torsion", speeds_rpm)
-    question = ask(speeds, asked, (), damper, damper_at, inertia)
+    question = TorsionQuestion(speeds, asked, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
 

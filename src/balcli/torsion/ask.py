@@ -16,7 +16,8 @@ from ..shell.options import read_orders
 from ..shell.values import parse_speeds, read_inertia
 from ..show.formats import Units
 from ..show.units import SYSTEMS
-from .answer import HolzerAsked, TorsionQuestion, answer_question, ask
+from .answer import HolzerAsked, TorsionQuestion, answer_question
+from .dampers import DamperAsked
 from .load import load_source
 from .plot import make_torsion
 from .quantity import choose_torsion_speeds
@@ -74,14 +75,14 @@ def parse_question(
     """Return the request that these options make.
 
     Raises:
-        BalcliError: one of them cannot be read, or belongs to another that is missing.
+        BalcliError: one of them cannot be read.
     """
     inertia = None
     if damper_inertia is not None:
         inertia = read_inertia("--damper-inertia", damper_inertia, units)
-    trials = map(_parse_trial, holzer)
-    exciting = parse_half_orders(orders)
-    return ask(parse_speeds(speeds), exciting, trials, damper, damper_at, inertia)
+    trials = [_parse_trial(each) for each in holzer]
+    sized = DamperAsked(damper, damper_at, inertia)
+    return TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders), trials, sized)
 
 
 def require_speeds(asked: TorsionQuestion, what: str) -> None:

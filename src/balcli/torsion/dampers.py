@@ -47,6 +47,7 @@ DAMPER_KEYS = {
     "radius": ("radius_m", 1e3),
     "length": ("length_m", 1e3),
 }
+KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 RUBBER_LOSS = 0.15  # usual for damper rubber
 _FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
@@ -65,13 +66,13 @@ class DamperAsked(NamedTuple):
     """Damper to size.
 
     Attributes:
-        kind: Kind of damper: viscous, rubber or pendulum.
+        kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
         node: Name of the node that carries it; None: the first that can.
         inertia: Inertia of ring or pendulums, kg m2; None: that of the file's damper there, or a
             usual share of the mode's.
     """
 
-    kind: str
+    kind: str | None = None
     node: str | None = None
     inertia: float | None = None
 
@@ -158,38 +159,28 @@ def size_damper(
     free_end = source.system(NO_DAMPERS).free_end
     node, own = _find_carrier(source.dampers, asked.node, free_end)
 
-    def build(damper: Damper | None) -> TorsionalSystem:
-        return source.system({node: damper}).driven_at(orders)
-
-    bare = build(None)
-    by_torque = np.ones(len(bare.shafts))
-    if any(bare.sections):
-        by_torque = np.nan_to_num(stress_by_torque(bare))
-    weights = dict(zip(bare.shafts, by_torque.tolist(), strict=True))
+    bare = source.system({node: None}).driven_at(orders)
     place = bare.nodes.index(node)
-    mode, order = _find_mode_to_damp(bare, speeds, weights, place)
+    mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
     first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
-    figure = _FIGURE[asked.kind]
-    start, width = float(getattr(first, figure)), math.log(_WIDTH[asked.kind])
-    tried = count(1)
+    figure, width = _FIGURE[first.kind], math.log(_WIDTH[first.kind])
+    start, tried = float(getattr(first, figure)), count(1)
 
-    def resize(logarithm: float) -> Damper:
-        return first.model_copy(update={figure: start * math.exp(logarithm)})
-
-    def judge(system: TorsionalSystem) -> float:
-        """Return the largest stress or torque of the shafts of the bare system; inf: no bound."""
+    def judge(damper: Damper | None) -> float:
+        """Return the largest stress or torque with a damper; inf: no bound."""
         tell(min(next(tried) / _RESPONSES, 1.0))
         try:
-            return _find_hardest(system, speeds, weights)[2]
+            return _find_hardest(source.system({node: damper}).driven_at(orders), speeds)[2]
         except BalcliError:
             return math.inf
 
-    farther = _minimise(lambda logarithm: judge(build(resize(logarithm))), width)
-    best = float(f"{start * math.exp(farther):.6g}")
-    damper = first.model_copy(update={figure: best})
+    farther = _minimise(
+        lambda each: judge(first.model_copy(update={figure: start * math.exp(each)})), width
+    )
+    damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
     measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
-    before, after = judge(bare), judge(build(damper))
+    before, after = judge(None), judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
         name, size = DAMPER_KEYS[key]
@@ -229,19 +220,18 @@ def _find_carrier(
     return name, carriers[name]
 
 
-def _find_hardest(
-    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float]
-) -> tuple[int, float, float]:
-    """Return the shaft with the largest stress or torque of a range, at which speed (rpm), and how
-    large it is.
+def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, float]:
+    """Return the shaft with the largest stress over a range of speeds, its speed (rpm), and its
+    stress, Pa; where no shaft has a diameter, with the largest torque, N m. Rubber rings are left
+    out.
 
     Args:
         system: With an excitation.
         speeds: (speeds,) rising, rpm.
-        weights: Factor of the torque of each shaft by its name; others are not looked at.
     """
-    columns = np.zeros(count_columns(system))
-    columns[: len(system.shafts)] = [weights.get(name, 0.0) for name in system.shafts]
+    columns, stress = np.zeros(count_columns(system)), np.nan_to_num(stress_by_torque(system))
+    rings = len(system.nodes) - 1 - system.last
+    columns[: len(stress) - rings] = stress[: len(stress) - rings] if any(system.sections) else 1
     rpm, value = find_largest(system, speeds, columns, together=True)
     worst = int(value.argmax())
     return worst, float(rpm[worst]), float(value[worst])
@@ -263,7 +253,7 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
 
 # ------------------------------------------------------------------ where the search begins
 def _find_mode_to_damp(
-    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float], node: int
+    system: TorsionalSystem, speeds: Real, node: int
 ) -> tuple[NaturalMode, float]:
     """Return the mode that a damper at a node has to damp, and the order that drives it.
 
@@ -275,11 +265,11 @@ def _find_mode_to_damp(
     if not modes:
         raise BalcliError("--damper: the system has no mode that could be damped")
     try:
-        worst, rpm, _ = _find_hardest(system, speeds, weights)
+        worst, rpm, _ = _find_hardest(system, speeds)
     except BalcliError:  # nothing damps a resonance
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
-        worst, rpm, _ = _find_hardest(system, speeds, weights)
+        worst, rpm, _ = _find_hardest(system, speeds)
     by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
@@ -313,14 +303,14 @@ def _propose(
     """
     if mode.shape[node] == 0:
         raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
-    there = _find_inertia_in(mode, system, node)
+    kind, there = str(asked.kind), _find_inertia_in(mode, system, node)
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
-    inertia = asked.inertia or usual or float(f"{_SHARE[asked.kind] * there:.4g}")
-    figures: dict[str, object] = {"kind": asked.kind, "inertia": float(f"{inertia * 1e6:.12g}")}
-    if asked.kind == "viscous":
+    inertia = asked.inertia or usual or float(f"{_SHARE[kind] * there:.4g}")
+    figures: dict[str, object] = {"kind": kind, "inertia": float(f"{inertia * 1e6:.12g}")}
+    if kind == "viscous":
         figures["damping"] = best_viscous_damping(inertia, inertia / there, mode.omega)
-    elif asked.kind == "rubber":
+    elif kind == "rubber":
         figures["stiffness"] = inertia * (mode.omega / (1 + inertia / there)) ** 2
         figures["loss"] = given.get("loss", RUBBER_LOSS)
     else:
@@ -335,13 +325,13 @@ def _propose(
         mass = float(f"{inertia / (radius + length) ** 2:.4g}")
         if asked.inertia is None:
             mass = given.get("mass", mass)
-        figures = {"kind": asked.kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
+        figures = {"kind": kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
     try:
         return Damper.model_validate(figures)
     except ValidationError as error:
         wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
         raise BalcliError(
-            f"--damper {asked.kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
+            f"--damper {kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
             "check the units of inertias and stiffnesses"
         ) from None
 
@@ -355,24 +345,18 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
     sized = float(getattr(found.damper, found.figure))
-    units = "(on the command line bare numbers are kg mm2)"
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
         yield (
             f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
-            f"{found.measure}; the whole system has {whole:.4g} kg m2. Is it of the right size "
-            f"{units}, and in the right place?"
+            f"{found.measure}; the whole system has {whole:.4g} kg m2. Are size (on the command "
+            "line bare numbers are kg mm2) and place right?"
         )
-    elif given and inertia > whole:
+    elif inertia > (whole if given else _HEAVY * carrier) > 0:
         yield (
-            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2); "
-            f"is it of the right size {units}?"
-        )
-    elif not given and inertia > _HEAVY * carrier > 0:
-        yield (
-            f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
-            f"as much as {node}, which carries it ({carrier:.4g} kg m2): give what there is room "
-            f'for, such as --damper-inertia "{float(f"{carrier:.2g}"):.12g} kg m^2"'
+            f"the damper has {inertia:.4g} kg m2, {node}, which carries it, {carrier:.4g}, and the "
+            f"whole system {whole:.4g}: give what there is room for, such as --damper-inertia "
+            f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
         yield (
@@ -397,14 +381,10 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
 def _find_table(data: Node, name: str) -> str:
     """Return the dotted name of the table of a node or part, such as `torsion.rear.2`."""
     torsion = data.get("torsion", {})
-    lists = {
-        "node": data.get("node", []),
-        "torsion.front": torsion.get("front", []),
-        "torsion.rear": torsion.get("rear", []),
-    }
+    lists = {f"torsion.{end}": torsion.get(end, ()) for end in ("front", "rear")}
     return next(
         f"{key}.{number}"
-        for key, tables in lists.items()
+        for key, tables in (lists | {"node": data.get("node", ())}).items()
         for number, table in enumerate(tables, 1)
         if table.get("name") == name
     )
