@@ -37,15 +37,15 @@ from .motion import move, stress_by_torque
 from .response import count_columns, find_largest
 from .system import TorsionalSystem
 
-# Figures of a damper: key in JSON, and how many of the file's units are one SI unit.
+# Figures of a damper: key in JSON, how many of the file's units are one SI unit, and its label.
 DAMPER_KEYS = {
-    "inertia": ("inertia_kg_m2", 1e6),
-    "damping": ("damping_Nms_per_rad", 1.0),
-    "stiffness": ("stiffness_Nm_per_rad", 1.0),
-    "loss": ("loss", 1.0),
-    "mass": ("mass_kg", 1.0),
-    "radius": ("radius_m", 1e3),
-    "length": ("length_m", 1e3),
+    "inertia": ("inertia_kg_m2", 1e6, "ring"),
+    "damping": ("damping_Nms_per_rad", 1.0, "damping"),
+    "stiffness": ("stiffness_Nm_per_rad", 1.0, "stiffness"),
+    "loss": ("loss", 1.0, "loss factor"),
+    "mass": ("mass_kg", 1.0, "pendulums, in all"),
+    "radius": ("radius_m", 1e3, "hung up at a radius of"),
+    "length": ("length_m", 1e3, "length to the centre of mass"),
 }
 KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 RUBBER_LOSS = 0.15  # usual for damper rubber
@@ -183,7 +183,7 @@ def size_damper(
     before, after = judge(None), judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, size = DAMPER_KEYS[key]
+        name, size, _ = DAMPER_KEYS[key]
         figures[name] = value / size
     found = SizedDamper(
         node=node,

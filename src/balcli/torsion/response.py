@@ -3,7 +3,7 @@ the largest values over a range of speeds.
 
 Largest values between the given speeds are found as well. The speeds at which an order meets a
 damped resonance are added to the given ones, and those at which a mode alone would have half the
-power of its top, or less. Every peak at these speeds that may be the highest is then approached.
+power of its top. Every peak at these speeds that may be the highest is then approached.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from ..core.extrema import find_highest, find_peaks_between
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
 from ..core.records import HIDDEN
-from ..core.vibration import ROUNDING, Complex, Indices, Real
+from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
 from .motion import compute_curves, refuse_unbounded, stress_by_torque
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-1], [-0.5], [0], [0.5], [1]])  # speeds about a resonance, in its widths
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
+_AT_ONCE = 256  # speeds
 _NEAR = 0.9  # of the largest value at the speeds looked at: a peak beside them may exceed this
 
 
@@ -52,27 +53,36 @@ def find_largest(
     orders, columns = system.require_excitation().orders, np.arange(count_columns(system))
     weights = np.ones(len(columns)) if weights is None else weights
 
-    def read(motion: tuple[Complex, Real], point: Indices, column: Indices) -> Real:
-        """Return the value of each column at each point of `compute_curves`."""
-        (phasors, heat), values = motion, np.zeros(len(point))
-        swings, count = column < phasors.shape[2], phasors.shape[2]
+    def judge(at: Real, which: Indices) -> Real:
+        """Return the values at speeds, each of one of the columns."""
+        speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
+        rpm, point = np.unique(speeds, return_inverse=True)
+        phasors, heat = compute_curves(system, rpm)
+        values, swings, count = np.zeros(len(speeds)), column < phasors.shape[2], phasors.shape[2]
         curves = phasors[:, point[swings], column[swings]]
         values[swings] = find_swing(orders, curves).half
         values[~swings] = heat[point[~swings], column[~swings] - count]
-        return values * weights[column]
-
-    def judge(at: Real, which: Indices) -> Real:
-        rpm, column = (each.ravel() for each in np.broadcast_arrays(at, which))
-        found = read(compute_curves(system, rpm), np.arange(len(rpm)), column)
-        return found.reshape(at.shape)
+        return (values * weights[column]).reshape(at.shape)
 
     speeds = _add_resonances(system, rpm)
-    motion = compute_curves(system, speeds)
-    heights = np.concatenate([sum_amplitudes(motion[0]), motion[1]], axis=1) * weights
-    level = read(motion, heights.argmax(axis=0), columns)
+    heights = _sum_amplitudes(system, speeds) * weights  # the values are at most so high
+    level = judge(speeds[heights.argmax(axis=0)], columns)
     near = np.nonzero((heights > 0) & (heights >= _NEAR * _join(level, together)))
-    heights[near] = read(motion, *near)  # others are no higher than the sum of the amplitudes
+    heights[near] = judge(speeds[near[0]], near[1])
     return find_highest(judge, speeds, heights, _join(heights.max(axis=0), together), _NEAR)
+
+
+def _sum_amplitudes(system: TorsionalSystem, speeds: Real) -> Real:
+    """Return the columns of `find_largest` at speeds, of curves the sum of the amplitudes of all
+    orders, (speeds, columns).
+    """
+    parts = (compute_curves(system, speeds[some]) for some in _split(len(speeds)))
+    return np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
+
+
+def _split(count: int) -> list[Indices]:
+    """Return the places of so many speeds in parts, which bounds the memory."""
+    return np.array_split(np.arange(count), count // _AT_ONCE + 1)
 
 
 def _join(level: Real, together: bool) -> Real:
@@ -102,9 +112,6 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
     about = (at + width * _ABOUT)[:, there]
     return np.unique(np.clip(np.append(rpm, about), rpm[0], rpm[-1]))
-
-
-_AT_ONCE = 256  # speeds
 
 
 @dataclass(frozen=True)
@@ -263,10 +270,9 @@ def find_response(
     orders, end = system.require_excitation().orders, len(system.shafts)
     phasors, heat = compute_curves(system, speeds_rpm)
     swings = np.zeros(phasors.shape[1:])
-    for start in range(0, len(swings), _AT_ONCE):
-        some = slice(start, start + _AT_ONCE)
+    for some in _split(len(swings)):
         swings[some] = find_swing(orders, phasors[:, some]).half
-        tell(min(some.stop / len(swings), 1.0))
+        tell((some[-1] + 1) / len(swings))
     at, value = find_largest(system, speeds_rpm)
     there, _ = compute_curves(system, at[: end + 1])
     by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
@@ -334,14 +340,14 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
 
     def measure(some: Real) -> Real:
         """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
-        found = np.zeros(len(some))
-        for start in range(0, len(some), _AT_ONCE):
-            part = slice(start, start + _AT_ONCE)
+        found = []
+        for part in _split(len(some)):
             curves = compute_curves(system, some[part])[0][:, :, : len(weights)] * weights
             speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
-            half = find_swing(orders, curves[:, speed, curve]).half
-            np.maximum.at(found[part], speed, half)
-        return found
+            highest = np.zeros(len(part))
+            np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
+            found.append(highest)
+        return np.concatenate(found)
 
     def judge(at: Real, which: Indices) -> Real:
         return measure(at.ravel()).reshape(at.shape) * sign[which]
@@ -350,11 +356,11 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     speeds = _add_resonances(system, np.geomspace(rpm[0], rpm[-1], steps + 1))
     values = measure(speeds)
     inner, before, after = values[1:-1], values[:-2], values[2:]
-    tops = (inner >= before) & (inner >= after) & (inner > _CLOSE) & (inner <= 1)
-    valleys = (inner <= before) & (inner <= after) & (inner > 1) & (inner < 1 / _CLOSE)
-    places = np.flatnonzero(tops | valleys)
+    sign = np.where(inner <= 1, 1, -1)  # tops below the limit, valleys above it
+    turns = np.all(sign * (inner - np.stack([before, after])) >= 0, axis=0)
+    places = np.flatnonzero(turns & (inner > _CLOSE) & (inner < 1 / _CLOSE))
     if len(places):
-        sign, each = np.where(tops[places], 1, -1), np.arange(len(places))
+        sign, each = sign[places], np.arange(len(places))
         found, _ = find_peaks_between(judge, speeds[places], speeds[places + 2], each)
         speeds = np.unique(np.append(speeds, found))
     above = measure(speeds) > 1
