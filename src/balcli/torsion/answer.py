@@ -196,10 +196,9 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings: at "
-                f"{WIDE_SWING:.0f} deg a pendulum on a circle is 0.8 % out of tune, beyond more; "
+                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
                 f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
-                f"{WIDE_SWING:.0f} deg"
+                f"{WIDE_SWING:.0f} deg, where it is 0.8 % out of tune"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.phases import RPM
 from ..core.vibration import Real
 from ..errors import BalcliError
-from ..file.units import Dimension, convert
+from ..file.units import SPEED, convert
 from ..limits import HIGHEST_TORSION_ORDER
 from ..shell.options import read_orders
 from ..shell.values import parse_speeds, read_inertia
@@ -24,10 +25,6 @@ from .quantity import choose_torsion_speeds
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-_FREQUENCY = Dimension("rad/s", "a frequency", ("20 rad/s",))
-_HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
 
 
 def parse_half_orders(text: str | None) -> Real | None:
@@ -54,13 +51,12 @@ def _parse_trial(text: str) -> HolzerAsked:
         return HolzerAsked(int(text))
     right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
     try:
-        hertz = _HERTZ.fullmatch(text)
-        turns = float(hertz[1]) * 2 * np.pi if hertz else convert(text, _FREQUENCY)
+        omega = convert(text, SPEED) * RPM
     except ValueError:
         raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
-    if not 0 < turns < 1e12:
+    if not 0 < omega < 1e12:
         raise BalcliError(f'--holzer "{text[:60]}": {right}')
-    return HolzerAsked(None, turns)
+    return HolzerAsked(None, omega)
 
 
 def parse_question(

@@ -26,7 +26,7 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import InputError, Problem
-from ..file.fields import counted, printable, shorten, suggest_nearest
+from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.plain_tables import STEADY
 from ..file.torsion_tables import (
@@ -52,6 +52,7 @@ from .chain import (
     join_chain,
     rigid_motions,
 )
+from .read import refuse_node
 from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
@@ -496,9 +497,7 @@ def _find_misfits(
         elif part.name in names[:k]:
             yield Problem(f"{path}.name", f"{shorten(part.name)} is there twice; give each its own")
         if of not in names:
-            listed = ", ".join(printable(each) for each in names[:8])
-            hint = suggest_nearest(of, names, f"there are {listed}")
-            yield Problem(f"{path}.of", f"{shorten(of)} is no part; {hint}")
+            yield Problem(f"{path}.of", refuse_node(of, names))
         elif part.name not in led and part.name not in reserved:
             text = f"{shorten(of)} is not connected to the crankshaft; name a part that is"
             yield Problem(f"{path}.of", text)

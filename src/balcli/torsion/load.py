@@ -57,21 +57,9 @@ class Source:
 
 def make_chain_source(model: ChainFile, name: str, text: bytes = b"") -> Source:
     """Return the source of a chain file that has been read."""
-    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model), *_doubt_torques(model)
+    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
     return Source(name, text, doubts, partial(build_chain, model, name), dampers)
-
-
-def _doubt_torques(model: ChainFile) -> Iterator[str]:
-    """Yield warnings of excitations without a torque, and of those on a fixed node."""
-    for number, torque in enumerate(model.excitation, 1):
-        if not {"cos", "sin"} & torque.model_fields_set:
-            yield (
-                f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no "
-                "torque; give one of them, such as cos = 150 (N m)"
-            )
-        elif torque.node in model.fixed:
-            yield f"excitation.{number} is on '{torque.node}', which is fixed: it moves nothing"
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:

@@ -17,12 +17,14 @@ from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_sh
 from ..file.fields import order_number
 from .chain import (
     Chain,
+    ChainShaft,
     Damping,
     find_pieces,
     find_still,
     follow_gears,
     grow_branches,
     incidence,
+    join_chain,
     rigid_motions,
 )
 from .system import Excitation, TorsionalSystem
@@ -224,21 +226,17 @@ def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
         order: Order at which pendulums have their inertia; None: they are left out.
     """
     chain, damping, rings = system.chain, system.damping, system.rings
-    inertia = chain.inertia
+    inertia, more = chain.inertia, (0, len(rings))
     if order is not None:
         inertia = inertia + system.attached_pendulums(np.array(order)).real
-    none, on = np.zeros(len(rings)), [ring.node for ring in rings]
-    with_rings = Chain(
-        np.append(inertia, [ring.inertia for ring in rings]),
-        np.append(chain.start, np.array(on, np.intp)),
-        np.append(chain.end, len(inertia) + np.arange(len(rings))),
-        np.append(chain.ratio, none + 1),
-        np.append(chain.stiffness, none),
-        np.append(chain.clamped, none.astype(bool)),
-    )
+    shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
+    shafts += [ChainShaft(ring.node, k, 0.0) for k, ring in enumerate(rings, len(inertia))]
+    inertia = np.append(inertia, [ring.inertia for ring in rings])
     oil = np.append(damping.dashpots, [ring.damping for ring in rings])
-    losses = Damping(np.append(damping.loss, none), oil, np.append(damping.nodes, none))
-    return find_chain_poles(with_rings, losses)
+    return find_chain_poles(
+        join_chain(inertia, shafts, np.flatnonzero(chain.clamped).tolist()),
+        Damping(np.pad(damping.loss, more), oil, np.pad(damping.nodes, more)),
+    )
 
 
 def find_criticals(

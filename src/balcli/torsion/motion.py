@@ -190,25 +190,17 @@ def _solve_dense(
     """
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
     scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
-    nodes, shafts = np.arange(len(own)), len(own) + np.arange(np.count_nonzero(carrying))
-    unknowns, rows = len(nodes) + len(shafts), incidence(chain)[carrying]
-    matrix, right = (
-        np.zeros((len(w), unknowns, unknowns), complex),
-        np.zeros((len(w), unknowns), complex),
-    )
-    matrix[:, nodes, nodes] = own.T / scale
-    matrix[:, nodes[:, None], shafts] = rows.T
-    matrix[:, shafts[:, None], nodes] = rows
-    matrix[:, shafts, shafts] = -scale * flexible[carrying].T
-    held = np.flatnonzero(chain.clamped)
-    matrix[:, held, :] = 0
-    matrix[:, :, held] = 0
-    matrix[:, held, held] = 1
-    right[:, nodes] = np.where(chain.clamped, 0, load.T / scale)
+    free, twist = ~chain.clamped[:, None], incidence(chain)[carrying] * ~chain.clamped
+    nodes, diagonal = len(own), np.arange(len(own) + len(twist))
+    matrix = np.zeros((len(w), len(diagonal), len(diagonal)), complex)
+    matrix[:, :nodes, nodes:], matrix[:, nodes:, :nodes] = twist.T, twist
+    each = np.concatenate([np.where(free, own / scale, 1), -scale * flexible[carrying]])
+    matrix[:, diagonal, diagonal] = each.T
+    right = np.pad(np.where(free, load / scale, 0), [(0, len(twist)), (0, 0)]).T
     solution = solve_equations(matrix, right, w, singular).T
     torque = np.zeros((len(chain.start), len(w)), complex)
-    torque[carrying] = scale * solution[shafts]
-    return solution[nodes], torque
+    torque[carrying] = scale * solution[nodes:]
+    return solution[:nodes], torque
 
 
 _EDGE = 1e-10  # share of a speed by which a resonance may lie beyond the range

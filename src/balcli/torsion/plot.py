@@ -27,6 +27,7 @@ from ..show.plot_style import (
 from ..show.sheet import number, order_name
 from ..show.units import SI, System
 from .answer import TorsionAnalysis
+from .motion import stress_by_torque
 from .response import TorsionResponse
 
 if TYPE_CHECKING:
@@ -151,28 +152,21 @@ def _draw_torque(
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it. Each curve includes its peak between the speeds.
     """
-    limit, sections = result.system.limit_pa, result.system.sections
-    by_stress = any(sections) and limit is not None
-    curves = []  # shaft, by speed, largest
-    for shaft, section in zip(response.shafts, sections, strict=True):
+    limit, by_torque = result.system.limit_pa, np.ones(len(response.shafts))
+    if by_stress := limit is not None and any(result.system.sections):
+        by_torque = np.nan_to_num(stress_by_torque(result.system))
+    peaks = by_torque * [shaft.worst.half_peak_to_peak_Nm for shaft in response.shafts]
+    unit = (system.stress if by_stress else system.moment).fit(peaks.max())
+    largest = np.argsort(-peaks, kind="stable")[:_MOST_SHAFTS]
+    for k, (line, colour) in zip(np.sort(largest[by_torque[largest] > 0]), cycle(MANY_LOOKS)):
+        shaft, size = response.shafts[k], by_torque[k] / unit.size
         torque, peak = shaft.half_peak_to_peak_Nm, shaft.worst.half_peak_to_peak_Nm
-        if not by_stress:
-            curves.append((shaft, torque, peak))
-        elif section is not None:
-            by_torque = section.stress_by_torque
-            curves.append((shaft, torque * by_torque, peak * by_torque))
-    least = sorted((peak for _, _, peak in curves), reverse=True)[:_MOST_SHAFTS][-1]
-    unit = (system.stress if by_stress else system.moment).fit(max(peak for _, _, peak in curves))
-    shown = [each for each in curves if each[2] >= least]
-    for (shaft, swings, peak), (line, colour) in zip(shown, cycle(MANY_LOOKS)):
-        rpm, swing = _put_in(response.speeds_rpm, swings, shaft.worst.speed_rpm, peak)
-        ax.plot(rpm, swing / unit.size, line, color=colour, label=fit_name(shaft.name, 22))
+        rpm, swing = _put_in(response.speeds_rpm, torque, shaft.worst.speed_rpm, peak)
+        ax.plot(rpm, swing * size, line, color=colour, label=fit_name(shaft.name, 22))
     if by_stress and limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
-    _finish(ax, response, unit.name)
-    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=30)
-    put_legend_above(ax)
-    _shade_barred(ax, result)
+    title = "Vibratory stress" if by_stress else "Vibratory torque"
+    _finish(ax, result, response, title, unit.name)
 
 
 def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
@@ -185,10 +179,8 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) ->
     for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
         label = f"order {order_name(float(response.orders[k]))}"
         ax.plot(rpm, swings[k], line, color=colour, linewidth=1, label=label)
-    _finish(ax, response, "deg")
-    ax.set_title(f"Half swing of {fit_name(result.system.free_end, 30)}", pad=30)
-    put_legend_above(ax, 3)
-    _shade_barred(ax, result)
+    title = f"Half swing of {fit_name(result.system.free_end, 30)}"
+    _finish(ax, result, response, title, "deg", columns=3)
 
 
 def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tuple[Real, Real]:
@@ -197,10 +189,20 @@ def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tup
     return np.insert(rpm, k, peak_rpm), np.insert(values, k, peak, axis=-1)
 
 
-def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
+def _finish(
+    ax: Axes,
+    result: TorsionAnalysis,
+    response: TorsionResponse,
+    title: str,
+    unit: str,
+    columns: int = 4,
+) -> None:
     ax.set_xlim(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]) + 1e-9)
     ax.set_ylim(bottom=0)
     ax.set(xlabel="rpm", ylabel=f"± {unit}")
+    ax.set_title(title, pad=30)
+    put_legend_above(ax, columns)
+    _shade_barred(ax, result)
 
 
 def _draw_waterfall(ax: Axes, response: TorsionResponse, system: System) -> None:

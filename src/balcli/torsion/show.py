@@ -24,6 +24,7 @@ from .system import TorsionalSystem
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
+_MOST_LISTED = 8  # orders of the excitation: of more the first and the last are named
 _MOST_BARE = 8  # shafts without a diameter that are named
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
 
@@ -254,8 +255,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 
 def _name_scope(result: TorsionAnalysis) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
-    rated, orders = result.system.rated_rpm, np.array(result.orders)
-    note = f"Included: {_list_runs(orders)}."
+    rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
     if left_out := _list_left_out(result.system):
         note += f" Without {left_out}, which shift them."
     if result.response is not None:
@@ -264,15 +264,11 @@ def _name_scope(result: TorsionAnalysis) -> str:
     return note + _name_gas(result)
 
 
-def _list_runs(orders: Real) -> str:
-    """Return orders in words: "orders 1 to 9, 12"; with halves "orders ½ to 6 in steps of ½, 9"."""
-    step = 1.0 if np.all(orders % 1 == 0) else 0.5
-    parts = []
-    for run in np.split(orders, np.flatnonzero(np.diff(orders) != step) + 1):
-        names = list(map(order_name, run.tolist()))
-        halves = " in steps of ½" * (step < 1)
-        parts += [f"{names[0]} to {names[-1]}{halves}"] if len(run) > 2 else names
-    return f"order{'s' * (len(orders) > 1)} {', '.join(parts)}"
+def _list_orders(orders: Sequence[float]) -> str:
+    """Return a few orders by name, of many the first and the last."""
+    if len(orders) > _MOST_LISTED:
+        return f"{len(orders)} orders, {order_name(orders[0])} to {order_name(orders[-1])}"
+    return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
 
 
 def _list_left_out(system: TorsionalSystem) -> str:
