@@ -54,13 +54,11 @@ class TorsionQuestion(NamedTuple):
 
     Attributes:
         speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
-        orders: Orders of the excitation to use; None: all.
         holzer: Requested Holzer tables.
         damper: Damper to size; the results are then those of the system with it.
     """
 
     speeds_rpm: Real | None = None
-    orders: Real | None = None
     holzer: Sequence[HolzerAsked] = ()
     damper: DamperAsked = DamperAsked()
 
@@ -240,7 +238,7 @@ def answer_question(
         return _analyze_system(source.system(NO_DAMPERS), question, tell)
     if question.speeds_rpm is None:
         raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
-    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
+    sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
     for each in () if found.response is None else found.response.dampers or ():
@@ -254,12 +252,8 @@ def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """Return the answer about a system as it is."""
-    speeds, orders = question.speeds_rpm, question.orders
-    if speeds is not None:
-        system = system.driven_at(orders)
-    elif orders is not None and system.excitation is not None:
-        system = replace(system, excitation=system.excitation.only(orders))
-    modes, chain, excitation = find_natural_modes(system), system.chain, system.excitation
+    speeds, modes = question.speeds_rpm, find_natural_modes(system)
+    chain, excitation = system.chain, system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     response, barred = None, None
     if speeds is not None:
@@ -362,7 +356,7 @@ def analyze_torsion(
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     speeds = check_speeds("analyze_torsion", speeds_rpm)
-    question = TorsionQuestion(speeds, asked, (), DamperAsked(damper, damper_at, inertia))
+    question = TorsionQuestion(speeds, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
 
@@ -373,6 +367,6 @@ def _read_source(source: object, orders: Array | None) -> Source:
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
-        return make_chain_source(read_chain_tables(tables, name), name)
+        return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

@@ -61,7 +61,6 @@ def _parse_trial(text: str) -> HolzerAsked:
 
 def parse_question(
     speeds: str | None,
-    orders: str | None,
     holzer: Sequence[str] = (),
     damper: str | None = None,
     damper_at: str | None = None,
@@ -78,7 +77,7 @@ def parse_question(
         inertia = read_inertia("--damper-inertia", damper_inertia, units)
     trials = [_parse_trial(each) for each in holzer]
     sized = DamperAsked(damper, damper_at, inertia)
-    return TorsionQuestion(parse_speeds(speeds), parse_half_orders(orders), trials, sized)
+    return TorsionQuestion(parse_speeds(speeds), trials, sized)
 
 
 def require_speeds(asked: TorsionQuestion, what: str) -> None:
@@ -107,8 +106,8 @@ def make_figures_of_torsion(
         orders: Orders that excite, as typed.
         units: System of units.
     """
-    asked = parse_question(speeds, orders)
-    source = load_source(path, asked.orders)
+    asked = parse_question(speeds)
+    source = load_source(path, parse_half_orders(orders))
     over_speed = {"response", "waterfall"} & {*pages}
     if over_speed and asked.speeds_rpm is None and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))

@@ -170,13 +170,17 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
 
 # ------------------------------------------------------------------ a chain file
 def build_chain(
-    file: ChainFile, name: str = "", fitted: Mapping[str, Damper | None] = NO_DAMPERS
+    file: ChainFile,
+    name: str = "",
+    orders: Real | None = None,
+    fitted: Mapping[str, Damper | None] = NO_DAMPERS,
 ) -> TorsionalSystem:
     """Return the system of a chain file.
 
     Args:
         file: Tables of the file.
         name: Name of the file, for messages.
+        orders: Orders of the excitation to use, shape (orders,); None: all.
         fitted: Dampers of some nodes in place of those in the file.
 
     Raises:
@@ -204,7 +208,7 @@ def build_chain(
         fitted,
         name=file.name or "",
         ends=(0, len(nodes) - 1),
-        excitation=_excite(file, index),
+        excitation=_excite(file, index, orders),
         assumed=tuple(f"shaft.shear_modulus = {each:g}" for each in unnamed),
         file=name,
     )
@@ -222,16 +226,17 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
         yield f"{name} ({before + 1})" if before else name
 
 
-def _excite(file: ChainFile, index: dict[str, int]) -> Excitation | None:
+def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Excitation | None:
     if not file.excitation:
         return None
-    orders = np.unique(np.array([each.order for each in file.excitation]))
+    given = np.unique([each.order for each in file.excitation])
     sources = sorted({index[each.node] for each in file.excitation})
-    steady = np.zeros((len(orders), len(sources)), complex)
+    steady = np.zeros((len(given), len(sources)), complex)
     for each in file.excitation:
-        row, column = int(np.searchsorted(orders, each.order)), sources.index(index[each.node])
+        row, column = int(np.searchsorted(given, each.order)), sources.index(index[each.node])
         steady[row, column] += complex(each.cos, -each.sin)
-    return Excitation(orders, np.array(sources), steady, np.zeros_like(steady))
+    found = Excitation(given, np.array(sources), steady, np.zeros_like(steady))
+    return found if orders is None else found.only(orders)
 
 
 def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Problem]:

@@ -141,7 +141,6 @@ def size_damper(
     source: Source,
     asked: DamperAsked,
     speeds: Real,
-    orders: Real | None = None,
     tell: Tell = tell_nobody,
 ) -> SizedDamper:
     """Return the damper that makes the largest stress of all shafts over speeds least.
@@ -150,7 +149,6 @@ def size_damper(
         source: File of the chain or engine.
         asked: Damper to size.
         speeds: Rising speeds, rpm, shape (speeds,).
-        orders: Orders of the excitation to use; None: all.
         tell: Called with the share of the work that is done.
 
     Raises:
@@ -159,7 +157,7 @@ def size_damper(
     free_end = source.system(NO_DAMPERS).free_end
     node, own = _find_carrier(source.dampers, asked.node, free_end)
 
-    bare = source.system({node: None}).driven_at(orders)
+    bare = source.system({node: None})
     place = bare.nodes.index(node)
     mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
@@ -171,7 +169,7 @@ def size_damper(
         """Return the largest stress or torque with a damper; inf: no bound."""
         tell(min(next(tried) / _RESPONSES, 1.0))
         try:
-            return _find_hardest(source.system({node: damper}).driven_at(orders), speeds)[2]
+            return _find_hardest(source.system({node: damper}), speeds)[2]
         except BalcliError:
             return math.inf
 

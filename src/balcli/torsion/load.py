@@ -55,11 +55,13 @@ class Source:
         return None if self.engine is None else float(self.engine.cylinders.radius)
 
 
-def make_chain_source(model: ChainFile, name: str, text: bytes = b"") -> Source:
+def make_chain_source(
+    model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
+) -> Source:
     """Return the source of a chain file that has been read."""
     doubts = *doubt_losses(model.list_losses()), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
-    return Source(name, text, doubts, partial(build_chain, model, name), dampers)
+    return Source(name, text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
@@ -82,7 +84,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     """Read the source in a file, or in standard input for "-".
 
     Args:
-        orders: Orders of an engine's excitation, shape (orders,); None: those of `excite_engine`.
+        orders: Orders of the excitation to use, shape (orders,); None: all of a chain, of an engine
+            those of `excite_engine`.
         misfires: Numbers of an engine's cylinders without gas force.
 
     Raises:
@@ -93,7 +96,7 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     if describes_chain(data):
         if misfires:
             raise BalcliError("--misfire: a chain has no cylinders")
-        return make_chain_source(read_chain_tables(data, name), name, text)
+        return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
     made = make_source(model, build_named(model, name), name, orders, misfires)

@@ -4,7 +4,7 @@ and orders are those of its reference, the crankshaft or the first node of a cha
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 from typing import NamedTuple
@@ -129,24 +129,13 @@ class TorsionalSystem:
         """Return the excitation.
 
         Raises:
-            BalcliError: There is none.
+            BalcliError: There is none, or none at the requested orders.
         """
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
-        return self.excitation
-
-    def driven_at(self, orders: Real | None) -> TorsionalSystem:
-        """Return the system excited at these orders alone; None: at all orders.
-
-        Raises:
-            BalcliError: It has no excitation, or none at these orders.
-        """
-        excitation = self.require_excitation()
-        if orders is not None:
-            excitation = excitation.only(orders)
-        if not len(excitation.orders):
+        if not len(self.excitation.orders):
             raise self.refusal("nothing excites it at the orders asked for")
-        return replace(self, excitation=excitation)
+        return self.excitation
 
     @property
     def free_end(self) -> str:
