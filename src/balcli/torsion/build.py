@@ -53,7 +53,7 @@ from .chain import (
     rigid_motions,
 )
 from .read import refuse_node
-from .system import Excitation, Pendulums, ShaftSection, TorsionalSystem, ViscousRing
+from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
@@ -133,7 +133,7 @@ def assemble_system(
             np.array([table.damping for table in tables]),
             np.array([node.damping for node in nodes]),
         ),
-        sections=tuple(map(_find_section, tables)),
+        stress_by_torque=np.array([*map(_find_stress, tables)]),
         rings=tuple(rings),
         pendulums=tuple(pendulums),
         limit_pa=None if keys.limit is None else keys.limit * 1e6,
@@ -144,10 +144,10 @@ def assemble_system(
     )
 
 
-def _find_section(table: ShaftKeys) -> ShaftSection | None:
-    """Return a section in m, where the table has a diameter (mm)."""
-    outer = table.diameter
-    return None if outer is None else ShaftSection(outer / 1e3, (table.bore or 0.0) / 1e3)
+def _find_stress(table: ShaftKeys) -> float:
+    """Return the stress at the surface for 1 N m, Pa, `16 D/(pi (D^4 - d^4))`; 0 without D."""
+    outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
+    return 16 * outer / (math.pi * (outer**4 - inner**4)) if outer else 0.0
 
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:

@@ -21,7 +21,7 @@ from pydantic import ValidationError
 
 from ..core.extrema import ROUNDS, find_least
 from ..core.phases import RPM
-from ..core.records import HIDDEN, Node
+from ..core.records import HIDDEN
 from ..core.vibration import Real
 from ..errors import BalcliError
 from ..file.edit import set_keys
@@ -33,7 +33,7 @@ from .build import NO_DAMPERS
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
-from .motion import move, stress_by_torque
+from .motion import move
 from .response import count_columns, find_largest
 from .system import TorsionalSystem
 
@@ -177,7 +177,7 @@ def size_damper(
         lambda each: judge(first.model_copy(update={figure: start * math.exp(each)})), width
     )
     damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
-    measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
+    measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
     before, after = judge(None), judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
@@ -227,9 +227,9 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
         system: With an excitation.
         speeds: (speeds,) rising, rpm.
     """
-    columns, stress = np.zeros(count_columns(system)), np.nan_to_num(stress_by_torque(system))
-    rings = len(system.nodes) - 1 - system.last
-    columns[: len(stress) - rings] = stress[: len(stress) - rings] if any(system.sections) else 1
+    columns, stress = np.zeros(count_columns(system)), system.stress_by_torque
+    shafts = len(stress) - (len(system.nodes) - 1 - system.last)
+    columns[:shafts] = stress[:shafts] if any(stress) else 1
     rpm, value = find_largest(system, speeds, columns, together=True)
     worst = int(value.argmax())
     return worst, float(rpm[worst]), float(value[worst])
@@ -372,17 +372,13 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
         damper: New damper, in place of an older one.
     """
     old = text.decode("utf-8-sig")
-    table = _find_table(tomllib.loads(old), name)
-    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")
-
-
-def _find_table(data: Node, name: str) -> str:
-    """Return the dotted name of the table of a node or part, such as `torsion.rear.2`."""
+    data = tomllib.loads(old)
     torsion = data.get("torsion", {})
     lists = {f"torsion.{end}": torsion.get(end, ()) for end in ("front", "rear")}
-    return next(
+    table = next(
         f"{key}.{number}"
         for key, tables in (lists | {"node": data.get("node", ())}).items()
         for number, table in enumerate(tables, 1)
         if table.get("name") == name
     )
+    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")

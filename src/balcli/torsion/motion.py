@@ -237,8 +237,12 @@ def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
     except UndampedResonanceError as error:
         row, _ = np.unravel_index(np.abs(w - error.frequency).argmin(), w.shape)
-        met = float(excitation.orders[row])
-        raise _refuse_resonance(system, error.frequency, met) from None
+        order, omega = excitation.orders[row], error.frequency
+        raise system.refusal(
+            f"the natural frequency of {omega / (2 * np.pi):.6g} Hz is excited by order {order:g} "
+            f"at {omega / (RPM * order):.6g} rpm and nothing damps it: its vibration has no bound; "
+            "give a loss factor (loss = 0.02), or damping"
+        ) from None
     swings = system.swing_pendulums(excitation.orders, twist.angle)
     return ChainMotion(*twist, swings, _find_heat(system, w, *twist))
 
@@ -275,11 +279,6 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     return np.concatenate(curves, axis=1), np.concatenate(heat)
 
 
-def stress_by_torque(system: TorsionalSystem) -> Real:
-    """Return the stress (shafts,) for 1 N m, Pa; nan where there is no diameter."""
-    return np.array([np.nan if s is None else s.stress_by_torque for s in system.sections])
-
-
 # ------------------------------------------------------------------ what cannot be computed
 def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     """Refuse a range of speeds (rpm) that is beyond computing.
@@ -312,11 +311,3 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
         if len(met):  # raises where the order drives the mode
             alone = excitation.only(np.array([order]))
             move(replace(system, damping=none, rings=(), excitation=alone), met)
-
-
-def _refuse_resonance(system: TorsionalSystem, omega: float, order: float) -> BalcliError:
-    return system.refusal(
-        f"the natural frequency of {omega / (2 * np.pi):.6g} Hz is excited by order {order:g} at "
-        f"{omega / (RPM * order):.6g} rpm and nothing damps it: its vibration has no bound; give a "
-        "loss factor (loss = 0.02), or damping"
-    )

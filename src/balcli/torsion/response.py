@@ -10,19 +10,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
 
 import numpy as np
 
 from ..core.extrema import find_highest, find_peaks_between
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
-from ..core.records import HIDDEN
 from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, refuse_unbounded, stress_by_torque
+from .motion import compute_curves, refuse_unbounded
 from .system import TorsionalSystem
 
 _ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
@@ -159,7 +157,6 @@ class ShaftResponse:
         sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
         stress_Pa: Stress by half of peak to peak, by speed; left out without a diameter.
         worst: Largest torque over the range of speeds.
-        amplitudes_Nm: Torque by order and speed.
     """
 
     name: str
@@ -167,7 +164,6 @@ class ShaftResponse:
     sum_of_amplitudes_Nm: Real
     stress_Pa: Real | None = None
     worst: WorstTorque
-    amplitudes_Nm: Annotated[Real, HIDDEN]
 
 
 @dataclass(frozen=True)
@@ -237,9 +233,6 @@ class TorsionResponse:
         free_end_worst: Largest swing of the free end.
         dampers: Heat of dampers, rings in oil first; left out without any.
         pendulums: Swing of pendulums; left out without any.
-        orders: Orders of the excitation.
-        swings_deg: Amplitude of the free end by order and speed.
-        worst_swings_deg: Amplitude of the free end by order, where it swings most.
     """
 
     speeds_rpm: Real
@@ -248,9 +241,6 @@ class TorsionResponse:
     free_end_worst: WorstSwing
     dampers: tuple[DamperHeat, ...] | None = None
     pendulums: tuple[PendulumSwing, ...] | None = None
-    orders: Annotated[Real, HIDDEN]
-    swings_deg: Annotated[Real, HIDDEN]
-    worst_swings_deg: Annotated[Real, HIDDEN]
 
 
 def find_response(
@@ -269,30 +259,28 @@ def find_response(
     refuse_unbounded(system, speeds_rpm)
     orders, end = system.require_excitation().orders, len(system.shafts)
     phasors, heat = compute_curves(system, speeds_rpm)
-    swings = np.zeros(phasors.shape[1:])
+    swings, sums = np.zeros(phasors.shape[1:]), sum_amplitudes(phasors)
     for some in _split(len(swings)):
         swings[some] = find_swing(orders, phasors[:, some]).half
         tell((some[-1] + 1) / len(swings))
     at, value = find_largest(system, speeds_rpm)
-    there, _ = compute_curves(system, at[: end + 1])
-    by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
-    named_orders, stress = list(map(order_number, orders.tolist())), stress_by_torque(system)
+    there, _ = compute_curves(system, at[:end])
+    by_order = np.abs(there[:, range(end), range(end)])  # of each shaft where it is largest
+    named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
     shafts = []
     for k, name in enumerate(system.shafts):
-        amplitudes, known = np.abs(phasors[:, :, k]), bool(np.isfinite(stress[k]))
         worst = WorstTorque(
             speed_rpm=float(at[k]),
             half_peak_to_peak_Nm=float(value[k]),
-            stress_Pa=float(value[k] * stress[k]) if known else None,
+            stress_Pa=float(value[k] * stress[k]) if stress[k] else None,
             orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
         )
         shaft = ShaftResponse(
             name=name,
             half_peak_to_peak_Nm=swings[:, k],
-            sum_of_amplitudes_Nm=amplitudes.sum(axis=0),
-            stress_Pa=swings[:, k] * stress[k] if known else None,
+            sum_of_amplitudes_Nm=sums[:, k],
+            stress_Pa=swings[:, k] * stress[k] if stress[k] else None,
             worst=worst,
-            amplitudes_Nm=amplitudes,
         )
         shafts.append(shaft)
     degrees = np.degrees(swings)
@@ -311,9 +299,6 @@ def find_response(
         free_end_worst=worst_swings[end],
         dampers=dampers or None,
         pendulums=pendulums or None,
-        orders=orders,
-        swings_deg=np.degrees(np.abs(phasors[:, :, end])),
-        worst_swings_deg=np.degrees(by_order[:, end]),
     )
 
 
@@ -332,7 +317,7 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     points of peaks below a limit and the lowest points of valleys above it. The ends of a barred
     range are found by halving.
     """
-    stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
+    stress = system.stress_by_torque / (system.limit_pa or np.inf)
     weights = np.append(stress, 1 / (system.angle_limit or np.inf))
     if not weights.any():
         return None

@@ -323,7 +323,7 @@ def _show_response(
     if not response.shafts:
         return Text(f"Vibration, {span}", (swings,))
     unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
-    stress, stressed = system.stress.fit(0.0), any(result.system.sections)
+    stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
     rows = []
     for shaft in response.shafts:
         worst = shaft.worst
@@ -393,9 +393,9 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
     system, limits, bare = result.system, [], []
     if system.limit_pa is not None:
         limits.append(size_text(system.limit_pa, units.stress, None))
-        each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
+        each = zip(system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True)
         rings = system.nodes[system.last + 1 :]  # rubber has no section
-        bare = [s for s, section, k in each if not section and math.isfinite(k) and s not in rings]
+        bare = [s for s, stress, k in each if not stress and math.isfinite(k) and s not in rings]
     if system.angle_limit is not None:
         limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
     if limits:
