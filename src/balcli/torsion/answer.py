@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType
@@ -22,7 +22,8 @@ from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
-from .dampers import DamperAsked, SizedDamper, size_damper
+from .build import NO_DAMPERS
+from .dampers import KINDS_OF_DAMPERS, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -53,47 +54,13 @@ class TorsionQuestion(NamedTuple):
 
     Attributes:
         speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
-        orders: Orders of the excitation to use; None: all.
         holzer: Requested Holzer tables.
         damper: Damper to size; the results are then those of the system with it.
     """
 
     speeds_rpm: Real | None = None
-    orders: Real | None = None
-    holzer: tuple[HolzerAsked, ...] = ()
-    damper: DamperAsked | None = None
-
-
-def ask(
-    speeds_rpm: Real | None = None,
-    orders: Real | None = None,
-    holzer: Iterable[HolzerAsked] = (),
-    damper: str | None = None,
-    damper_at: str | None = None,
-    damper_inertia: float | None = None,
-) -> TorsionQuestion:
-    """Return the request of `balcli torsion` and `analyze_torsion`.
-
-    Args:
-        speeds_rpm: Rising speeds of the response, shape (speeds,).
-        orders: Orders of the excitation to use, shape (orders,); None: all.
-        holzer: Requested Holzer tables.
-        damper: Kind of damper to size.
-        damper_at: Name of the node that carries it.
-        damper_inertia: Inertia of its ring or pendulums, kg m2.
-
-    Raises:
-        BalcliError: node or inertia of a damper without its kind; a damper without speeds.
-    """
-    wanted = None
-    if damper is not None:
-        wanted = DamperAsked(damper, damper_at, damper_inertia)
-        if speeds_rpm is None:
-            raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
-    elif damper_at is not None or damper_inertia is not None:
-        option = "--damper-inertia" if damper_at is None else "--damper-at"
-        raise BalcliError(f"{option}: give the kind of damper, with --damper")
-    return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
+    holzer: Sequence[HolzerAsked] = ()
+    damper: DamperAsked = DamperAsked()
 
 
 @dataclass(frozen=True)
@@ -227,10 +194,9 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings: at "
-                f"{WIDE_SWING:.0f} deg a pendulum on a circle is 0.8 % out of tune, beyond more; "
+                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
                 f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
-                f"{WIDE_SWING:.0f} deg"
+                f"{WIDE_SWING:.0f} deg, where it is 0.8 % out of tune"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
@@ -259,13 +225,20 @@ def answer_question(
         tell: Called with the share of the work that is done.
 
     Raises:
-        BalcliError: a response without excitation or through an undamped resonance; a mode that
-            does not exist; Holzer's table of a chain with loops; a damper that no node can carry.
+        BalcliError: node or inertia of a damper without its kind; a damper without speeds; a
+            response without excitation or through an undamped resonance; a mode that does not
+            exist; Holzer's table of a chain with loops; a damper that no node can carry.
         InputError: contradictions in the file.
     """
-    if question.damper is None or question.speeds_rpm is None:
-        return _analyze_system(source.system(), question, tell)
-    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
+    kind, node, inertia = question.damper
+    if kind is None:
+        if node is not None or inertia is not None:
+            option = "--damper-inertia" if node is None else "--damper-at"
+            raise BalcliError(f"{option}: give the kind of damper, with --damper")
+        return _analyze_system(source.system(NO_DAMPERS), question, tell)
+    if question.speeds_rpm is None:
+        raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
+    sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
     for each in () if found.response is None else found.response.dampers or ():
@@ -279,12 +252,8 @@ def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """Return the answer about a system as it is."""
-    speeds, orders = question.speeds_rpm, question.orders
-    if speeds is not None:
-        system = system.driven_at(orders)
-    elif orders is not None and system.excitation is not None:
-        system = replace(system, excitation=system.excitation.only(orders))
-    modes, chain, excitation = find_natural_modes(system), system.chain, system.excitation
+    speeds, modes = question.speeds_rpm, find_natural_modes(system)
+    chain, excitation = system.chain, system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     response, barred = None, None
     if speeds is not None:
@@ -338,7 +307,6 @@ def _tabulate(
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 
-KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 _UNNAMED = "chain file"  # in messages, a text or dict
 
 
@@ -388,7 +356,7 @@ def analyze_torsion(
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     speeds = check_speeds("analyze_torsion", speeds_rpm)
-    question = ask(speeds, asked, (), damper, damper_at, inertia)
+    question = TorsionQuestion(speeds, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
 
@@ -399,6 +367,6 @@ def _read_source(source: object, orders: Array | None) -> Source:
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
-        return make_chain_source(read_chain_tables(tables, name), name)
+        return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

@@ -171,24 +171,12 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
-def trace_shafts(
-    chain: Chain, roots: Sequence[int], node: int, joining: NDArray[np.bool_]
-) -> list[int]:
-    """Return the shafts of some (shafts,) that lead from one of these roots to a node."""
-    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
-    way = list[int]()
-    while node in led:
-        way.append(led[node].shaft)
-        node = led[node].parent
-    return way[::-1]
-
-
 _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
 
 
-def viscous_inertia(inertia: float, damping: float, frequency: Real) -> Complex:
-    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s:
-    `J/(1 + i w J/c)`.
+def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Real) -> Complex:
+    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s, or of several that
+    broadcast: `J/(1 + i w J/c)`.
     """
     return inertia / (1 + 1j * frequency * (inertia / damping))
 

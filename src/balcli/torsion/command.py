@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -18,24 +17,6 @@ from ..shell.progress import reporting
 from ..shell.values import optional
 from ..show.formats import Units
 from ..show.units import SYSTEMS
-
-
-class DamperKind(StrEnum):
-    """Kinds of dampers."""
-
-    VISCOUS = "viscous"
-    RUBBER = "rubber"
-    PENDULUM = "pendulum"
-
-
-class TorsionPicture(StrEnum):
-    """Which pictures are drawn."""
-
-    ALL = "all"
-    MODES = "modes"
-    CAMPBELL = "campbell"
-    RESPONSE = "response"
-    WATERFALL = "waterfall"
 
 
 def torsion(
@@ -74,7 +55,7 @@ def torsion(
     ] = None,
     misfire: Misfire = None,
     damper: Annotated[
-        DamperKind | None,
+        Literal["viscous", "rubber", "pendulum"] | None,
         typer.Option(
             show_default=False,
             help="Size a damper that makes the largest stress over --speeds least.",
@@ -94,8 +75,9 @@ def torsion(
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
-        TorsionPicture, typer.Option(help="Picture of --plot; the last two need --speeds.")
-    ] = TorsionPicture.ALL,
+        Literal["all", "modes", "campbell", "response", "waterfall"],
+        typer.Option(help="Picture of --plot; the last two need --speeds."),
+    ] = "all",
     progress: ProgressAtOnce = False,
     units: UnitsOption = Units.SI,
     form: FormatOption = None,
@@ -116,15 +98,13 @@ def torsion(
     require_ending(write, ".toml", "--write")
     from . import answer, ask, dampers, load, plot as picture, show as pages
 
-    asked = ask.parse_question(
-        speeds, orders, holzer or (), damper, damper_at, damper_inertia, units
-    )
+    asked = ask.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
     if write is not None and damper is None:
         raise BalcliError("--write: give the kind of damper to write, with --damper")
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
     ask.require_speeds(asked, what)
-    source = load.load_source(path, asked.orders, misfire or ())
+    source = load.load_source(path, ask.parse_half_orders(orders), misfire or ())
     warn_each(source.doubts, name_file(path))
     with reporting("work", at_once=progress) as tell:
         result = answer.answer_question(source, asked, tell)

@@ -17,12 +17,14 @@ from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_sh
 from ..file.fields import order_number
 from .chain import (
     Chain,
+    ChainShaft,
     Damping,
     find_pieces,
     find_still,
     follow_gears,
     grow_branches,
     incidence,
+    join_chain,
     rigid_motions,
 )
 from .system import Excitation, TorsionalSystem
@@ -224,21 +226,17 @@ def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
         order: Order at which pendulums have their inertia; None: they are left out.
     """
     chain, damping, rings = system.chain, system.damping, system.rings
-    inertia = chain.inertia
+    inertia, more = chain.inertia, (0, len(rings))
     if order is not None:
         inertia = inertia + system.attached_pendulums(np.array(order)).real
-    none, on = np.zeros(len(rings)), [ring.node for ring in rings]
-    with_rings = Chain(
-        np.append(inertia, [ring.inertia for ring in rings]),
-        np.append(chain.start, np.array(on, np.intp)),
-        np.append(chain.end, len(inertia) + np.arange(len(rings))),
-        np.append(chain.ratio, none + 1),
-        np.append(chain.stiffness, none),
-        np.append(chain.clamped, none.astype(bool)),
-    )
+    shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
+    shafts += [ChainShaft(ring.node, k, 0.0) for k, ring in enumerate(rings, len(inertia))]
+    inertia = np.append(inertia, [ring.inertia for ring in rings])
     oil = np.append(damping.dashpots, [ring.damping for ring in rings])
-    losses = Damping(np.append(damping.loss, none), oil, np.append(damping.nodes, none))
-    return find_chain_poles(with_rings, losses)
+    return find_chain_poles(
+        join_chain(inertia, shafts, np.flatnonzero(chain.clamped).tolist()),
+        Damping(np.pad(damping.loss, more), oil, np.pad(damping.nodes, more)),
+    )
 
 
 def find_criticals(
@@ -331,29 +329,20 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         if chain.clamped[node]:
             raise ValueError("Holzer's table can lead to a clamped node, but not over it")
         node = parents[node]
-    inertial = frequency**2 * chain.inertia
+    inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
     unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
-    matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
-    matrix[range(count), range(count)] = inertial / unit
-    for row, (child, parent, shaft, near, far) in enumerate(branches, count):
-        matrix[row, [child, parent]] = near, far
-        matrix[row, row] = -unit / chain.stiffness[shaft]
-        matrix[[child, parent], row] = -near, -far
-    for node in np.flatnonzero(chain.clamped).tolist():
-        matrix[node] = np.arange(2 * count) == node
-    matrix[last] = np.arange(2 * count) == first
-    right[last] = 1.0
-    matrix[-1, -1] = 1.0  # there is one shaft less than nodes
+    softness = np.diag(unit / chain.stiffness[stiff])
+    matrix = np.block([[np.diag(inertial / unit), -twisting.T], [twisting, -softness]])
+    alone, held = np.eye(len(matrix)), np.flatnonzero(chain.clamped)
+    matrix[held], matrix[last] = alone[held], alone[first]
     try:
-        solution = np.linalg.solve(matrix, right)
+        solution = np.linalg.solve(matrix, alone[last])
     except np.linalg.LinAlgError:
         raise ValueError("a branch is at resonance by itself") from None
-    angle, torque = solution[:count], inertial * solution[:count]
-    total, stiffness, twist = torque.copy(), np.zeros(count), np.zeros(count)
-    for carried, (child, parent, shaft, near, far) in zip(solution[count:], branches, strict=False):
-        total[child] = near * unit * carried
-        stiffness[child] = near**2 * chain.stiffness[shaft]
-        twist[child] = total[child] / stiffness[child]
-        if parent == last:
-            total[last] -= far * unit * carried
-    return Holzer(angle, torque, total, stiffness, twist, float(total[last]))
+    angle, carried = solution[:count], np.zeros(len(stiff))
+    carried[stiff] = unit * solution[count:]
+    total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
+    for child, _, shaft, near, _ in branches:
+        total[child], stiffness[child] = near * carried[shaft], near**2 * chain.stiffness[shaft]
+    twist = np.divide(total, stiffness, out=np.zeros(count), where=stiffness > 0)
+    return Holzer(angle, inertial * angle, total, stiffness, twist, float(total[last]))

@@ -18,7 +18,6 @@ from ..file.read import change_figures
 from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .build import build_engine_system, excite_engine
 from .modes import find_chain_modes
-from .motion import stress_by_torque
 from .response import count_columns, find_largest
 from .system import Excitation, TorsionalSystem
 
@@ -49,9 +48,9 @@ def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities that a file has."""
     system = _build(model)
     yield from (f"torsion.{number}.Hz" for number, _ in enumerate(_find_frequencies(system), 1))
-    for shaft, section in zip(system.shafts, system.sections, strict=True):
+    for shaft, stress in zip(system.shafts, system.stress_by_torque, strict=True):
         yield f"shaft.{shaft}.torque"
-        if section is not None:
+        if stress:
             yield f"shaft.{shaft}.stress"
 
 
@@ -74,7 +73,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
             raise BalcliError(f"{q.name}: there are {modes} modes")
         if q.kind == "shaft":
             refuse_stranger(q, system.shafts)
-        if q.part == "stress" and system.sections[system.shafts.index(q.target)] is None:
+        if q.part == "stress" and not system.stress_by_torque[system.shafts.index(q.target)]:
             raise BalcliError(f"{q.name}: this shaft has no diameter, so its stress is not known")
 
 
@@ -126,9 +125,9 @@ def _find_largest(
     if not places:
         return {}
     weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
-    largest, by_torque = find_largest(system, speeds, weights).value, stress_by_torque(system)
+    _, largest = find_largest(system, speeds, weights)
     return {
-        q: float(largest[shaft] * (by_torque[shaft] if q.part == "stress" else 1))
+        q: float(largest[shaft] * (system.stress_by_torque[shaft] if q.part == "stress" else 1))
         for q, shaft in places.items()
     }
 

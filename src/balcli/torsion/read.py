@@ -63,7 +63,7 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
     fixed = data.get("fixed", ())
     for name in fixed if isinstance(fixed, list) else ():
         if isinstance(name, str) and name not in known:
-            yield Problem("fixed", _refuse_node(name, known))
+            yield Problem("fixed", refuse_node(name, known))
 
 
 def _check_ends(
@@ -72,13 +72,18 @@ def _check_ends(
     named = [table.get(end) for end in ends]
     for end, name in zip(ends, named, strict=True):
         if isinstance(name, str) and name not in known:
-            yield Problem(f"{path}.{end}", _refuse_node(name, known))
+            yield Problem(f"{path}.{end}", refuse_node(name, known))
     if len(named) == 2 and isinstance(named[0], str) and named[0] == named[1]:
         yield Problem(path, f"goes from {shorten(named[0])} to itself; it joins two nodes")
 
 
-def _refuse_node(name: str, known: Sequence[str]) -> str:
-    """Return the mistake of a name that no node has."""
+def refuse_node(name: str, known: Sequence[str]) -> str:
+    """Return the message about a name that no node has.
+
+    Args:
+        name: Name in the file.
+        known: Names of the nodes.
+    """
     listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
     return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
 
