@@ -24,9 +24,7 @@ if TYPE_CHECKING:
     from ..core.phasors import Complex
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
-_AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
-_POLAR = re.compile(rf"\s*({BARE_FIGURE}){_AT}", re.ASCII)
-_WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.ASCII)
+_POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
@@ -53,47 +51,32 @@ class Polar(Number):
     Args:
         example: A right value, for messages.
         zero: Whether the amplitude may be 0.
-        unit: Key of the file that names the unit of all such values, if there is one.
     """
 
-    def __init__(self, example: str, *, zero: bool, unit: str = "") -> None:
+    def __init__(self, example: str, *, zero: bool) -> None:
         super().__init__(PLAIN)
-        self.example, self.zero, self.unit = example, zero, unit
+        self.example, self.zero = example, zero
 
     def read(self, value: object) -> complex:  # type: ignore[override]
         text = value if isinstance(value, str) and len(value) <= LONGEST_FIGURE else ""
         match = _POLAR.fullmatch(text)
         if match is None:
-            raise ValueError(f"{shorten(value)} {self._describe_misfit(text)}")
+            raise ValueError(
+                f"{shorten(value)} is no amplitude @ angle in degrees; write it like "
+                f'"{self.example}", without a unit'
+            )
         amplitude, angle = map(float, match.groups())
-        wrong = ""
-        if amplitude < 0:
-            wrong = "has a negative amplitude; leave the minus out, turn the angle by 180 degrees"
-        elif amplitude == 0 and not self.zero:
-            wrong = (
-                "is a weight of 0, which has no effect; give the weight that was on, or leave the "
-                "plane out"
+        if amplitude == 0 and not self.zero:
+            raise ValueError(
+                f"{shorten(value)} is a weight of 0, which has no effect; give the weight that was "
+                "on, or leave the plane out"
             )
-        elif not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
-            wrong = (
-                "is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to "
-                f"{_FARTHEST_DEG:g} degrees"
+        if not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
+            raise ValueError(
+                f"{shorten(value)} is too large or small; amplitudes are 0 or 1e-12 to 1e+12, "
+                f"angles up to {_FARTHEST_DEG:g} degrees; turn the angle by 180 in place of a minus"
             )
-        if wrong:
-            raise ValueError(f"{shorten(value)} {wrong}")
         return make_polar(amplitude, angle)
-
-    def _describe_misfit(self, text: str) -> str:
-        """Return the mistake in a text that is not amplitude and angle."""
-        if self.unit and (found := _WITH_UNIT.fullmatch(text)):
-            figure, unit, angle = found.groups()
-            return (
-                f'names a unit, which stands once at the head of the file: write "{figure} @ '
-                f'{angle}", and {self.unit} = {shorten(unit)} there'
-            )
-        comma = re.search(r"\d,\d", text)
-        hint = "; decimals take a point, thousands no comma" if comma else ""
-        return f'is no amplitude @ angle in degrees; write it like "{self.example}"{hint}'
 
     def json(self) -> Node:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}
@@ -155,8 +138,8 @@ T = TypeVar("T")
 Weights = TypeVar("Weights", complex, "Complex")
 ByPlane = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)]
 BySensor = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_SENSORS)]
-Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
-Weight = Annotated[complex, Polar("1.15 @ 0", zero=False, unit="weight_unit")]
+Reading = Annotated[complex, Polar("170 @ 112", zero=True)]
+Weight = Annotated[complex, Polar("1.15 @ 0", zero=False)]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
 Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
 Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]
@@ -273,6 +256,3 @@ class RunsFile(FileTable):
         if not self.weighs_masses:
             return scale
         return scale * self.radius[k] / 1e3 if self.radius else None
-
-
-# ------------------------------------------------------------------ what does not fit together
