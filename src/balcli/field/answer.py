@@ -11,16 +11,17 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 
 from ..core.least_squares import find_dependent_columns, minimise as make_small, solve
-from ..core.phasors import Array, Complex
+from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
-from ..errors import BalcliError, InputError, Problem, check_type
+from ..errors import BalcliError, InputError, Problem, check_type, list_words
 from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit
@@ -94,28 +95,22 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
     """
     trials = {}
     for correction in result.corrections:
-        plane, heaviest = correction.plane, 0.0
+        plane, weight = correction.plane, abs(correction.weight)
         k = result.file.planes.index(plane)
         for each in series:
             alpha, found = fit_coefficients(each)
-            trial = max(
-                abs(run.weights.get(plane, 0))
-                for run in result.file.run
-                if run.speed == each.speed_rpm
-            )
-            heaviest = max(heaviest, trial)
-            change, largest = trial * np.abs(alpha[:, k]).max(), np.abs(found).max()
-            if change < _SMALL_CHANGE * largest:
+            change = np.abs(np.outer(alpha[:, k], each.weights[:, k])).max()
+            if change < _SMALL_CHANGE * (largest := np.abs(found).max()):
                 at = f" at {each.speed_rpm:g} rpm" if len(series) > 1 else ""
                 yield (
                     f"the trial weight in {plane}{at} changes no reading by more than "
                     f"{change:.3g}, {100 * change / largest:.2g}% of the largest; use a heavier one"
                 )
-        trials[plane], weight = heaviest, abs(correction.weight)
-        if weight > _FAR_BEYOND * heaviest:
+        trial = trials[plane] = max(float(np.abs(each.weights[:, k]).max()) for each in series)
+        if weight > _FAR_BEYOND * trial:
             yield (
                 f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
-                f"{weight / heaviest:.3g} times the largest weight tried there; put it on, read "
+                f"{weight / trial:.3g} times the largest weight tried there; put it on, read "
                 "again, and add that run to the file"
             )
     light, heavy = min(trials, key=trials.__getitem__), max(trials, key=trials.__getitem__)
@@ -362,8 +357,7 @@ def find_corrections(
         each.make_region(complex(runs.weights_on[k]), 1 if phases == senses else -1)
         for k, each in zip(used, limits, strict=True)
     ]
-    speeds = len(now) // len(file.run[0].readings)
-    factors = np.tile(file.reading_weights or np.ones(len(now) // speeds), speeds)
+    factors = runs.factors
     negligible = _NEGLIGIBLE * np.abs(now).max() / np.abs(matrix).max(axis=0)
     best = small = make_small(matrix, -now, factors, largest=minimise == "max")
     outside = [abs(r.project(x)[0] - x) for r, x in zip(regions, best.x, strict=True)] > negligible
@@ -394,7 +388,7 @@ def find_corrections(
                 pieces=limits[j].plan(add, float(negligible[j])),
             )
         )
-    sensors = file.sensors or [f"sensor {k}" for k in range(1, len(now) // speeds + 1)]
+    sensors = file.sensors or [f"sensor {k}" for k, _ in enumerate(file.run[0].readings, 1)]
     return FieldBalance(
         name=file.name,
         unit=file.unit,
@@ -404,7 +398,7 @@ def find_corrections(
         minimise=minimise,
         readings=tuple(
             Sensor(sensor=sensor, speed_rpm=speed)
-            for sensor, speed in zip([*sensors] * speeds, runs.speeds_rpm, strict=True)
+            for sensor, speed in zip(cycle(sensors), runs.speeds_rpm, strict=False)
         ),
         influence=runs.coefficients,
         corrections=tuple(corrections),
@@ -415,7 +409,7 @@ def find_corrections(
         condition=solve(matrix, now).condition,
         bound=small.bound,
         trimmed=runs.trimmed or None,
-        permitted=_find_permitted(file, runs, used, factors, step),
+        permitted=_find_permitted(file, runs, used, step),
         file=file,
         runs=runs,
     )
@@ -478,7 +472,7 @@ def list_missing(file: RunsFile) -> dict[str, str]:
 
 
 def _find_permitted(
-    file: RunsFile, runs: Influence, used: list[int], factors: Array, step: Complex
+    file: RunsFile, runs: Influence, used: list[int], step: Complex
 ) -> Permitted | None:
     """Return permitted and present unbalance; None without a grade or keys that it needs.
 
@@ -486,13 +480,12 @@ def _find_permitted(
         file: Runs.
         runs: Their influence coefficients.
         used: Numbers of the planes that get a weight, from 0.
-        factors: How much each reading counts, shape (readings,).
         step: Weights to add, shape (planes,).
     """
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
-    best = make_small(runs.coefficients[:, used], -runs.start, factors).x
-    scatter = find_scatter(file, runs, used, best, factors)
+    best = make_small(runs.coefficients[:, used], -runs.start, runs.factors).x
+    scatter = find_scatter(file, runs, used, best)
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []
@@ -552,11 +545,7 @@ def balance_rotor(
     check_type("minimise", minimise, str, 'give "squares" or "max"')
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
-    without = [without] if isinstance(without, str) else without
-    hint = 'give names of planes, such as ["front"]'
-    check_type("without", without, Collection, hint)
-    for plane in without:
-        check_type("without", plane, str, hint)
+    planes = [without] if isinstance(without, str) else list_words("without", without, '["front"]')
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("balance_rotor", runs, wanted)
-    return find_corrections(check_runs(tables, name), minimise, without, name or _UNNAMED)
+    return find_corrections(check_runs(tables, name), minimise, planes, name or _UNNAMED)

@@ -162,7 +162,7 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
     if file.drill:
         note = (
             "Radial holes in steel, from the rim inwards, opposite to where weights would go. Each "
-            "has the effect of this weight at the rim."
+            "does as much as this weight at the rim; its steel, further in, weighs more."
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths are of these alone: earlier ones are not in the file."
@@ -293,16 +293,14 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
     sizes = [0.0]
     for each, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
         name = fit_name(each.plane, 30)
-        rays = [(each.step, name, line, 2.0)]
+        rays = {name: (each.step, line)}
         if each.wanted is not None:
-            wanted = each.wanted - each.weight + each.step
-            rays.append((wanted, f"{name}, wanted", ":", 1.0))
-        for weight, label, style, width in rays:
-            text = f"{label}: {number(abs(weight), 3)} at {angle_deg(weight):.1f} deg"
-            look: Look = {"color": colour, "linestyle": style, "linewidth": width}
+            rays[f"{name}, wanted"] = (each.wanted - each.weight + each.step, ":")
+        for label, (weight, style) in rays.items():
             angle, size = np.angle(weight), abs(weight)
-            ax.plot([angle, angle], [0, size], label=text, **look)
-            ax.plot([angle], [size], "o", color=colour, markersize=5)
+            text = f"{label}: {number(size, 3)} at {angle_deg(weight):.1f} deg"
+            look: Look = {"color": colour, "linestyle": style, "marker": "o", "markersize": 5}
+            ax.plot([angle, angle], [0, size], label=text, markevery=[1], **look)
             sizes.append(size)
         if drilled or result.file.places:
             for piece in each.pieces:
