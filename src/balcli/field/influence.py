@@ -248,7 +248,7 @@ def _count_unknowns(series: Series, used: Collection[int]) -> int:
 def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int]) -> Problem:
     """Return why not even all runs at a speed determine the coefficients."""
     at = "" if series.speed_rpm is None else f" at {series.speed_rpm:g} rpm"
-    tried = series.weights.any(axis=0)
+    tried = np.asarray(series.weights.any(axis=0))
     bare = [file.planes[k] for k in used if not tried[k]]
     lacking = [f"with a trial weight in {join_words(bare)}"] if bare else []
     if series.weights.any(axis=1).all():

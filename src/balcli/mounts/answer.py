@@ -26,7 +26,6 @@ from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
 from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
-from .loads import find_loads
 from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
 from .rigid_body import AXES, drop_rounding, elastic_centre, roll_axis
@@ -45,7 +44,7 @@ def report_mounts(
     model: EngineFile,
     engine: Engine | None,
     speeds_rpm: Real | None = None,
-    orders: Sequence[float] | None = None,
+    orders: Iterable[float] | None = None,
     scheme: str | None = None,
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
@@ -72,8 +71,7 @@ def report_mounts(
         InputError: Tables of the file do not fit together.
         BalcliError: The scheme cannot be fitted, or as of `respond`.
     """
-    mounted = build_mounted_body(model, name)
-    title = model.name
+    mounted, title = build_mounted_body(model, name), model.name
     if engine is None and others:
         (title, engine), *others = others
     modes, found, remedy = find_mounted_modes(mounted), [], None
@@ -87,15 +85,12 @@ def report_mounts(
         if engine is not None and scheme is not None:
             remedy = size(engine, scheme, options)
             engines.append(fit_devices(engine, remedy))
-        for each in (*engines, *(other for _, other in others)):
+        engines += [other for _, other in others]
+        for each in engines:
             rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
-            if asked is None:
-                running = RunningBody.choose(mounted, modes, each, rpm * RPM, ranged=ranged)
-            else:
-                loads = find_loads(each, mounted.body.centre, asked)
-                running = RunningBody.of(mounted, modes, loads)
+            running = RunningBody.choose(mounted, modes, each, rpm * RPM, asked, ranged=ranged)
             found.append(respond(mounted, running, rpm * RPM, ranged=ranged))
-            tell(len(found) / (len(engines) + len(others)))
+            tell(len(found) / len(engines))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
@@ -106,7 +101,7 @@ def report_mounts(
     settled = settle(mounted, response.loads.mean if response else 0.0)
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
     stiffness = modes.stiffness.real
-    centre = elastic_centre(stiffness, mounted.body.centre).point
+    centre = elastic_centre(stiffness, mounted.body.centre)
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
     shapes = drop_rounding(modes.modes.shapes, 1 / np.sqrt(np.diag(modes.mass)))
     forces, travel = drop_rounding(settled.forces), drop_rounding(1e3 * settled.travel)
@@ -175,11 +170,10 @@ def analyze_mounts(
     check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
-    asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
     steps = np.diff([] if speeds is None else speeds)
     ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
-    return report_mounts(model, engine, speeds, asked, scheme, engines, name, ranged=ranged)
+    return report_mounts(model, engine, speeds, orders, scheme, engines, name, ranged=ranged)
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:

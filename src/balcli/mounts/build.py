@@ -239,15 +239,13 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     if body is None:
         return
     moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))
-    for name, value in moments.items():
-        first, second = (other for other in moments if other != name)
-        together = moments[first] + moments[second]
-        if value > together:
-            yield (
-                f"body.inertia: {name} of {value:g} is more than {first} and {second} together "
-                f"({together:g}), which no body has; are the axes right? z is the crankshaft's"
-            )
-    largest = max(moments.values())
+    name, largest = max(moments.items(), key=lambda moment: moment[1])
+    others = sum(moments.values()) - largest
+    if largest > others:
+        yield (
+            f"body.inertia: {name} of {largest:g} is more than the others together ({others:g}), "
+            "which no body has; are the axes right? z is the crankshaft's"
+        )
     across = math.sqrt(largest / body.mass)
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
     if across < SMALL_BODY * farthest:

@@ -111,10 +111,10 @@ class Variants:
             running = RunningBody.choose(mounted, modes, engine, omega)
             running.refuse_resonance(omega)
             running, mean = running.select(self._curves), running.loads.mean
-            worst = find_worst(running, omega, running.find_peaks(omega))
+            _, worst = find_worst(running, omega, running.find_peaks(omega))
             largest = {
                 k: value if k < len(mounted.names) else 1e3 * value  # N, mm
-                for k, value in zip(self._curves, worst.value.tolist(), strict=True)
+                for k, value in zip(self._curves, worst.tolist(), strict=True)
             }
         elif self._leans:
             mean = find_loads(engine, mounted.body.centre).mean

@@ -26,6 +26,7 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
+from .rigid_body import AXES
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
@@ -117,38 +118,30 @@ def _answer(
         f"Orders included: {' to '.join(names)}, {len(orders)} in all; "
         f"speed{'s' * (len(ends) > 1)}: {' to '.join(ends)} rpm."
     )
-    if response.loads.fired:
-        silent = _tell_silent(response)
-        yield f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
-    else:
-        yield "Inertia only: gas torque, which also rolls an engine, is not included."
+    yield (gas := _tell_gas(response))
+    kinds = (force, motion) if response.points else (force,)
     for other in result.beside:
-        yield f"With {other.name} {''.join(_compare(response, other.response, force, motion))}."
+        changes = (_compare(response, other.response, kind) for kind in kinds)
+        other_gas = _tell_gas(other.response)
+        yield f"With {other.name} {'; '.join(changes)}." + f" {other_gas}" * (other_gas != gas)
 
 
-def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) -> Iterator[str]:
-    """Yield parts of a sentence: the largest values of another response, how much less they are
-    than the engine's own, and whether its gas and its cylinders differ.
-    """
-    for kind in (force, motion) if own.points else (force,):
-        (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
-        change = after / (before or 1.0) - 1
-        size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
-        less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
-        where = "the largest force of any mount is"
-        if kind is motion:
-            where = f"; the largest motion at {place.name} is"
-        yield f"{where} {told}{less}"
-    if other.loads.fired != own.loads.fired:
-        yield ", its gas included" if other.loads.fired else ", of inertia alone"
-    if (silent := _tell_silent(other)) != _tell_silent(own):
-        yield silent
+def _tell_gas(response: BodyResponse) -> str:
+    """Return in words whether gas counts, and the cylinders that do not fire."""
+    if not response.loads.fired:
+        return "Inertia only: gas torque, which also rolls an engine, is not included."
+    silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
+    return f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
 
 
-def _tell_silent(response: BodyResponse) -> str:
-    """Return the cylinders that do not fire in words, each kind after a semicolon."""
-    silent = list_silent(response.loads.silent)
-    return "".join(f"; {what} {numbers}" for what, numbers in silent)
+def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
+    """Return the largest value of another response in words, and how much less it is."""
+    (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
+    change = after / (before or 1.0) - 1
+    size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
+    less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
+    of = "force of any mount" if kind.part == "mount" else f"motion at {place.name}"
+    return f"the largest {of} is {told}{less}"
 
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
@@ -168,37 +161,41 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
     """Return a row for each mount or point: its largest value, then those of other responses."""
-    heads = [kind.part, "all orders", "at, rpm", "largest order", "alone"]
-    for other in result.beside:
-        heads += [f"with {other.name}", "at, rpm"]
-    rows = []
-    for first, *others in zip(*map(kind.places, result.responses), strict=True):
-        cells = [first.name]
-        for worst in (each.worst for each in (first, *others)):
-            cells += [kind.show(worst, kind.key), number(worst.speed_rpm, 4)]
-        own = [order_name(first.worst.order), kind.show(first.worst, f"order_{kind.key}")]
-        rows.append((*cells[:3], *own, *cells[3:]))
+    own, *others = ([p.worst for p in kind.places(response)] for response in result.responses)
+    columns = [
+        (kind.part, [place.name for place in kind.places(result.responses[0])]),
+        ("all orders", [kind.show(worst, kind.key) for worst in own]),
+        ("at, rpm", [number(worst.speed_rpm, 4) for worst in own]),
+        ("largest order", [order_name(worst.order) for worst in own]),
+        ("alone", [kind.show(worst, f"order_{kind.key}") for worst in own]),
+    ]
+    for name, other in zip(result.beside, others, strict=True):
+        columns.append((f"with {name.name}", [kind.show(worst, kind.key) for worst in other]))
+        columns.append(("at, rpm", [number(worst.speed_rpm, 4) for worst in other]))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
     )
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
-    return Grid(title, tuple(heads), tuple(rows), note)
+    return Grid.of_columns(title, columns, note)
 
 
 def _grid_modes(result: MountReport) -> Grid:
-    damped = any(mode.loss_factor for mode in result.modes)
-    heads = ["mode", "Hz", "motion", *(f"{axis} %" for axis in result.modes[0].energy_percent)]
-    rows = []
-    for k, mode in enumerate(result.modes, 1):
-        shares = (f"{round(share, 1) + 0.0:.1f}" for share in mode.energy_percent.values())
-        damping = [f"{50 * mode.loss_factor:.1f}"] if damped else []
-        rows.append((str(k), number(mode.frequency_Hz, 4), mode.motion, *shares, *damping))
+    modes = result.modes
+    columns = [
+        ("mode", [str(k) for k, _ in enumerate(modes, 1)]),
+        ("Hz", [number(mode.frequency_Hz, 4) for mode in modes]),
+        ("motion", [mode.motion for mode in modes]),
+    ]
+    for axis in AXES:
+        shares = (round(mode.energy_percent[axis], 1) + 0.0 for mode in modes)
+        columns.append((f"{axis} %", [f"{share:.1f}" for share in shares]))
+    if any(mode.loss_factor for mode in modes):
+        columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
         "Shares of the kinetic energy in moving along x, y, z and turning about them; products of "
         "inertia may make one negative. Without damping, dynamic stiffness."
     )
-    heads += ["damping %"] if damped else []
-    return Grid("Natural modes", tuple(heads), tuple(rows), note, words=(0, 2))
+    return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
 
 
 def _tell_body(result: MountReport, motion: Kind) -> Facts:
@@ -214,15 +211,14 @@ def _tell_body(result: MountReport, motion: Kind) -> Facts:
 
 
 def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
-    heads = ["mount", *(f"{axis}, {system.force.name}" for axis in "xyz")]
-    heads += [f"travel {axis}, {motion.unit.name}" for axis in "xyz"]
     mounts = result.static.mounts
-    force = np.array([mount.force_N for mount in mounts]) / system.force.size
-    travel = np.array([mount.travel_mm for mount in mounts]) / motion.unit.size
-    rows = [
-        (name, *(number(v, 4) for v in force[k]), *(number(v, 3) for v in travel[k]))
-        for k, name in enumerate(mount.name for mount in mounts)
-    ]
+    columns = [("mount", [mount.name for mount in mounts])]
+    for k, axis in enumerate("xyz"):
+        forces = [number(system.force.of(mount.force_N[k]), 4) for mount in mounts]
+        columns.append((f"{axis}, {system.force.name}", forces))
+    for k, axis in enumerate("xyz"):
+        travels = [number(motion.unit.of(mount.travel_mm[k]), 3) for mount in mounts]
+        columns.append((f"travel {axis}, {motion.unit.name}", travels))
     mean = abs(result.response.loads.mean) if result.response else 0.0
     moment = f"load's mean torque of {number(system.moment.of(mean), 4)} {system.moment.name}"
     leaning = within = ""
@@ -231,20 +227,22 @@ def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
     elif mean:
         leaning = f" and the reaction to the {moment}"
     note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
-    return Grid("At rest", tuple(heads), tuple(rows), note)
+    return Grid.of_columns("At rest", columns, note)
 
 
 def _grid_meetings(result: MountReport) -> Grid:
     met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
     every = sorted({order for each in met for order in each})
     orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
-    heads = ("mode", "Hz", *(f"order {order_name(order)}" for order in orders))
-    rows = []
-    for k, (mode, rpm) in enumerate(zip(result.modes, met, strict=True), 1):
-        cells = (number(rpm[order], 4) if order in rpm else "–" for order in orders)
-        rows.append((str(k), number(mode.frequency_Hz, 4), *cells))
+    columns = [
+        ("mode", [str(k) for k, _ in enumerate(met, 1)]),
+        ("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
+    ]
+    for order in orders:
+        speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
+        columns.append((f"order {order_name(order)}", speeds))
     note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
-    return Grid("Where orders meet modes, rpm", heads, tuple(rows), note)
+    return Grid.of_columns("Where orders meet modes, rpm", columns, note)
 
 
 def _pick(count: int, most: int) -> list[int]:
@@ -253,16 +251,15 @@ def _pick(count: int, most: int) -> list[int]:
 
 
 def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Grid:
-    names, rpm = [mount.name for mount in response.mounts], response.speeds_rpm
-    heads = ["rpm", *names]
-    heads += [f"{name}, {other.name}" for other in result.beside for name in names]
-    peaks = [mount.peak_N for each in result.responses for mount in each.mounts]
-    rows = [
-        (number(rpm[s], 4), *(number(force.unit.of(peak[s]), 4) for peak in peaks))
-        for s in _pick(len(rpm), _ROWS)
-    ]
+    speeds = _pick(len(response.speeds_rpm), _ROWS)
+    columns = [("rpm", [number(response.speeds_rpm[s], 4) for s in speeds])]
+    labels = ("", *(f", {other.name}" for other in result.beside))
+    for label, each in zip(labels, result.responses, strict=True):
+        for mount in each.mounts:
+            forces = [number(force.unit.of(mount.peak_N[s]), 4) for s in speeds]
+            columns.append((f"{mount.name}{label}", forces))
     title = f"Force of each mount by speed, all orders together, {force.unit.name}"
-    return Grid(title, tuple(heads), tuple(rows))
+    return Grid.of_columns(title, columns)
 
 
 def _grid_passed(response: BodyResponse, system: System) -> Grid:
