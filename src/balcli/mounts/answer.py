@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
-from ..engine.figures import find_first_largest
 from ..errors import BalcliError, check_type
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -25,10 +24,10 @@ from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
-from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
-from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
+from .build import Meeting, build_mounted_body, check_mounted, find_mounted_modes, settle
+from .records import AtRest, Fitted, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
-from .rigid_body import AXES, drop_rounding, elastic_centre, roll_axis
+from .rigid_body import drop_rounding, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -89,7 +88,7 @@ def report_mounts(
         for each in engines:
             rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
             running = RunningBody.choose(mounted, modes, each, rpm * RPM, asked, ranged=ranged)
-            found.append(respond(mounted, running, rpm * RPM, ranged=ranged))
+            found.append(respond(mounted, running, rpm, ranged=ranged))
             tell(len(found) / len(engines))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
@@ -98,31 +97,24 @@ def report_mounts(
     of_others = ((label, each.list_assumed("gas", without=idle)) for label, each in others)
     told = (f"{label}: {tell_assumed(lines)}" for label, lines in of_others if lines)
     response = found.pop(0) if found else None
-    settled = settle(mounted, response.loads.mean if response else 0.0)
+    forces, travel = settle(mounted, response.loads.mean if response else 0.0)
+    rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
+    meetings = [(k, Meeting(order_number(order), rpm)) for k, order, rpm in met]
     stiffness = modes.stiffness.real
     centre = elastic_centre(stiffness, mounted.body.centre)
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
-    shapes = drop_rounding(modes.modes.shapes, 1 / np.sqrt(np.diag(modes.mass)))
-    forces, travel = drop_rounding(settled.forces), drop_rounding(1e3 * settled.travel)
     return MountReport(
         name=title,
         assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
         or None,
         modes=tuple(
-            BodyMode(
-                float(modes.hertz[k]),
-                dict(zip(AXES, (100 * share).tolist(), strict=True)),
-                shape * np.copysign(1.0, shape[find_first_largest(share)]),
-                modes.motions[k],
-                float(modes.loss[k]),
-                tuple(Meeting(order_number(order), rpm) for mode, order, rpm in met if mode == k),
-            )
-            for k, (shape, share) in enumerate(zip(shapes, modes.shares, strict=True))
+            mode._replace(meets=tuple(one for n, one in meetings if n == k))
+            for k, mode in enumerate(modes.each)
         ),
         roll_axis=drop_rounding(roll_axis(mounted.body)),
         elastic_centre_mm=1e3 * drop_rounding(centre, farthest),
-        static=AtRest(tuple(map(MountAtRest, mounted.names, forces, travel))),
+        static=AtRest(tuple(map(MountAtRest, *rest))),
         stiffness_N_per_m=stiffness,
         response=response,
         fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,

@@ -76,18 +76,10 @@ def mounts(
     others = [silence_cylinders(read_engine(path).engine, silent, path) for path in paths[1:]]
     names = name_engines([model.name, *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
+    ranged = speeds is None or ":" in speeds
     with reporting("work") as tell:
         result = answer.report_mounts(
-            model,
-            engine,
-            rpm,
-            asked,
-            scheme,
-            beside,
-            name,
-            tell,
-            options,
-            ranged=speeds is None or ":" in speeds,
+            model, engine, rpm, asked, scheme, beside, name, tell, options, ranged=ranged
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(

@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -137,21 +137,15 @@ class RunningBody(NamedTuple):
         highest = np.maximum.reduceat(padded, ends)[::2]
         return highest.reshape(len(orders), len(omega), -1)
 
-    def select(self, curves: Sequence[int]) -> RunningBody:
-        """Return the running body with some of its curves."""
-        return self._replace(couplings=self.couplings[curves])
-
     def move(self, omega: Real) -> Complex:
         """Return the motion of the body and its rate, shape (orders, *speeds, 12).
 
         Args:
             omega: Speeds, rad/s, any shape.
         """
-        w, own = frequencies(self.loads.orders, omega), self.modes
+        w, own, load = frequencies(self.loads.orders, omega), self.modes, self.loads.at(omega)
         try:
-            motion = solve_response(
-                own.stiffness, own.damping, own.mass, w, self.loads.at(np.asarray(omega))
-            )
+            motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # resonances are refused before
             raise BalcliError(
                 f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
@@ -181,12 +175,12 @@ class RunningBody(NamedTuple):
         met = [one for one in driven if ranged or np.abs(omega / one.speed - 1).min() < _AT]
         if met:
             first = min(met, key=lambda one: one.speed)
-            motion, hertz = modes.motions[first.mode], modes.hertz[first.mode]
+            mode = modes.each[first.mode]
             raise BalcliError(
-                f"mode {first.mode + 1} ({motion}, {hertz:.4g} Hz) is not damped, and order "
-                f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has "
-                "no bound; give the mounts a loss, such as loss = 0.1, or a range without that "
-                "speed"
+                f"mode {first.mode + 1} ({mode.motion}, {mode.frequency_Hz:.4g} Hz) is not damped, "
+                f"and order {first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its "
+                "motion has no bound; give the mounts a loss, such as loss = 0.1, or a range "
+                "without that speed"
             )
         return not driven
 
@@ -195,12 +189,10 @@ def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[i
     """Return modes (from 0), orders that meet them within a range of speeds (rpm, rising), and
     the speeds (rpm) at which they do, by mode and order.
     """
-    met = [
-        (k, float(order), float(natural / order) / RPM)
-        for k, natural in enumerate(modes.modes.omega)
-        for order in loads.orders[loads.there]
-    ]
-    return [each for each in met if rpm[0] <= each[2] <= rpm[-1]]
+    orders = loads.orders[loads.there]
+    met = np.divide.outer(modes.modes.omega, orders) / RPM
+    k, n = np.nonzero((met >= rpm[0]) & (met <= rpm[-1]))
+    return list(zip(k.tolist(), orders[n].tolist(), met[k, n].tolist(), strict=True))
 
 
 def find_worst(
@@ -268,14 +260,14 @@ def _with_rate(motion: Complex, w: Real) -> Complex:
 
 
 def respond(
-    mounted: MountedBody, running: RunningBody, omega: Real, *, ranged: bool = True
+    mounted: MountedBody, running: RunningBody, rpm: Real, *, ranged: bool = True
 ) -> BodyResponse:
     """Return the response at every order and speed.
 
     Args:
         mounted: Body on its mounts.
         running: The same with the load of the engine.
-        omega: Speeds, rad/s, rising, shape (speeds,).
+        rpm: Speeds, rising, shape (speeds,).
         ranged: Whether they stand for all speeds between the first and the last.
 
     Raises:
@@ -283,10 +275,11 @@ def respond(
             frequency at one of the speeds, or within their range.
     """
     loads, mounts, points = running.loads, mounted.names, mounted.point_names
-    count = len(loads.orders) * len(omega) * (len(mounts) + len(points))
+    omega = rpm * RPM
+    count = len(loads.orders) * len(rpm) * (len(mounts) + len(points))
     if count > MOST_MOUNT_RESULTS:
         raise BalcliError(
-            f"{len(loads.orders)} orders at {len(omega)} speeds of {len(mounts)} mounts and "
+            f"{len(loads.orders)} orders at {len(rpm)} speeds of {len(mounts)} mounts and "
             f"{len(points)} points are {count} results, and at most {MOST_MOUNT_RESULTS} are "
             "computed; take fewer --speeds or --orders"
         )
@@ -308,13 +301,12 @@ def respond(
         places.append(place(name, each, peak[:, k], worst))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
-    rigid, rpm, arm = np.abs(loads.at(omega)), omega / RPM, float(np.abs(arms).max(initial=1.0))
-    short = np.round(rpm, 9)  # as speeds were given, which rad/s keep but for rounding
+    rigid, arm = np.abs(loads.at(omega)), float(np.abs(arms).max(initial=1.0))
     return BodyResponse(
         no_gas_in=loads.silent.without_gas or None,
         no_burning_in=loads.silent.without_burning or None,
         orders=numbers,
-        speeds_rpm=np.where(short * RPM == omega, short, rpm),
+        speeds_rpm=rpm,
         mounts=tuple(places[: len(mounts)]),
         points=tuple(places[len(mounts) :]),
         passed=tuple(

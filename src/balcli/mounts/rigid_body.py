@@ -57,20 +57,6 @@ class Mounts(NamedTuple):
     damping: Real
 
 
-class Settled(NamedTuple):
-    """A body at rest under a load.
-
-    Attributes:
-        motion: (6,) of its centre of gravity.
-        forces: (mounts, 3) of the body on its mounts, N, along the engine's axes.
-        travel: (mounts, 3) of its mounting points, m.
-    """
-
-    motion: Real
-    forces: Real
-    travel: Real
-
-
 # ------------------------------------------------------------------ geometry
 def cross_matrix(vectors: ArrayLike) -> Real:
     """Return matrices (..., 3, 3) with `cross_matrix(a) @ b = a x b` for vectors (..., 3)."""
@@ -152,8 +138,8 @@ def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
     body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
     """
     travel = stretch_mounts(body, mounts)
-    springs = (mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel
-    return mounts.axes @ springs, mounts.axes @ (mounts.damping[..., None] * travel)
+    springs = mounts.axes @ ((mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel)
+    return np.asarray(springs, complex), mounts.axes @ (mounts.damping[..., None] * travel)
 
 
 def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
@@ -232,11 +218,16 @@ def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
 
 
 # ------------------------------------------------------------------ loads
-def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
-    """Return the rest of a body that is held in every way, under a steady load (6,)."""
+def settle_body(body: Body, mounts: Mounts, load: Real) -> tuple[Real, Real]:
+    """Return the rest of a body that is held in every way, under a steady load (6,).
+
+    Returns:
+        Forces of the body on its mounts along the engine's axes, N, and travel of its mounting
+        points, m, shape (mounts, 3) each.
+    """
     motion = np.linalg.solve(stiffness_matrix(body, mounts).real, load)
-    forces = couple_mounts(body, mounts)[0].real @ motion
-    return Settled(motion, forces, carry_points(mounts.at, body.centre) @ motion)
+    springs, _ = couple_mounts(body, mounts)
+    return springs.real @ motion, carry_points(mounts.at, body.centre) @ motion
 
 
 def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
