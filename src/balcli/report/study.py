@@ -24,10 +24,10 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
-from ..torque.plot import PAGES
+from .names import OF_GAS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("ladder", "bank", *PAGES)  # studies of the engine as it is
+_ALONE = ("ladder", "bank", *OF_GAS)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):

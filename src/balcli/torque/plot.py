@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-PAGES = ("pressure", "p-v", "torque", "pin", "main")
 _STEP = 0.5  # deg
 _BESIDE = 1e-7  # deg, on both sides of a jump
 _COLUMNS = 7  # polar diagrams side by side
@@ -40,7 +39,7 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
     Args:
         fig: Empty figure.
         engine: Engine without trailing axes.
-        what: Name of the page, of `PAGES`.
+        what: Name of the page: pressure, p-v, torque, pin or main.
         system: Units.
 
     Raises:

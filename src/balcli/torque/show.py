@@ -9,7 +9,7 @@ from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
-from ..show.figures import FigureRow, Harmonic, order_rows
+from ..show.figures import FigureRow, order_rows
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
@@ -209,60 +209,48 @@ def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid |
 
 def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
     unit = system.force.fit(max(load.max_N for load in loads))
+    columns = [
+        (word, [str(getattr(load, word)) for load in loads]),
+        (f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in loads]),
+        ("at, deg", [tenths(load.max_deg) for load in loads]),
+        (f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in loads]),
+    ]
     pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
-    pressed = len(pressures) == len(loads)
-    stress = system.stress.fit(max(pressures, default=0.0))
-
-    def row(load: CycleLoad) -> Iterator[str]:
-        yield str(getattr(load, word))
-        yield number(unit.of(load.max_N))
-        yield tenths(load.max_deg)
-        yield number(unit.of(load.mean_N))
-        if load.pressure_Pa is not None and pressed:
-            yield number(stress.of(load.pressure_Pa), 4)
-
-    heads = [word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}"]
-    heads += [stress.name] if pressed else []
+    if len(pressures) == len(loads):
+        stress = system.stress.fit(max(pressures))
+        columns.append((stress.name, [number(stress.of(pressure), 4) for pressure in pressures]))
     note = (
         "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
         "as cut in each."
     )
-    rows = tuple(tuple(row(load)) for load in loads)
-    return Grid(title, tuple(heads), rows, note if word == "bearing" else "")
+    return Grid.of_columns(title, columns, note if word == "bearing" else "")
 
 
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     """Return a table of the orders in which the engine or the one cylinder has something."""
-    orders, is_engine = result.orders, result.engine is not None
-    keys = ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm")[0 if is_engine else 2 :]
-    lines: list[list[Harmonic]] = [[getattr(o.torques, key) for key in keys] for o in orders]
+    orders, alone = list(result.orders), f"gas of {result.cylinder}"
     many = len(orders) == MOST_HARMONICS_UNASKED
-    heads, note = ["torque", "peak, deg"], "--orders asks for higher ones." if many else ""
-    if is_engine:
-        last = f"gas of {result.cylinder}"
-        heads = ["gas", "at, deg", "inertia", "at, deg", "total", "at, deg", last]
+    note = "--orders asks for higher ones." if many else ""
+    kinds = {"torque": [order.torques.torque_Nm for order in orders]}
+    if result.engine is not None:
+        keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}
+        kinds = {kind: [getattr(o.torques, key) for o in orders] for kind, key in keys.items()}
+        kinds[alone] = [getattr(order.one_cylinder, keys["gas"]) for order in orders]
         note = f"The last column is the gas torque of cylinder {result.cylinder} alone."
-        for line, order in zip(lines, orders, strict=True):
-            line.append(getattr(order.one_cylinder, keys[0]))
-    largest = max((harmonic.amplitude for line in lines for harmonic in line), default=0.0)
-    unit = system.moment.fit(largest)
-
-    def size(harmonic: Harmonic, n: float, digits: int) -> str:
-        return number(unit.of(harmonic.amplitude if n else harmonic.cos), digits)
-
-    def cells(n: float, line: list[Harmonic]) -> Iterator[str]:
-        yield order_name(n) if is_engine else f"{n:g}"
-        for harmonic in line[: len(keys)]:
-            yield size(harmonic, n, 5)
-            yield degrees(harmonic.peak_deg) if harmonic.amplitude else ""
-        yield from (size(harmonic, n, 4) for harmonic in line[len(keys) :])
-
-    shown = [
-        tuple(cells(order.order, line))
-        for order, line in zip(orders, lines, strict=True)
-        if not is_engine or not all(harmonic.balanced for harmonic in line)
-    ]
-    return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)
+    lines = list(zip(orders, *kinds.values(), strict=True))
+    unit = system.moment.fit(max((h.amplitude for _, *line in lines for h in line), default=0.0))
+    if result.engine is not None:
+        lines = [line for line in lines if not all(h.balanced for h in line[1:])]
+    names = [order_name(o.order) if result.engine else f"{o.order:g}" for o, *_ in lines]
+    columns = [("order", names)]
+    for k, kind in enumerate(kinds, 1):
+        pairs = [(line[0].order, line[k]) for line in lines]
+        values = (h.amplitude if n else h.cos for n, h in pairs)
+        columns.append((kind, [number(unit.of(v), 4 if kind == alone else 5) for v in values]))
+        if kind != alone:
+            head = "at, deg" if result.engine else "peak, deg"
+            columns.append((head, [degrees(h.peak_deg) if h.amplitude else "" for _, h in pairs]))
+    return Grid.of_columns(f"Torque by order, {unit.name}", columns, note)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
