@@ -19,8 +19,10 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 
 Orders = Annotated[
-    str | None,
-    optional("1-8|1,2,4", "Orders to include; default: all that contribute.", "--orders"),
+    str | None, optional("1-8|1,2,4", "Orders; default: all that contribute.", "--orders")
+]
+Plot = Annotated[
+    Path | None, optional("FILE", "Draw forces, orders, modes and motion; .svg, .png or .pdf.")
 ]
 
 
@@ -37,14 +39,7 @@ def mounts(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
-    plot: Annotated[
-        Path | None,
-        optional(
-            "FILE",
-            "Draw forces over speed, orders and modes, and the body moving in each mode; "
-            ".svg, .png or .pdf.",
-        ),
-    ] = None,
+    plot: Plot = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,

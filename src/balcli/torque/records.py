@@ -141,14 +141,11 @@ class TorqueAnalysis(Result):
 
 def measure_curve(torque: PiecewiseCurve) -> Extremes:
     """Return the extremes of a torque (N m)."""
-    lowest, highest = torque.extremes()
-    return Extremes(
-        max_Nm=highest.value,
-        max_deg=degrees_in_cycle(highest.angle, torque.period),
-        min_Nm=lowest.value,
-        min_deg=degrees_in_cycle(lowest.angle, torque.period),
-        reversals=torque.reversals(),
+    lowest, highest = (
+        (extreme.value, degrees_in_cycle(extreme.angle, torque.period))
+        for extreme in torque.extremes()
     )
+    return Extremes(*highest, *lowest, torque.reversals())
 
 
 def measure_energy(surplus: Surplus, period: float, work: float) -> Energy:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
@@ -124,40 +124,37 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         imep = result.imep_Pa or 0.0
         each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
         yield "mean pressure", ", ".join(each)
-    if result.max_pressure_Pa is not None:
-        at = degrees(result.max_pressure_deg or 0.0)
-        yield (
-            "largest pressure",
-            f"{_size(result.max_pressure_Pa, system.pressure)}, {at} deg after firing",
-        )
-    if engine is not None:
+        if result.max_pressure_Pa is not None:
+            size, at = _size(result.max_pressure_Pa, system.pressure), result.max_pressure_deg
+            yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after firing"
         yield from list_silent(engine.silent)
-    yield "mean torque", _tell_each(result.mean_torque_Nm, system.moment, kinds)
-    if result.power_W is not None:
-        yield "power", _tell_each(result.power_W, system.power, kinds)
+    for name, value, of in (
+        ("mean torque", result.mean_torque_Nm, system.moment),
+        ("power", result.power_W, system.power),
+    ):
+        if value is not None:
+            unit = of.fit(value)  # one for all kinds
+            sizes = (f"{number(unit.of(value * k))} {unit.name}{kind}" for kind, k in kinds.items())
+            yield name, ", ".join(sizes)
     if result.load_Nm is not None:
         mean, rest = (_size(size, system.moment) for size in result.load_Nm)
         yield "load", f"{mean} in the mean" + (f", and {rest} evenly" if result.load_Nm[1] else "")
 
 
-def _tell_each(value: float, unit: ShownUnit, kinds: Mapping[str, float]) -> str:
-    """Return a figure, and the share of it that each kind is, such as " brake"."""
-    of_all = unit.fit(value)
-    sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
-    return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
-
-
 def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
     torque, energy = result.torque, result.energy
     unit = system.moment.fit(max(abs(torque.min_Nm), abs(torque.max_Nm)))
-    large, small = (number(unit.of(value)) for value in (torque.max_Nm, torque.min_Nm))
-    surplus, start, end = energy.surplus_J, tenths(energy.from_deg), tenths(energy.to_deg)
+
+    def tell(value: float, angle_deg: float) -> str:
+        return f"{number(unit.of(value))} {unit.name} at {tenths(angle_deg)} deg"
+
+    surplus = _size(energy.surplus_J, system.energy)
     pairs = (
-        ("largest", f"{large} {unit.name} at {tenths(torque.max_deg)} deg"),
-        ("smallest", f"{small} {unit.name} at {tenths(torque.min_deg)} deg"),
+        ("largest", tell(torque.max_Nm, torque.max_deg)),
+        ("smallest", tell(torque.min_Nm, torque.min_deg)),
         ("reversals", str(torque.reversals)),
         ("work of a cycle", _size(energy.work_J, system.energy)),
-        ("surplus", f"{_size(surplus, system.energy)} from {start} to {end} deg"),
+        ("surplus", f"{surplus} from {tenths(energy.from_deg)} to {tenths(energy.to_deg)} deg"),
     )
     return Facts(pairs, "Torque over the cycle")
 
@@ -169,21 +166,19 @@ def _list_flywheel(
     if wheel.inertia_kg_m2 is not None:
         parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
-    if wheel.fluctuation is not None:
-        both = (wheel.fluctuation, wheel.fluctuation_small or 0.0)
-        exact, small = (f"{number(100 * share, 4)} %" for share in both)
-        one_in = f"1/{number(1 / wheel.fluctuation, 4)}" if wheel.fluctuation else "0"
-        yield "fluctuation", f"{exact} ({one_in}); {small} by the rule for small ones"
-        low = (wheel.speed_min_rpm or 0.0, wheel.speed_min_deg)
-        high = (wheel.speed_max_rpm or 0.0, wheel.speed_max_deg)
-        ends = (f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in (low, high))
-        yield "speed", " to ".join(ends)
+    if (share := wheel.fluctuation) is not None:
+        small = number(100 * (wheel.fluctuation_small or 0.0), 4)
+        one_in = f"1/{number(1 / share, 4)}" if share else "0"
+        exact = number(100 * share, 4)
+        yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small ones"
+        low, high = wheel.speed_min_rpm or 0.0, wheel.speed_max_rpm or 0.0
+        ends = ((low, wheel.speed_min_deg), (high, wheel.speed_max_deg))
+        yield "speed", " to ".join(f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in ends)
     if wheel.stall:
         yield "speed", wheel.stall
     if (needed := wheel.needed_kg_m2) is not None:
-        told = f"{_size(needed, unit)} in all"
-        crank = None if result.engine is None else result.engine.crank_inertia
-        crank = 0.0 if result.engine is not None and result.engine.rotary else crank
+        told, engine = f"{_size(needed, unit)} in all", result.engine
+        crank = None if engine is None else 0.0 if engine.rotary else engine.crank_inertia
         rest = needed - moving - float(crank or 0.0)
         if moving and rest <= 0:
             told += ", which is there without a flywheel"
