@@ -79,13 +79,13 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    if fluctuation is not None and not SMALLEST_FLUCTUATION <= fluctuation < 2:
-        raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
-    if fluctuation is not None and mean_speed is None:
-        raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
     course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
-    if fluctuation is not None and mean_speed is not None:
+    if fluctuation is not None:
+        if not SMALLEST_FLUCTUATION <= fluctuation < 2:
+            raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
+        if mean_speed is None:
+            raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
         needed = needed_inertia(torque, mean_speed, fluctuation, course.at)
         found = replace(found, needed_kg_m2=course.mean + needed)
     if constant is None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from functools import partial
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
@@ -24,12 +25,13 @@ from ..show.sheet import (
     size_text,
     tell_assumed,
 )
-from ..show.units import ShownUnit, System
+from ..show.units import System
 from .flywheel import Flywheel
-from .loads import CycleLoad
+from .loads import CycleLoads
 from .records import TorqueAnalysis, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+_size = partial(size_text, digits=None)  # with as many digits as most figures
 _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 
@@ -53,15 +55,15 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
     head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
     for key in {"no_gas_in", "no_burning_in"} & head.keys():
         head[key] = " ".join(map(str, head[key]))
-    yield from _write("engine", head, system)
-    yield from _write(names[TORQUE_TOTAL.key], found["torque"], system)
-    yield from _write("energy", found["energy"], system)
-    yield from _write("flywheel", found.get("flywheel", {}), system)
-    for kind, loads in found.get("loads", {}).items():
-        for load in loads if kind != "obstacle" else ():
-            yield from _write(kind, load, system)
-        if kind == "obstacle":
-            yield FigureRow(0, "main", None, kind, loads, "")
+    parts = [("engine", head), (names[TORQUE_TOTAL.key], found["torque"])]
+    parts += [(key, found.get(key, {})) for key in ("energy", "flywheel")]
+    loads = found.get("loads", {})
+    obstacle = loads.pop("obstacle", None)
+    parts += [(kind, load) for kind, each in loads.items() for load in each]
+    for quantity, part in parts:
+        yield from _write(quantity, part, system)
+    if obstacle is not None:
+        yield FigureRow(0, "main", None, "obstacle", obstacle, "")
     for cylinder, entries in places:
         for key, name in names.items():
             for row, entry in zip(found["orders"], entries, strict=True):
@@ -84,15 +86,14 @@ def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
 # ------------------------------------------------------------------ for people
 def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     """Return work, torque over the cycle, flywheel, and torque by order."""
-    name = result.name or NAMELESS
-    title = f"{name}: torque" if result.engine is None else f"{name}: torque on the crank"
+    title = f"{result.name or NAMELESS}: torque{' on the crank' if result.engine else ''}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
     if result.flywheel is not None:
         parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
     elif result.engine is not None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
-    parts += _make_load_tables(result, system)
+    parts += [] if result.loads is None else _make_load_tables(result.loads, system)
     parts.append(_make_order_table(result, system))
     return Sheet(title, tuple(parts))
 
@@ -100,11 +101,6 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
 def tenths(angle_deg: float) -> str:
     """Return an angle within a cycle, to a tenth of a degree."""
     return f"{round(angle_deg, 6) + 0.0:.1f}"
-
-
-def _size(value: float, unit: ShownUnit) -> str:
-    """Return what `size_text` does, with as many digits as most figures."""
-    return size_text(value, unit, None)
 
 
 def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
@@ -188,37 +184,31 @@ def _list_flywheel(
         yield "needed", told
 
 
-def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
-    if (loads := result.loads) is None:
-        return
-    for title, word, each in (
-        ("Crank pins", "cylinder", loads.pin),
-        ("Knuckle pins", "cylinder", loads.knuckle),
-        ("Main bearings", "bearing", loads.main),
-    ):
-        if each:
-            yield _make_load_table(title, word, each, system)
-    if loads.obstacle:
-        yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
-
-
-def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
-    unit = system.force.fit(max(load.max_N for load in loads))
-    columns = [
-        (word, [str(getattr(load, word)) for load in loads]),
-        (f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in loads]),
-        ("at, deg", [tenths(load.max_deg) for load in loads]),
-        (f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in loads]),
-    ]
-    pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
-    if len(pressures) == len(loads):
-        stress = system.stress.fit(max(pressures))
-        columns.append((stress.name, [number(stress.of(pressure), 4) for pressure in pressures]))
-    note = (
+def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
+    cut = (
         "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
         "as cut in each."
     )
-    return Grid.of_columns(title, columns, note if word == "bearing" else "")
+    for title, word, each, note in (
+        ("Crank pins", "cylinder", loads.pin or (), ""),
+        ("Knuckle pins", "cylinder", loads.knuckle or (), ""),
+        ("Main bearings", "bearing", loads.main or (), cut),
+    ):
+        unit = system.force.fit(max((load.max_N for load in each), default=0.0))
+        columns = [
+            (word, [str(getattr(load, word)) for load in each]),
+            (f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in each]),
+            ("at, deg", [tenths(load.max_deg) for load in each]),
+            (f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in each]),
+        ]
+        pressures = [load.pressure_Pa for load in each if load.pressure_Pa is not None]
+        if len(pressures) == len(each):
+            stress = system.stress.fit(max(pressures, default=0.0))
+            columns.append((stress.name, [number(stress.of(one), 4) for one in pressures]))
+        if each:
+            yield Grid.of_columns(title, columns, note)
+    if loads.obstacle:
+        yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
 
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
