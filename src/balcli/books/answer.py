@@ -20,7 +20,7 @@ from ..engine.engine import Engine
 from ..engine.parse import parse
 from ..errors import BalcliError, check_type
 from ..file.examples import folder
-from ..file.fields import nearest
+from ..file.fields import suggest_nearest
 from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
@@ -128,17 +128,10 @@ def select_tables(
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
     ranges = Ranges(lams, angles, power)
-    given = [option for option, value in zip(TAKES, ranges, strict=True) if value is not None]
-    if name is None and given:
-        some = [each for each in NAMES if all(each in TAKES[option] for option in given)]
-        known = ", ".join(some) or "these do not go together"
-        raise BalcliError(f"--{given[0]}: name the table that it is for ({known})")
     names = NAMES if name is None else [_find_name(name)]
-    for option in given:
-        if names[0] not in TAKES[option]:
-            takes = [f"--{each}" for each, takers in TAKES.items() if names[0] in takers]
-            others = " and ".join(takes) or "no other range"
-            raise BalcliError(f"--{option}: table {names[0]} takes {others}")
+    for (option, takers), value in zip(TAKES.items(), ranges, strict=True):
+        if value is not None and (name is None or names[0] not in takers):
+            raise BalcliError(f"--{option}: name a table that takes it: {', '.join(takers)}")
     return [TABLES[each](load_print(each), ranges) for each in names]
 
 
@@ -160,11 +153,8 @@ def recompute(
 def _find_name(name: str) -> str:
     if name in TABLES:
         return name
-    if several := [each for each in NAMES if each.startswith(f"{name.lower()}-")]:
-        raise BalcliError(f"{name!r} is the source of {', '.join(several)}: name one")
-    near = nearest(name, NAMES)
-    hint = f"; the nearest name is {near!r}" if near else ""
-    raise BalcliError(f"no table {name!r}{hint}. Tables: {', '.join(NAMES)}")
+    hint = suggest_nearest(name, NAMES, "choose one")
+    raise BalcliError(f"no table {name!r}; {hint}. Tables: {', '.join(NAMES)}")
 
 
 @tell_arguments(**{"lambda": "ratios", "angle": "angles"})

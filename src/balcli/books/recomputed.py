@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
@@ -19,7 +19,7 @@ from typing import Annotated, Literal, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import WrittenAs
+from ..core.records import HIDDEN, WrittenAs
 from ..errors import BalcliError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
@@ -39,8 +39,7 @@ CLASSES: dict[ErratumClass, str] = {
 }
 
 
-@dataclass(frozen=True)
-class Explanation:
+class Explanation(NamedTuple):
     """Figures as the author may have computed them, in the places of the exact ones; None where the
     explanation has no figure.
     """
@@ -55,8 +54,7 @@ def name_class(category: ErratumClass) -> ErratumClass:
     return category
 
 
-@dataclass(frozen=True)
-class Erratum:
+class Erratum(NamedTuple):
     """A printed figure that is not the exact one rounded, or a statement that is wrong.
 
     Attributes:
@@ -78,57 +76,42 @@ class Erratum:
     category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
 
 
-@dataclass(frozen=True, repr=False)
+def name_rows(exact: tuple[Row, ...]) -> tuple[Row, ...]:
+    """Return the cells of a table, which a result calls `rows` in JSON alone."""
+    return exact
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
 class Table(Result):
-    """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
+    """A printed table, recomputed: rows as they should be and as printed, of one shape.
 
     Attributes:
         name: Name of the table.
         title: Title of the table.
         source: Book or paper that prints it.
         columns: Names of the columns.
-        exact: Cells of every row.
-        printed: Printed texts of every row.
-        explanations: Explanations of errata.
+        exact: Exact cells of every row.
+        printed: Printed texts of every row; null: not printed.
+        errata: Printed cells that are not the exact ones rounded, or the wrong statements.
         stub: How many leading columns name a row.
         digits: Decimals of the figures that are shown; None: as printed.
-        stated: Errata of a table of statements, which no rule finds.
     """
 
+    format: Literal["balcli.table/1"] = "balcli.table/1"
     name: str
     title: str
     source: str
     columns: tuple[str, ...]
-    exact: tuple[Row, ...]
+    exact: Annotated[tuple[Row, ...], WrittenAs(name_rows, "rows")]
     printed: tuple[Words, ...]
-    explanations: tuple[Explanation, ...] = ()
-    stub: int = 1
-    digits: int | None = None
-    stated: tuple[Erratum, ...] = ()
+    errata: tuple[Erratum, ...]
+    stub: Annotated[int, HIDDEN] = 1
+    digits: Annotated[int | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:
         """Name and title of the table."""
         return f"{self.name}: {self.title}"
-
-    @property
-    def errata(self) -> tuple[Erratum, ...]:
-        """Printed cells that are not the exact ones rounded, or the wrong statements."""
-        return self.stated or tuple(self._errata())
-
-    def label(self, row: int) -> str:
-        """Return the name of a row: the cells of its stub."""
-        cells = self.exact[row][: self.stub]
-        shown = [c if isinstance(c, str) else f"{c:.15g}" for c in cells if c is not None]
-        return ", ".join(filter(None, shown))
-
-    def _errata(self) -> Iterator[Erratum]:
-        for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
-            for j, (value, text) in enumerate(zip(row, words, strict=True)):
-                if text is not None and deviates(value, text):
-                    supposed = [(e.category, e.kind, e.rows[i][j]) for e in self.explanations]
-                    category, kind = _explain(value, text, supposed)
-                    yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -151,7 +134,7 @@ def parse_number(cell: Cell) -> Fraction | None:
 
 def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
     """Return the value with the decimals of a printed figure, halves rounded away from zero."""
-    return Decimal(repr(float(value))).quantize(Decimal(1).scaleb(_exponent(like)), rounding)
+    return Decimal(repr(float(value))).quantize(like, rounding)
 
 
 def deviates(value: Cell, text: str) -> bool:
@@ -196,18 +179,14 @@ def _explain(
         if differs and (found := explain_figure(other, text)) is not None:
             whose = "author's approximation: " if category == "approximation" else ""
             return category, whose + kind + found
-    error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
+    unit = Decimal(f"1e{printed.as_tuple().exponent}")  # of the last digit
     digits = explain_figure(value, text) or ""
-    return ("misprint", f"misprint{digits}") if error > 1 else ("rounding", f"last digit{digits}")
+    if abs(round_like(value, printed) - printed) > unit:
+        return "misprint", f"misprint{digits}"
+    return "rounding", f"last digit{digits}"
 
 
-def _exponent(printed: Decimal) -> int:
-    exponent = printed.as_tuple().exponent
-    return exponent if isinstance(exponent, int) else 0
-
-
-@dataclass(frozen=True)
-class Print:
+class Print(NamedTuple):
     """A table as printed; cells that are not printed are None."""
 
     name: str
@@ -254,8 +233,36 @@ class Print:
         """
         if printed is None:
             printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
-        shape = tuple(columns), tuple(rows), tuple(printed)
-        return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
+        errata = []
+        for i, (row, words) in enumerate(zip(rows, printed, strict=True)):
+            names = (c if isinstance(c, str) else f"{c:.15g}" for c in row[:stub] if c is not None)
+            label = ", ".join(filter(None, names))
+            for j, (value, text) in enumerate(zip(row, words, strict=True)):
+                if text is not None and deviates(value, text):
+                    supposed = [(e.category, e.kind, e.rows[i][j]) for e in explanations]
+                    category, kind = _explain(value, text, supposed)
+                    errata.append(Erratum(i, columns[j], text, value, kind, label, category))
+        return self.tabulate(columns, rows, printed, errata, stub)
+
+    def tabulate(
+        self,
+        columns: Sequence[str],
+        rows: Sequence[Row],
+        printed: Sequence[Words],
+        errata: Sequence[Erratum],
+        stub: int,
+    ) -> Table:
+        """Return the table with these rows and errata; arguments as of `Table`."""
+        return Table(
+            name=self.name,
+            title=self.title,
+            source=self.source,
+            columns=tuple(columns),
+            exact=tuple(rows),
+            printed=tuple(printed),
+            errata=tuple(errata),
+            stub=stub,
+        )
 
     def compare_answers(
         self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
@@ -269,14 +276,11 @@ class Print:
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
-        explanations = [
-            Explanation(
-                kind,
-                tuple((*blank[1:], value if k == n else None) for k in range(len(rows))),
-                category,
-            )
-            for category, kind, n, value in others
-        ]
+        explanations = []
+        for category, kind, n, value in others:
+            figures = [blank] * len(rows)
+            figures[n] = (*blank[1:], value)
+            explanations.append(Explanation(kind, tuple(figures), category))
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
 
 
@@ -291,8 +295,8 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
         words.append((source, place, wrong, None, None))
         label, name = f"{source}, {place}", cast("ErratumClass", category)
         stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
-    shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
-    return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
+    columns = ("source", "place", STATEMENT, "class", "known")
+    return printed.tabulate(columns, cells, words, stated, 2)
 
 
 def load_print(name: str) -> Print:
