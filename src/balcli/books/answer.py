@@ -53,24 +53,20 @@ def find_gaps(name: str) -> tuple[float, ...]:
     """Return the different intervals between firings of an example engine, deg, ascending; none
     where the file of several cylinders gives no firing order.
     """
-    engine = _build(_read(name))
+    _, engine = _load(name)
     alone = len(engine.numbers) == 1  # and has no order
     fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
     instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
 
 
-def _read(name: str) -> EngineFile:
-    return parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
-
-
-def _build(file: EngineFile) -> Engine:
-    return build(file.with_table("piston", offset=0.0))
+def _load(name: str) -> tuple[EngineFile, Engine]:
+    file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
+    return file, build(file.with_table("piston", offset=0.0))
 
 
 def _row(name: str) -> Row:
-    file = _read(name)
-    engine = _build(file)
+    file, engine = _load(name)
     found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
     vectors = found.reciprocating.vectors()
     axes = [
@@ -143,13 +139,6 @@ def find_errata(
     return [each for each in every if category in (None, each[1].category)]
 
 
-def recompute(
-    name: str, lam: str | None = None, angle: str | None = None, power: int | None = None
-) -> Table:
-    """Return one table; arguments and errors as of `select_tables`."""
-    return select_tables(name, lam, angle, power)[0]
-
-
 def _find_name(name: str) -> str:
     if name in TABLES:
         return name
@@ -185,4 +174,4 @@ def tables(
     check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
     check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
     highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
-    return recompute(name, ratios, angles, highest)
+    return select_tables(name, ratios, angles, highest)[0]

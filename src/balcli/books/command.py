@@ -99,4 +99,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from . import answer, show as pages
 
-    show([answer.recompute("layouts")], pages.LAYOUTS, form, output)
+    show(answer.select_tables("layouts"), pages.LAYOUTS, form, output)

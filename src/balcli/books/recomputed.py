@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
@@ -81,7 +81,7 @@ def name_rows(exact: tuple[Row, ...]) -> tuple[Row, ...]:
     return exact
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
+@dataclass(frozen=True, repr=False)
 class Table(Result):
     """A printed table, recomputed: rows as they should be and as printed, of one shape.
 
@@ -97,7 +97,7 @@ class Table(Result):
         digits: Decimals of the figures that are shown; None: as printed.
     """
 
-    format: Literal["balcli.table/1"] = "balcli.table/1"
+    format: Literal["balcli.table/1"] = field(default="balcli.table/1", kw_only=True)
     name: str
     title: str
     source: str
@@ -139,22 +139,19 @@ def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> De
 
 def deviates(value: Cell, text: str) -> bool:
     """Return whether a printed figure is not the exact value rounded; words never deviate."""
-    printed, fraction = parse_decimal(text), parse_number(text)
-    if isinstance(value, (int, float)):
-        if printed is not None:
-            return round_like(value, printed) != printed
-        return fraction is not None and abs(value - fraction) > 1e-12 * abs(fraction)
-    exact = parse_number(value)
-    return exact is not None and fraction is not None and exact != fraction
+    printed = parse_decimal(text)
+    if printed is not None and isinstance(value, (int, float)):
+        return round_like(value, printed) != printed
+    exact, fraction = parse_number(value), parse_number(text)
+    if exact is None or fraction is None:
+        return False
+    return abs(exact - fraction) > abs(fraction) / 10**12
 
 
-def explain_figure(value: Cell, text: str) -> str | None:
+def _derive(value: float, printed: Decimal) -> str | None:
     """Return how a value leads to the printed figure: "", ", truncated", ", digits transposed";
     None: it does not.
     """
-    printed = parse_decimal(text)
-    if printed is None or not isinstance(value, (int, float)):
-        return None
     rounded = round_like(value, printed)
     if rounded == printed:
         return ""
@@ -166,32 +163,32 @@ def explain_figure(value: Cell, text: str) -> str | None:
 
 
 def _explain(
-    value: Cell, text: str, supposed: Sequence[tuple[ErratumClass, str, Cell]]
+    value: Cell, text: str, supposed: Iterable[tuple[Explanation, Cell]]
 ) -> tuple[ErratumClass, str]:
-    """Return the class and kind of an erratum: of the first explanation that leads to it, or by
-    what its digits show.
+    """Return the class and kind of an erratum: of the first explanation whose figure leads to it,
+    or by what its digits show.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return "misprint", "misprint"
-    for category, kind, other in supposed:
-        differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
-        if differs and (found := explain_figure(other, text)) is not None:
-            whose = "author's approximation: " if category == "approximation" else ""
-            return category, whose + kind + found
+    for (kind, _, category), other in supposed:
+        if isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value):
+            found = _derive(other, printed)
+            if found is not None:
+                whose = "author's approximation: " if category == "approximation" else ""
+                return category, whose + kind + found
     unit = Decimal(f"1e{printed.as_tuple().exponent}")  # of the last digit
-    digits = explain_figure(value, text) or ""
-    if abs(round_like(value, printed) - printed) > unit:
-        return "misprint", f"misprint{digits}"
-    return "rounding", f"last digit{digits}"
+    near = abs(round_like(value, printed) - printed) <= unit
+    category, kind = ("rounding", "last digit") if near else ("misprint", "misprint")
+    return category, kind + (_derive(value, printed) or "")
 
 
 class Print(NamedTuple):
     """A table as printed; cells that are not printed are None."""
 
     name: str
-    source: str
     title: str
+    source: str
     columns: tuple[str, ...]
     rows: tuple[Words, ...]
 
@@ -239,30 +236,11 @@ class Print(NamedTuple):
             label = ", ".join(filter(None, names))
             for j, (value, text) in enumerate(zip(row, words, strict=True)):
                 if text is not None and deviates(value, text):
-                    supposed = [(e.category, e.kind, e.rows[i][j]) for e in explanations]
+                    supposed = ((each, each.rows[i][j]) for each in explanations)
                     category, kind = _explain(value, text, supposed)
                     errata.append(Erratum(i, columns[j], text, value, kind, label, category))
-        return self.tabulate(columns, rows, printed, errata, stub)
-
-    def tabulate(
-        self,
-        columns: Sequence[str],
-        rows: Sequence[Row],
-        printed: Sequence[Words],
-        errata: Sequence[Erratum],
-        stub: int,
-    ) -> Table:
-        """Return the table with these rows and errata; arguments as of `Table`."""
-        return Table(
-            name=self.name,
-            title=self.title,
-            source=self.source,
-            columns=tuple(columns),
-            exact=tuple(rows),
-            printed=tuple(printed),
-            errata=tuple(errata),
-            stub=stub,
-        )
+        shape = tuple(columns), tuple(rows), tuple(printed)
+        return Table(*self[:3], *shape, tuple(errata), stub)
 
     def compare_answers(
         self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
@@ -296,7 +274,7 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
         label, name = f"{source}, {place}", cast("ErratumClass", category)
         stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
     columns = ("source", "place", STATEMENT, "class", "known")
-    return printed.tabulate(columns, cells, words, stated, 2)
+    return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(stated), stub=2)
 
 
 def load_print(name: str) -> Print:
@@ -306,7 +284,7 @@ def load_print(name: str) -> Print:
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
     rows = tuple(tuple(cell or None for cell in row) for row in body)
-    return Print(name, notes["source"], notes["title"], tuple(head), rows)
+    return Print(name, notes["title"], notes["source"], tuple(head), rows)
 
 
 def identify(text: str) -> object:

@@ -38,19 +38,14 @@ def sheet(table: Table, _system: System) -> Sheet:
     if STATEMENT in table.columns:
         return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
     columns = range(len(table.columns))
-    words = [
+    words = tuple(
         j
         for j in columns
         if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
-    ]
-    grid = Grid(
-        "",
-        table.columns,
-        tuple(tuple(_shown(table, i, j) for j in columns) for i in range(len(table.exact))),
-        count_deviations(table),
-        frozenset((e.row, table.columns.index(e.column)) for e in table.errata),
-        tuple(words),
     )
+    cells = tuple(tuple(_shown(table, i, j) for j in columns) for i, _ in enumerate(table.exact))
+    marked = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
+    grid = Grid("", table.columns, cells, count_deviations(table), marked, words)
     return Sheet(title, (facts, grid))
 
 
@@ -168,9 +163,6 @@ def _exact(erratum: Erratum) -> str:
 ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_errata)
 
 
-_LIST_COLUMNS = ("name", "title", "source", "errata")
-
-
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return one row a table, their sources, and further commands."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
@@ -185,17 +177,17 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
 
 
 def describe_list(tables: Sequence[Table]) -> list[Node]:
-    """One list, an entry a table."""
-    return [dict(zip(_LIST_COLUMNS, line, strict=True)) for line in _list_lines(tables)]
+    """Return one list, an entry a table."""
+    return [
+        {"name": t.name, "title": t.title, "source": t.source, "errata": len(t.errata)}
+        for t in tables
+    ]
 
 
 def list_tables(tables: Sequence[Table], _system: System) -> Rows:
-    """CSV: a table a line."""
-    return Rows(_LIST_COLUMNS, _list_lines(tables))
-
-
-def _list_lines(tables: Sequence[Table]) -> list[tuple[str, str, str, int]]:
-    return [(t.name, t.title, t.source, len(t.errata)) for t in tables]
+    """Return a table a line, for CSV."""
+    entries = describe_list(tables)
+    return Rows([*entries[0]], [[*entry.values()] for entry in entries])
 
 
 TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tables)
