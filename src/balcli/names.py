@@ -72,7 +72,7 @@ DOCUMENTS = {
     "speeds": "analysis.speeds:SpeedSeries",
     "sum": "analysis.two_engines:Combined",
     "sweep": "studies.sweep_show:SweepDocument",
-    "table": "books.show:TableDocument",
+    "table": "books.recomputed:Table",
     "torque": "torque.records:TorqueAnalysis",
     "torsion": "torsion.answer:TorsionAnalysis",
 }

@@ -30,7 +30,7 @@ from balcli.report.study import Study
 from balcli.show import plot_style as style
 from balcli.show.plane import draw_locus
 from balcli.show.units import IMPERIAL, SI
-from balcli.torque.plot import compute_picture
+from balcli.torque.plot import find_pressures
 
 pytestmark = pytest.mark.slow
 
@@ -284,9 +284,8 @@ def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
 def test_of_a_share_of_gas_its_pressure_is_drawn(share):
     """Over that in the crankcase, 1 bar."""
     weak = build_text(f"{GAS_FOUR}{WIEBE}[cylinder.1]\ngas = {share}\n")
-    drawn = compute_picture(weak, "p-v")
-    whole = compute_picture(build_text(GAS_FOUR + WIEBE), "p-v")
-    assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
+    (_, drawn, _), (_, whole, _) = map(find_pressures, (weak, build_text(GAS_FOUR + WIEBE)))
+    assert drawn == pytest.approx(1e5 + share * (whole - 1e5))
 
 
 @pytest.mark.parametrize("what", OF_GAS)
@@ -294,8 +293,7 @@ def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     fired = build_text(GAS_FOUR + WIEBE)
-    study = Study(analyze(fired), gas=compute_picture(fired, what))
-    page = make_page(PageSubject(study), what)
+    page = make_page(PageSubject(Study(analyze(fired))), what)
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()

@@ -14,7 +14,7 @@ import pytest
 from support import two_term
 from support.two_term import PSI, largest_error
 
-from balcli.books.answer import recompute
+from balcli.books.answer import tables as recompute
 from balcli.core.mechanisms import slidercrank as sc
 
 LAM = 0.32  # the largest ratio of the tables

@@ -30,8 +30,7 @@ Name = Annotated[
     ),
 ]
 Errata = Annotated[
-    bool,
-    typer.Option("--errata", help="List wrong figures, equations and sentences by class."),
+    bool, typer.Option("--errata", help="List wrong figures, equations and sentences by class.")
 ]
 Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
@@ -44,18 +43,10 @@ Lam = Annotated[
 Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
 Power = Annotated[
     int | None,
-    typer.Option(
-        min=0,
-        max=HIGHEST_POWER,
-        show_default=False,
-        help="Highest power of lambda in `series`; default 12.",
-    ),
+    optional("N", "Highest power of lambda in `series`; default 12.", min=0, max=HIGHEST_POWER),
 ]
 Digits = Annotated[
-    int | None,
-    typer.Option(
-        min=0, max=17, show_default=False, help="Decimals; default: as printed (JSON and CSV: all)."
-    ),
+    int | None, optional("N", "Decimals; default: as printed (JSON and CSV: all).", min=0, max=17)
 ]
 
 
@@ -108,4 +99,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from . import answer, show as pages
 
-    show([answer.recompute("layouts")], pages.LAYOUTS, form, output)
+    show(answer.select_tables("layouts"), pages.LAYOUTS, form, output)

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from ..core.phasors import Array, Phasors
 from ..core.speed_ripple import (
-    Timetable,
     count_in_time,
     find_reach,
     find_slowest,
@@ -57,7 +56,16 @@ def compute_spectra_in_time(
     mixed = [*(line.order for line in engine.ripple), *orders]
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
-    timetable = _find_timetable(engine, float(fastest[1]), 2 * len(fastest), len(orders))
+    slowest = find_slowest(engine.ripple).value
+    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))  # enough where it is slowest
+    if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
+        raise BalcliError(
+            f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
+            "its orders of the time need more samples than are computed; give a smaller amplitude "
+            "or lower orders"
+        )
+    step = float(fastest[1])
+    timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
     in_time: dict[str, Phasors] = {}
     # Gas has orders without end: all that are felt in those of the time.
     of_gas = [name for name in kinds if name in GAS_KINDS]
@@ -68,21 +76,6 @@ def compute_spectra_in_time(
             counted = count_in_time([p for _, p in found.items()], timetable, orders)
             in_time |= zip((kind.name for kind, _ in found.items()), counted, strict=True)
     return Spectra(orders, None, **in_time), timetable.turns
-
-
-def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Timetable:
-    """Return a timetable with enough samples to resolve the highest of these orders where the crank
-    is slowest. Raise BalcliError if these are too many samples for the number of orders.
-    """
-    slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(math.log2(16 * waves / slowest))
-    if samples > MOST_SAMPLES or samples * orders > _MOST_COUNTED:
-        raise BalcliError(
-            f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
-            "its orders of the time need more samples than are computed; give a smaller amplitude "
-            "or lower orders"
-        )
-    return find_timetable(find_speed(engine.ripple, step), step, samples)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,13 +134,10 @@ def find_loads(
         raise BalcliError(MOMENTS_UNKNOWN)
     fired = engine.gas is not None
     of_gas = list_gas_orders(engine) if gas_orders is None else gas_orders
-    wanted = (
-        merge_orders(find_relevant_orders(engine), of_gas if fired else ())
-        if orders is None
-        else orders
-    )
-    wanted = np.array(wanted[wanted > 0], np.float64)
-    kinds = ("force", "moment", "roll", *(["gas"] if fired else []))
+    usual = merge_orders(find_relevant_orders(engine), of_gas if fired else ())
+    wanted = np.array(usual if orders is None else orders, np.float64)
+    wanted = wanted[wanted > 0]
+    kinds = ("force", "moment", "roll", *["gas"] * fired)
     if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle
         found, turns = compute_spectra_in_time(engine, wanted, kinds)
     else:

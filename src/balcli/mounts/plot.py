@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engine.figures import find_first_largest
 from ..show.plot_style import (
     BLUE,
     FAINT,
@@ -25,7 +24,8 @@ from ..show.plot_style import (
 )
 from ..show.sheet import NAMELESS, number, order_name
 from ..show.units import System
-from .records import BodyMode, BodyResponse, MountReport
+from .build import BodyMode
+from .records import BodyResponse, MountReport
 from .rigid_body import PROJECTION, find_corners
 from .show import Kind, list_kinds
 
@@ -66,14 +66,15 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
-        for place, (line, colour) in zip(kind.places(response), MANY_LOOKS, strict=False):
+        looks = zip(kind.places(response), MANY_LOOKS, strict=False)
+        for (name, _, peak, _), (line, colour) in looks:
             ax.plot(
                 response.speeds_rpm,
-                kind.unit.of(getattr(place, kind.peak)),
+                peak / kind.unit.size,
                 color=colour,
                 linestyle="-." if label else line,
                 linewidth=1.0 if label else 1.8,
-                label=f"{fit_name(place.name, 20)}{label}",
+                label=f"{fit_name(name, 20)}{label}",
             )
     ax.set_ylim(bottom=0)
     title = "Force of each mount" if kind.part == "mount" else "Motion of points"
@@ -83,19 +84,18 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
 
 def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:
     """Draw orders over speed, as wide as the force of the mount with the largest, and modes."""
-    worst = [mount.worst.force_N for mount in response.mounts]
-    mount = response.mounts[int(find_first_largest(worst))]
+    mount = max(response.mounts, key=lambda mount: round(mount.worst.force_N, 6))
     largest = max(each.force_N.max() for each in mount.orders) or 1.0
     rpm, highest = response.speeds_rpm, 2.5 * result.modes[-1].frequency_Hz
-    for each in mount.orders:
-        hertz = each.order * rpm / 60
-        width = np.maximum(_WIDEST * each.force_N / largest, _THINNEST)
+    for order, force in mount.orders:
+        hertz = order * rpm / 60
+        width = np.maximum(_WIDEST * force / largest, _THINNEST)
         ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
         ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
         inside = np.flatnonzero(hertz < 0.97 * highest)
         if len(inside):
             place = (rpm[inside[-1]], hertz[inside[-1]])
-            ax.text(*place, f" {order_name(each.order)}", color=INK, va="bottom")
+            ax.text(*place, f" {order_name(order)}", color=INK, va="bottom")
     for mode in result.modes:
         ax.axhline(mode.frequency_Hz, color=RED, linewidth=0.8)
     ax.set(

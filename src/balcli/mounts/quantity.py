@@ -9,24 +9,23 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.phases import RPM
-from ..engine.figures import find_first_largest
 from ..engine.load import EngineVariants, choose_speeds
 from ..errors import BalcliError
 from ..file.model import EngineFile, label_table
 from ..file.read import change_figures
 from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
 from .answer import choose_mount_speeds
-from .build import BodyModes, build_mounted_body, find_mounted_modes, settle
+from .build import BodyMode, build_mounted_body, find_mounted_modes, settle
 from .loads import find_loads
 from .response import RunningBody, find_worst
-from .rigid_body import AXES, ROLL
+from .rigid_body import AXES
 
 _SUBJECTS = {
     "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
     "mount": Subject("left", {"force": "N", "static": "N"}),
     "point": Subject("lever", {"motion": "mm"}),
 }
-_MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
+_MOTIONS = (*AXES, "roll")
 _MODES = (*"123456", *_MOTIONS)
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
 _RUNS = ("force", "motion")  # what takes an engine that runs
@@ -101,40 +100,36 @@ class Variants:
             InputError, BalcliError: No engine can have these figures.
         """
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
-        modes, mean, largest = find_mounted_modes(mounted), 0.0, {}
+        modes, mean = find_mounted_modes(mounted), 0.0
+        largest = np.zeros(len(mounted.names) + len(mounted.points))  # N, mm
         if self._curves or self._leans:
-            engine = self._engines.build(
-                {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
-            )
+            own = {k: v for k, v in values.items() if k.partition(".")[0] not in _TABLES}
+            engine = self._engines.build(own)
         if self._curves:
             omega = choose_speeds(engine, values, choose_mount_speeds) * RPM
             running = RunningBody.choose(mounted, modes, engine, omega)
             running.refuse_resonance(omega)
-            running, mean = running.select(self._curves), running.loads.mean
-            worst = find_worst(running, omega, running.find_peaks(omega))
-            largest = {
-                k: value if k < len(mounted.names) else 1e3 * value  # N, mm
-                for k, value in zip(self._curves, worst.value.tolist(), strict=True)
-            }
+            mean = running.loads.mean
+            running = running._replace(couplings=running.couplings[self._curves])
+            _, largest[self._curves] = find_worst(running, omega, running.find_peaks(omega))
+            largest[len(mounted.names) :] *= 1e3
         elif self._leans:
             mean = find_loads(engine, mounted.body.centre).mean
-        rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
-        found = []
-        for q in self._quantities:
-            if q.kind == "mode":
-                found.append(_read_mode(modes, q))
-            else:
-                found.append((rest if q.part == "static" else largest)[self._place[q]])
-        return found
+        rest = np.linalg.norm(settle(mounted, mean)[0], axis=-1)
+        return [
+            _read_mode(modes.each, q)
+            if q.kind == "mode"
+            else float((rest if q.part == "static" else largest)[self._place[q]])
+            for q in self._quantities
+        ]
 
 
-def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
+def _read_mode(modes: Sequence[BodyMode], q: TargetQuantity) -> float:
     if q.target in _MOTIONS:
-        motion = _MOTIONS[q.target]
-        mode = int(modes.shares[:, motion].argmax())
+        axis = "rz" if q.target == "roll" else q.target
+        mode = max(modes, key=lambda mode: mode.energy_percent[axis])
+        share = mode.energy_percent[axis]
     else:
-        mode = int(q.target) - 1
-        motion = int(find_first_largest(modes.shares[mode]))
-    if q.part == "Hz":
-        return float(modes.hertz[mode])
-    return float(100 * modes.shares[mode, motion] if q.part == "share" else 50 * modes.loss[mode])
+        mode = modes[int(q.target) - 1]
+        share = max(mode.energy_percent.values())
+    return {"Hz": mode.frequency_Hz, "share": share, "damping": 50 * mode.loss_factor}[q.part]

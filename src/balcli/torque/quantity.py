@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 from ..engine.build import build
 from ..engine.engine import Engine
@@ -20,16 +20,16 @@ _UNITS = {"torque.mean": "N·m", "torque.max": "N·m", "torque.min": "N·m", "fl
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
 
 
-@dataclass(frozen=True)
-class CycleQuantity:
-    """One figure: mean torque of the gas, largest and smallest torque, fluctuation of speed."""
+class CycleQuantity(NamedTuple):
+    """One figure: mean torque of the gas, largest and smallest torque, fluctuation of speed.
+
+    Attributes:
+        name: Name as in `torque.mean`.
+        unit: SI unit.
+    """
 
     name: str
-
-    @property
-    def unit(self) -> str:
-        """SI unit."""
-        return _UNITS[self.name]
+    unit: str
 
 
 def parse_quantity(text: str) -> CycleQuantity:
@@ -40,7 +40,7 @@ def parse_quantity(text: str) -> CycleQuantity:
     """
     if text not in _UNITS:
         raise BalcliError(f"{text} is no quantity: give {', '.join(_UNITS)}")
-    return CycleQuantity(text)
+    return CycleQuantity(text, _UNITS[text])
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -50,7 +50,7 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[CycleQuantity]) -> None:
-    """Raise BalcliError if the engine has no gas.
+    """Check that the quantities exist for an engine file.
 
     Raises:
         BalcliError: The engine has no gas.
