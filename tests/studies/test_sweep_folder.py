@@ -146,7 +146,7 @@ def test_what_does_not_go_into_a_folder_is_refused():
 def test_a_sweep_that_fails_at_once_leaves_nothing(monkeypatch):
     Path("good.toml").write_text(changed(("[crank]", "[crank]\ninertia = 1e5"), more=RIPPLE))
     monkeypatch.setattr("balcli.studies.sweep_write.ROWS_A_BLOCK", 1000)
-    monkeypatch.setattr("balcli.studies.sweep._BOXES", 1000)
+    monkeypatch.setattr("balcli.studies.sweep_write.BOXES_A_BLOCK", 1000)
     assert "the crank would" in refuse_sweep(*TURN_BACK, "-o", "out/")
     assert os.listdir() == ["good.toml"]
 

@@ -89,38 +89,38 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
         numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
-        pins = {n: parts.override(n, "throw") for n in numbers}
-        lines |= {
-            f"cylinder.{n}.throw": Line(float(pin), 1.0)
-            for n, pin in pins.items()
-            if pin is not None
-        }
-        lines |= _hold_devices(model) if 1 in pins else {}
+        for n in numbers:
+            if (pin := parts.override(n, "throw")) is not None:
+                lines[f"cylinder.{n}.throw"] = Line(float(pin), 1.0)
+        if 1 in numbers:
+            lines |= _hold_devices(model)
         yield Source(f"throw angle {k + 1}", within.angle_deg, lines, relative=False)
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
     """Yield the masses of pistons, rods and throws, as far as there are some."""
-    engine = build(model)
-    numbers = sorted(engine.numbers)
-    weighed = dict(zip(engine.numbers, engine.weighed, strict=True))
-    masses: dict[int, dict[str, float]] = {n: {} for n in numbers}
-    for n in numbers:
+    yield from _list_pistons(model, mass)
+    for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
-        for key, unit in _ROD_UNITS.items():
-            if (given := getattr(rod, key)) is not None:
-                masses[n][f"cylinder.{n}.rod_{key}"] = unit * float(given)
-    if any(w.piston for w in weighed.values()):
-        for n in numbers:
-            figures = {f"cylinder.{n}.piston_mass": float(weighed[n].piston)}
-            yield _relative(f"piston mass {n}", mass, figures)
-    if any(value for figures in masses.values() for value in figures.values()):
-        for n in numbers:
-            yield _relative(f"rod mass {n}", mass, masses[n])
+        figures = {
+            f"cylinder.{n}.rod_{key}": unit * float(given)
+            for key, unit in _ROD_UNITS.items()
+            if (given := getattr(rod, key)) is not None
+        }
+        if any(figures.values()):
+            yield _relative(f"rod mass {n}", mass, figures)
     if model.crank.throw_mass and not model.layout.rotary:
         for k in range(1, parts.plan.throws + 1):
             figures = {f"{THROW_MASS}{k}": model.crank.throw_mass}
             yield _relative(f"throw mass {k}", mass, figures)
+
+
+def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
+    engine = build(model)
+    for n, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
+        if weighed.piston:
+            figures = {f"cylinder.{n}.piston_mass": float(weighed.piston)}
+            yield _relative(f"piston mass {n}", mass, figures)
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
@@ -196,7 +196,4 @@ def list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
                 yield _relative(f"stiffness {part.name}", elastic, figures)
             if part.inertia is not None:
                 yield _relative(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
-    engine = build(model)
-    for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
-        figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
-        yield _relative(f"piston mass {number}", mass, figures)
+    yield from _list_pistons(model, mass)

@@ -195,7 +195,7 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from .scatter import Drawing, Variants, read_tolerances
+    from .scatter import Variants, read_tolerances
 
     within = read_tolerances(mass, length, angle, stiffness)
     _, model, engine = read_engine(path, asked=())
@@ -204,6 +204,6 @@ def scatter(
     variants = Variants(model, quantity, within)
     count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
-        found = variants.draw(Drawing(count, seed, distribution.value, progress))
+        found = variants.draw(count, seed, distribution.value, progress)
     show([found], RENDERER, form, output)
     exit_if_cut_short(progress, "the results cover only these")
