@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -16,6 +15,7 @@ from ..shell.inputs import read_engine, warn_of_unknown_moments
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
+from ..shell.values import optional
 from ..show.csv import Rows
 from ..show.formats import Renderer
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, number
@@ -106,71 +106,35 @@ def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, s
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-class Distribution(StrEnum):
-    """How figures deviate within their tolerances."""
+def tolerance(name: str, what: str, metavar: str = "PERCENT", **more: Any) -> object:
+    """Return the option of a tolerance."""
+    return typer.Option(name, metavar=metavar, help=f"Tolerance of {what}.", **more)
 
-    UNIFORM = "uniform"
-    NORMAL = "normal"
+
+STIFFNESS = "15% of mounts, 5% of shafts"
+SAMPLES = "Default: 100000, or 500 of quantities that are computed one by one."
+SHAPES = "Evenly within the tolerances, or normal with a third of them as standard deviation."
+QUANTITIES = "As force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
 
 
 def scatter(
     path: EnginePath,
     mass: Annotated[
-        str,
-        typer.Option(
-            "--mass-scatter",
-            metavar="PERCENT",
-            help="Tolerance of every piston, rod and throw mass, and of inertias for torsion.",
-        ),
+        str, tolerance("--mass-scatter", "piston, rod and throw masses, and inertias")
     ] = "0.5%",
-    length: Annotated[
-        str,
-        typer.Option(
-            "--length-scatter",
-            metavar="PERCENT",
-            help="Tolerance of every rod length; the other rod data are kept.",
-        ),
-    ] = "0%",
-    angle: Annotated[
-        str,
-        typer.Option(
-            "--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg."
-        ),
-    ] = "0",
+    length: Annotated[str, tolerance("--length-scatter", "rod lengths")] = "0%",
+    angle: Annotated[str, tolerance("--angle-scatter", "throw angles, as 0.2 deg", "ANGLE")] = "0",
     stiffness: Annotated[
         str | None,
-        typer.Option(
-            "--stiffness-scatter",
-            metavar="PERCENT",
-            show_default="15% of mounts, 5% of shafts",
-            help="Tolerance of the stiffness of every mount, or shaft, for their quantities.",
-        ),
+        tolerance("--stiffness-scatter", "mounts or shafts", show_default=STIFFNESS),
     ] = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(
-            "--samples",
-            help="Number of random engines, 100000; of those computed one by one (torque over the "
-            "cycle, guides, mounts, torsion), 500.",
-            show_default=False,
-        ),
-    ] = None,
+    samples: Annotated[int | None, optional("N", SAMPLES, "--samples")] = None,
     seed: Annotated[
-        int | None,
-        typer.Option(
-            "--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False
-        ),
+        int | None, optional("N", "Seed of the random numbers.", "--seed", min=0)
     ] = None,
     distribution: Annotated[
-        Distribution,
-        typer.Option(
-            "--distribution",
-            help=(
-                "uniform within the tolerances, or normal with a third of them as standard "
-                "deviation."
-            ),
-        ),
-    ] = Distribution.UNIFORM,
+        Literal["uniform", "normal"], typer.Option("--distribution", help=SHAPES)
+    ] = "uniform",
     quantity: Annotated[
         str | None,
         typer.Option(
@@ -178,9 +142,7 @@ def scatter(
             "-q",
             metavar="WHAT,...",
             show_default=DEFAULT_QUANTITIES,
-            help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
-            "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
-            "torsion.1.Hz, shaft.flywheel.torque.",
+            help=QUANTITIES,
         ),
     ] = None,
     form: FormatOption = None,
@@ -204,6 +166,6 @@ def scatter(
     variants = Variants(model, quantity, within)
     count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
-        found = variants.draw(count, seed, distribution.value, progress)
+        found = variants.draw(count, seed, distribution, progress)
     show([found], RENDERER, form, output)
     exit_if_cut_short(progress, "the results cover only these")
