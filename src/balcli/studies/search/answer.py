@@ -18,11 +18,9 @@ from ...engine.build import build
 from ...engine.engine import Engine, check_engine, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
-from ...engine.parse import parse_dict
 from ...errors import BalcliError, InputError, check_type, wrong_type
 from ...file.fields import nearest
 from ...file.model import EngineFile
-from ...file.plain_tables import change_tables
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
 from ...shell.arguments import Words, check_count, join_names, tell_arguments
@@ -40,6 +38,7 @@ from .designs import (
     drop_mirror_images,
     fires_evenly,
     list_changes,
+    name_throws,
     parse_objective,
     rank_designs,
     rank_one_by_one,
@@ -212,11 +211,10 @@ def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[D
             for order in slots.find_orders(throws):
                 yield {"firing_order": [*order], "throws": throws}
         return
-    free = drop_firing_order(model)
-    for design in list_throws(give_throws(model)):
-        changed = parse_dict(change_tables(free, list_changes(design)), free.folder)
-        if not even_firing or fires_evenly(build(changed), changed).all():
-            yield design
+    free, throws = drop_firing_order(model), list_throws(give_throws(model))
+    if even_firing:
+        throws = throws[fires_evenly(build(free, name_throws(throws)), free)]
+    yield from ({"throws": row} for row in throws.tolist())
 
 
 # ------------------------------------------------------------------ numbers
