@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -106,44 +107,30 @@ def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, s
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-def tolerance(name: str, what: str, metavar: str = "PERCENT", **more: Any) -> object:
-    """Return the option of a tolerance."""
-    return typer.Option(name, metavar=metavar, help=f"Tolerance of {what}.", **more)
-
-
-STIFFNESS = "15% of mounts, 5% of shafts"
+MASS = "Tolerance of piston, rod and throw masses, and of inertias."
+ANGLE = "Tolerance of throw angles, as 0.2 deg."
+STIFFNESS = "Tolerance of mounts or shafts."
+OF_EACH = "15% of mounts, 5% of shafts"
 SAMPLES = "Default: 100000, or 500 of quantities that are computed one by one."
-SHAPES = "Evenly within the tolerances, or normal with a third of them as standard deviation."
-QUANTITIES = "As force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
+SHAPES = "Even within the tolerances, or normal with a third of them as standard deviation."
+QUANTITY = "As force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
+percent = partial(optional, "PERCENT")
 
 
 def scatter(
     path: EnginePath,
-    mass: Annotated[
-        str, tolerance("--mass-scatter", "piston, rod and throw masses, and inertias")
-    ] = "0.5%",
-    length: Annotated[str, tolerance("--length-scatter", "rod lengths")] = "0%",
-    angle: Annotated[str, tolerance("--angle-scatter", "throw angles, as 0.2 deg", "ANGLE")] = "0",
+    mass: Annotated[str, percent(MASS, "--mass-scatter", show_default=True)] = "0.5%",
+    length: Annotated[str, percent("Tolerance of rod lengths.", "--length-scatter")] = "0%",
+    angle: Annotated[str, optional("ANGLE", ANGLE, "--angle-scatter")] = "0",
     stiffness: Annotated[
-        str | None,
-        tolerance("--stiffness-scatter", "mounts or shafts", show_default=STIFFNESS),
+        str | None, percent(STIFFNESS, "--stiffness-scatter", show_default=OF_EACH)
     ] = None,
-    samples: Annotated[int | None, optional("N", SAMPLES, "--samples")] = None,
-    seed: Annotated[
-        int | None, optional("N", "Seed of the random numbers.", "--seed", min=0)
-    ] = None,
-    distribution: Annotated[
-        Literal["uniform", "normal"], typer.Option("--distribution", help=SHAPES)
-    ] = "uniform",
+    samples: Annotated[int | None, optional("N", SAMPLES)] = None,
+    seed: Annotated[int | None, optional("N", "Seed of the random numbers.", min=0)] = None,
+    distribution: Annotated[Literal["uniform", "normal"], typer.Option(help=SHAPES)] = "uniform",
     quantity: Annotated[
         str | None,
-        typer.Option(
-            "--quantity",
-            "-q",
-            metavar="WHAT,...",
-            show_default=DEFAULT_QUANTITIES,
-            help=QUANTITIES,
-        ),
+        optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
     ] = None,
     form: FormatOption = None,
     output: Output = None,

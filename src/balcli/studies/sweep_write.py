@@ -144,7 +144,7 @@ def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
 def write_blocks(
     sweep: Sweep,
     folder: Path,
-    sharing: AbstractContextManager[Share],
+    share: Share,
     progress: Progress,
     *,
     force: bool,
@@ -153,7 +153,7 @@ def write_blocks(
     stay.
 
     Args:
-        sharing: Context that yields the function that shares work among threads or workers.
+        share: Function that shares work among threads or workers.
         force: Whether an earlier sweep in this folder is deleted first.
 
     Raises:
@@ -164,14 +164,13 @@ def write_blocks(
         _claim(folder, _name_sweep(sweep), force)
     except OSError as error:
         raise tell_unwritable(folder, error) from None
+    rows = min(ROWS_A_BLOCK, BOXES_A_BLOCK * count_at_once(sweep))
+    blocks = enumerate(map(sweep.cut, divide_grid(sweep.shape, rows)))
     done = 0
     try:
-        with sharing as share:
-            rows = min(ROWS_A_BLOCK, BOXES_A_BLOCK * count_at_once(sweep))
-            blocks = enumerate(map(sweep.cut, divide_grid(sweep.shape, rows)))
-            for variants in share(partial(_write_block, folder.absolute()), blocks):
-                done += variants
-                progress(done)
+        for variants in share(partial(_write_block, folder.absolute()), blocks):
+            done += variants
+            progress(done)
     except BalcliError:
         if not done:
             _give_up(folder)
