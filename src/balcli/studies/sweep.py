@@ -168,35 +168,25 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`."""
+    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`.
+
+    The corners of the grid are checked before the sweep. A mechanism locks at one of them if it
+    locks at all; mistakes of an uneven speed may be between them, and are found later.
+    """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
+    if len(paths) > MOST_PARAMETERS:
+        raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name)
+    corners = build_corners(sweep)
     if quantities is None:
-        known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
-        sweep = replace(sweep, quantities=known)
-    check_corners(sweep)
+        return replace(sweep, quantities=leave_out_unknown(corners, sweep.of_engine))
+    with naming_variant(name), naming_file(""):
+        refuse_unknown(model, corners, asked)
     return sweep
-
-
-def check_corners(sweep: Sweep) -> None:
-    """Check the variants at the corners of the grid before the sweep. A mechanism locks at one of
-    them if it locks at all; mistakes of an uneven speed may be between them, and are found later.
-
-    Raises:
-        InputError: One of the variants is impossible.
-        BalcliError: A requested moment is not known; too many numbers vary.
-    """
-    if len(sweep.parameters) > MOST_PARAMETERS:
-        raise BalcliError(
-            f"{len(sweep.parameters)} numbers vary; at most {MOST_PARAMETERS} can at once"
-        )
-    engine = build_corners(sweep)
-    with naming_variant(sweep.name), naming_file(""):
-        refuse_unknown(sweep.file, engine, sweep.quantities)
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -353,24 +343,6 @@ class Swept(Result):
         raise KeyError(f"{name}; there are {', '.join(self)}")
 
 
-def compute_sweep(sweep: Sweep, threads: int) -> Swept:
-    """Return all variants of a sweep.
-
-    Raises:
-        BalcliError: They are too many to keep.
-        InputError: One of them is impossible.
-    """
-    count = sweep.variants * len(sweep.quantities)
-    if count > MOST_KEPT_FIGURES:
-        raise BalcliError(
-            f"{count_name(count)} values are too many to keep; give at most "
-            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
-            "them as they are computed"
-        )
-    share = partial(share_among_threads, threads=threads)
-    return Swept(sweep, tuple(join_chunks(sweep, evaluate_chunks(sweep, share))))
-
-
 @tell_arguments(quantity="quantities", jobs="threads")
 def sweep(
     engine: Engine,
@@ -399,7 +371,7 @@ def sweep(
         `result.to_pandas()` one row a variant, the last name fastest.
 
     Raises:
-        BalcliError: an unknown name, with the nearest one; values out of bounds.
+        BalcliError: an unknown name, with the nearest one; values out of bounds, or too many.
         InputError: one of the variants is impossible; the error has the reason.
         TypeError: an argument of another type.
 
@@ -413,7 +385,14 @@ def sweep(
     if not parameters:
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
     wanted = min(count_cores(), MOST_THREADS) if threads is None else threads
-    count = check_count("threads", wanted, most=MOST_THREADS)
+    share = partial(share_among_threads, threads=check_count("threads", wanted, most=MOST_THREADS))
     asked = join_names("sweep", quantities)
     plan = plan_sweep(model, parameters, asked, engine.name or "engine")
-    return compute_sweep(plan, count)
+    count = plan.variants * len(plan.quantities)
+    if count > MOST_KEPT_FIGURES:
+        raise BalcliError(
+            f"{count_name(count)} values are too many to keep; give at most "
+            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
+            "them as they are computed"
+        )
+    return Swept(plan, tuple(join_chunks(plan, evaluate_chunks(plan, share))))
