@@ -36,18 +36,6 @@ def naming_variant(name: str) -> Iterator[None]:
         raise BalcliError(": ".join(filter(None, (name, str(error))))) from None
 
 
-def attach_gas_torque(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
-    """Return variants of an engine from `build`, with the torque of their gas if the file has gas.
-
-    Args:
-        figures: Varying figures, as they were given to `build`.
-    """
-    if model.gas is None:
-        return engine
-    rank = engine.cylinders.pin_deg.ndim - 1
-    return replace(engine, gas_of_variants=_VariedGas(model, figures, rank))
-
-
 class _VariedGas:
     """Gas torque by order, shape (orders, *trailing), of length 1 along axes without effect on the
     gas.
@@ -108,7 +96,9 @@ class Evaluator:
             InputError: One of them is impossible.
         """
         engine = build(self._model, figures, rank=rank)
-        return attach_gas_torque(engine, self._model, figures)
+        if self._model.gas is None:
+            return engine
+        return replace(engine, gas_of_variants=_VariedGas(self._model, figures, rank))
 
     def evaluate(
         self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None

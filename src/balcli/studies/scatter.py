@@ -28,16 +28,7 @@ from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..shell.values import read_angle, read_share
 from ..show.result import Result
 from ..show.sheet import count_name
-from .deviations import (
-    THROW_MASS,
-    Source,
-    Tolerances,
-    list_mounts,
-    list_parts,
-    list_shafting,
-    spell_out_shafting,
-    spell_out_throws,
-)
+from .deviations import THROW_MASS, Source, Tolerances, find_sources
 from .evaluator import Evaluator
 from .quantities import (
     NamedEngine,
@@ -54,6 +45,12 @@ _EQUAL = 1e-8  # of the largest effect: effects that differ by less are equal
 _ROUNDING = 1e-12  # of a figure: a smaller change of it is none
 _LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
 _DEGREES = Number(ANGLE, least=0, most=90)
+# What varies, in words, and an option with a tolerance, by chapter.
+_VARIED = {
+    ENGINE: ("engines", "--mass-scatter 0.5%"),
+    MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
+    TORSION: ("crankshafts", "--stiffness-scatter 15%"),
+}
 Shape = Literal["uniform", "normal"]
 
 
@@ -195,21 +192,12 @@ class Variants:
                 f"{angles[0].rpartition('.')[0]}.major"
             )
         refuse_unknown(model, engine, asked)
-        self.varied, give = "engines", "--mass-scatter 0.5%"
-        if MOUNTS in kinds:
-            self.varied, give = "sets of mounts", "--stiffness-scatter 15%"
-            sources = list_mounts(model, within)
-        elif TORSION in kinds:
-            self.varied, give = "crankshafts", "--stiffness-scatter 15%"
-            model = spell_out_shafting(model)
-            sources = list_shafting(model, within)
-        else:
-            model = spell_out_throws(model) if within.angle_deg else model
-            sources = list_parts(model, within)
-        self.model, self.sources = model, tuple(each for each in sources if each.tolerance)
+        chapter = next(iter(apart), ENGINE)
+        self.varied, give = _VARIED[chapter]
+        self.model, self.sources = find_sources(model, chapter, within)
         if not self.sources:
             raise BalcliError(f"all tolerances are 0; give one, such as {give}")
-        self._evaluator = Evaluator(model, asked)
+        self._evaluator = Evaluator(self.model, asked)
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
         self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
