@@ -20,7 +20,7 @@ from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.studies.deviations import Tolerances
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.scatter import Drawing, Spread, Variants, read_tolerances, scatter_engine
+from balcli.studies.scatter import Spread, Variants, read_tolerances
 
 FORCES = "force.1.major,force.2.major,moment.1.major"
 TWIN = changed(
@@ -45,7 +45,7 @@ def evaluate(text: str, name: str) -> float:
 
 def scatter(text: str, name: str, within: Tolerances, samples: int = 10, shape: str = "uniform") -> list[Spread]:
     """The spreads of quantities of a file."""
-    return [*scatter_engine(load(text), name, within, Drawing(samples, 1, shape)).quantities.values()]
+    return [*Variants(load(text), name, within).draw(samples, 1, shape).quantities.values()]
 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
@@ -172,9 +172,8 @@ def test_rods_that_might_lock_are_refused(text: str) -> None:
 
 
 def test_percentiles_rise_and_a_seed_repeats() -> None:
-    runs = [
-        scatter_engine(load(GOOD), FORCES, Tolerances(0.02), Drawing(20_000, seed)).quantities for seed in (7, 7, 8)
-    ]
+    variants = Variants(load(GOOD), FORCES, Tolerances(0.02))
+    runs = [variants.draw(20_000, seed).quantities for seed in (7, 7, 8)]
     assert runs[0] == runs[1]
     assert runs[0]["force.1.major"].mean != runs[2]["force.1.major"].mean
     for s in runs[0].values():

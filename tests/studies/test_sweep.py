@@ -20,7 +20,7 @@ from balcli.studies.parameters import parse_parameter
 from balcli.studies.quantities import parse_quantities
 from balcli.studies.sweep import (
     Sweep,
-    check_corners,
+    build_corners,
     count_at_once,
     divide_grid,
     evaluate_chunks,
@@ -103,7 +103,7 @@ def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
 def test_a_rod_weighed_at_one_end_only_is_refused() -> None:
     light = changed(("mass = 0.6\ncg = 45\n", ""))
     with pytest.raises(InputError, match=r"rod\.big_end: needs small_end as well: weigh the rod at both ends"):
-        check_corners(asked(light, "rod.big_end=0.1,0.2"))
+        build_corners(asked(light, "rod.big_end=0.1,0.2"))
 
 
 def test_what_does_not_vary_is_not_computed_again() -> None:

@@ -285,7 +285,7 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     out = ask("sweep", bare, "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude")
     assert out.startswith("rod.length,torque.2.amplitude")
     refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert refusal(*refused) == "gas.2.amplitude: the engine file has no [gas]"
+    assert refusal(*refused) == f"{bare}: gas.2.amplitude: the engine file has no [gas]"
 
 
 @pytest.mark.stress

@@ -15,9 +15,10 @@ from balcli import BalcliError, analyze_torsion
 from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.parse import parse
+from balcli.forces.quantity import TargetQuantity
 from balcli.torsion.build import build_engine_system, excite_engine
 from balcli.torsion.motion import move
-from balcli.torsion.quantity import Variants, parse_quantity
+from balcli.torsion.quantity import Variants
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
 
@@ -60,7 +61,7 @@ def search_finely(text, shaft):
 def test_no_resonance_is_too_narrow_to_be_found(loss, damper):
     """A ring in thick oil and pendulums shift resonances, away from the modes without them."""
     text = write_engine(loss, damper)
-    variants = Variants(parse(text), [parse_quantity("shaft.flywheel.torque")])
+    variants = Variants(parse(text), [TargetQuantity("shaft.flywheel.torque")])
     (found,) = variants.evaluate({})
     assert found == pytest.approx(search_finely(text, -1), rel=1e-6)
 

@@ -14,10 +14,11 @@ from balcli.engine.engine import Engine
 from balcli.engine.load import EngineVariants
 from balcli.engine.parse import parse
 from balcli.file.model import EngineFile
+from balcli.forces.quantity import TargetQuantity
 from balcli.studies.parameters import find_numbers
 from balcli.torsion.build import build_engine_system, excite_engine
 from balcli.torsion.modes import find_natural_modes
-from balcli.torsion.quantity import Variants, choose_torsion_speeds, parse_quantity
+from balcli.torsion.quantity import Variants, choose_torsion_speeds
 from balcli.torsion.response import find_response
 
 FILE = """
@@ -132,13 +133,13 @@ def test_gas_is_kept_only_where_a_number_leaves_it_alone(path):
     assert twist(found) == twist(build(write_variant(path)))
 
 
-QUANTITIES = [parse_quantity(q) for q in ("shaft.wheel.torque", "shaft.wheel.stress")]
+QUANTITIES = [TargetQuantity(q) for q in ("shaft.wheel.torque", "shaft.wheel.stress")]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", [path for path in SOME if path != "operation.speed"])
 def test_shaft_torque_is_that_of_a_file_that_says_so(path):
-    variants = Variants(MODEL, [*QUANTITIES, parse_quantity("torsion.2.Hz")])
+    variants = Variants(MODEL, [*QUANTITIES, TargetQuantity("torsion.2.Hz")])
     variants.evaluate({})
     torque, stress, hertz = variants.evaluate({path: vary(path)})
     model = write_variant(path)

@@ -18,7 +18,7 @@ from ..engine.load import FiguresOfVariants
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
-from .quantity import Subject, TargetQuantity, parse_target_quantity
+from .quantity import TargetQuantity
 from .spectrum import (
     compute_spectra,
     find_relevant_orders,
@@ -90,24 +90,6 @@ def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
     return sum(total[1:], total[0]).drop_noise()
 
 
-_SUBJECTS = {"guide": Subject("6", {"H": "N·m", "X": "N·m"})}
-
-
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity that a text such as `guide.6.H` names.
-
-    Raises:
-        BalcliError: The text names none; the error lists what there is.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    if parse_order(found.target) is None:
-        raise BalcliError(
-            f"{text} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
-            "guide.6.H"
-        )
-    return found
-
-
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of an engine's quantities, with N for the order."""
     yield "guide.N.H"
@@ -116,7 +98,8 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise an error for an X-type quantity of an engine that has no X-type moment.
+    """Raise an error for an impossible order, and for an X-type quantity of an engine that has no
+    X-type moment.
 
     Args:
         model: Engine file.
@@ -125,6 +108,12 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     Raises:
         BalcliError: The first of them that is not known, and why.
     """
+    for q in quantities:
+        if parse_order(q.target) is None:
+            raise BalcliError(
+                f"{q.name} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
+                "guide.6.H"
+            )
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known

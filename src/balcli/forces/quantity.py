@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import NamedTuple
 
 import numpy as np
 
@@ -187,57 +186,34 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
     return [(list(orders), members) for orders, members in groups.items()]
 
 
-class Subject(NamedTuple):
-    """Targets of quantities whose names begin with the same word.
-
-    Attributes:
-        example: Number or name of a target, for messages.
-        units: SI unit of each part that a target has.
-    """
-
-    example: str
-    units: Mapping[str, str]
-
-
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure of a target: `kind.target.part`.
+    """One figure of a chapter, most of them of a target: `kind.target.part`.
 
     Attributes:
-        kind: Kind of the target, such as `mount`.
-        target: Number or name of the target.
-        part: Figure of the target.
+        name: Name as a user writes it.
         unit: SI unit, or percent.
+        chapter: Chapter that computes it, a key of `names.QUANTITIES`.
     """
 
-    kind: str
-    target: str
-    part: str
-    unit: str = field(compare=False)
+    name: str
+    unit: str = field(default="", compare=False)
+    chapter: str = field(default="", compare=False)
 
     @property
-    def name(self) -> str:
-        """Name as a user writes it."""
-        return f"{self.kind}.{self.target}.{self.part}"
+    def kind(self) -> str:
+        """Kind of the target, such as `mount`."""
+        return self.name.partition(".")[0]
 
+    @property
+    def target(self) -> str:
+        """Number or name of the target."""
+        return self.name.partition(".")[2].rpartition(".")[0]
 
-def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQuantity:
-    """Return the quantity that a text `kind.target.part` names.
-
-    Args:
-        text: Name, whose kind is one of the subjects.
-        subjects: Kinds of quantities by name, with their parts and units.
-
-    Raises:
-        BalcliError: The part does not exist, or the target is missing; the error lists examples.
-    """
-    kind, _, rest = text.partition(".")
-    target, _, part = rest.rpartition(".")
-    units = subjects[kind].units
-    if part not in units or not target:
-        there = " or ".join(f"{kind}.{subjects[kind].example}.{each}" for each in units)
-        raise BalcliError(f"{text} is no quantity: give {there}")
-    return TargetQuantity(kind, target, part, units[part])
+    @property
+    def part(self) -> str:
+        """Figure of the target."""
+        return self.name.rpartition(".")[2]
 
 
 def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:

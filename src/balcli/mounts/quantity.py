@@ -13,46 +13,24 @@ from ..engine.load import EngineVariants, choose_speeds
 from ..errors import BalcliError
 from ..file.model import EngineFile, label_table
 from ..file.read import change_figures
-from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from .answer import choose_mount_speeds
 from .build import BodyMode, build_mounted_body, find_mounted_modes, settle
 from .loads import find_loads
 from .response import RunningBody, find_worst
 from .rigid_body import AXES
 
-_SUBJECTS = {
-    "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
-    "mount": Subject("left", {"force": "N", "static": "N"}),
-    "point": Subject("lever", {"motion": "mm"}),
-}
+_PARTS = {"mode": ("Hz", "share", "damping"), "mount": ("force", "static"), "point": ("motion",)}
 _MOTIONS = (*AXES, "roll")
 _MODES = (*"123456", *_MOTIONS)
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
 _RUNS = ("force", "motion")  # what takes an engine that runs
 
 
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity of this name; a mode is named by its number, or by the motion of which it
-    has the largest share.
-
-    Raises:
-        BalcliError: There is no such quantity.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    if found.kind == "mode" and found.target not in _MODES:
-        raise BalcliError(
-            f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
-            f"{', '.join(_MOTIONS)}"
-        )
-    return found
-
-
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of all quantities that a file has."""
     for kind, targets in _name_targets(model).items():
-        yield from (
-            f"{kind}.{target}.{part}" for target in targets for part in _SUBJECTS[kind].units
-        )
+        yield from (f"{kind}.{target}.{part}" for target in targets for part in _PARTS[kind])
 
 
 def _name_targets(model: EngineFile) -> dict[str, list[str]]:

@@ -8,6 +8,7 @@ whose cylinders are alike.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..core.phasors import Array, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.load import concerns_gas
-from ..errors import BalcliError, InputError
+from ..errors import BalcliError, InputError, naming_file
 from ..file.model import EngineFile
 from ..forces.quantity import evaluate_quantities
 from ..forces.spectrum import compute_gas_torque
@@ -24,16 +25,15 @@ from .parameters import tell_variant
 from .quantities import AnyQuantity, choose_of_engine, group_by_chapter, load_chapter
 
 
-def attach_gas_torque(engine: Engine, model: EngineFile, figures: Mapping[str, Array]) -> Engine:
-    """Return variants of an engine from `build`, with the torque of their gas if the file has gas.
-
-    Args:
-        figures: Varying figures, as they were given to `build`.
-    """
-    if model.gas is None:
-        return engine
-    rank = engine.cylinders.pin_deg.ndim - 1
-    return replace(engine, gas_of_variants=_VariedGas(model, figures, rank))
+@contextmanager
+def naming_variant(name: str) -> Iterator[None]:
+    """Add the name of a variant, or of its file, to the errors that arise within this context."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.problems, ": ".join(filter(None, (name, error.file)))) from None
+    except BalcliError as error:
+        raise BalcliError(": ".join(filter(None, (name, str(error))))) from None
 
 
 class _VariedGas:
@@ -64,10 +64,8 @@ class _VariedGas:
                 path: float(column[row])
                 for path, column in zip(self._figures, columns, strict=True)
             }
-            try:
+            with naming_file(tell_variant(own)):
                 yield build(self._model, own)
-            except InputError as error:
-                raise InputError(error.problems, tell_variant(own)) from None
 
 
 class Evaluator:
@@ -98,7 +96,9 @@ class Evaluator:
             InputError: One of them is impossible.
         """
         engine = build(self._model, figures, rank=rank)
-        return attach_gas_torque(engine, self._model, figures)
+        if self._model.gas is None:
+            return engine
+        return replace(engine, gas_of_variants=_VariedGas(self._model, figures, rank))
 
     def evaluate(
         self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None
@@ -130,11 +130,7 @@ class Evaluator:
         rows: list[list[float]] = []
         for k in range(int(np.prod(shape))):
             own = {path: float(column[k]) for path, column in columns.items()}
-            try:
+            with naming_variant(tell_variant(own)), naming_file(""):
                 rows.append([v for _, one in self._chapters for v in one.evaluate(own)])
-            except InputError as error:
-                raise InputError(error.problems, tell_variant(own)) from None
-            except BalcliError as error:
-                raise BalcliError(f"{tell_variant(own)}: {error}" if own else str(error)) from None
         names = [q for members, _ in self._chapters for q in members]
         return {q: column.reshape(shape) for q, column in zip(names, np.array(rows).T, strict=True)}

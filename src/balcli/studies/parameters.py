@@ -26,8 +26,6 @@ from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 from ..show.sheet import count_name
 
-_EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
-
 
 @dataclass(frozen=True)
 class Parameter:
@@ -142,26 +140,15 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
 
     Raises:
         BalcliError: no such number in the file (with the nearest name), no values, or values out of
-        its bounds.
+            its bounds.
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
-    known = find_numbers(model)
-    path = resolve_name(path, known)
     if not equals or not path:
         raise BalcliError(
             f'"{text}": give a number of the engine file and its values, such as '
             "rod.ratio=0.24:0.32:0.01"
         )
-    if path not in known:
-        raise BalcliError(_describe_unknown(path, known, model))
-    try:
-        values = _read_values(wanted, known[path])
-    except ValueError as error:
-        raise BalcliError(f"{shorten(text)}: {error}") from None
-    except OverflowError:
-        raise BalcliError(f"{shorten(text)}: has too large a number") from None
-    _check_bounds(path, known[path], values)
-    return Parameter(path, values, known[path].dimension.unit)
+    return choose_values(path, wanted, model)
 
 
 def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
@@ -173,27 +160,45 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
         BalcliError: as for `parse_parameter`.
         TypeError: the values have another type.
     """
-    if isinstance(values, str):
-        return parse_parameter(f"{path}={values}", model)
     known = find_numbers(model)
+    where = shorten(f"{path}={values}") if isinstance(values, str) else path
     path = resolve_name(path, known)
     if path not in known:
         raise BalcliError(_describe_unknown(path, known, model))
     number = known[path]
+    try:
+        if isinstance(values, str):
+            array = _read_values(values, number)
+        else:
+            array = _read_array(path, values, number)
+        where = path
+        for extreme in (array.min(), array.max()):
+            number.read(float(extreme))
+    except OverflowError:
+        raise BalcliError(f"{where}: has too large a number") from None
+    except ValueError as error:
+        raise BalcliError(f"{where}: {error}") from None
+    return Parameter(path, array, number.dimension.unit)
+
+
+def _read_array(path: str, values: ArrayLike, number: Number) -> NDArray[np.float64]:
+    """Return a number, or a list or array of them, some perhaps with units, as an array."""
     refuse_more(path, values, MOST_PARAMETER_VALUES)
     if isinstance(values, range):
         values = np.fromiter(values, float, len(values))  # a list of them takes much more memory
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError, OverflowError):
-        array = np.array([_read_one(path, value, number) for value in _as_list(path, values)])
+        if not isinstance(values, (list, tuple)):
+            wanted = "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01"
+            raise wrong_type(path, values, wanted) from None
+        array = np.array([number.read(value) for value in values])
     if array.ndim != 1 or not 0 < array.size <= MOST_PARAMETER_VALUES:
-        raise BalcliError(
-            f"{path}: values of shape {array.shape}; give a list or an array of one axis with 1 to "
+        raise ValueError(
+            f"values of shape {array.shape}; give a list or an array of one axis with 1 to "
             f"{MOST_PARAMETER_VALUES} values"
         )
-    _check_bounds(path, number, array)
-    return Parameter(path, array, number.dimension.unit)
+    return array
 
 
 def resolve_name(name: str, known: Mapping[str, Number]) -> str:
@@ -207,19 +212,6 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
         if meant:
             return meant[0] if len(meant) == 1 else name
     return name
-
-
-def _as_list(path: str, values: object) -> list[object]:
-    if isinstance(values, (list, tuple)):
-        return list(values)
-    raise wrong_type(path, values, "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01")
-
-
-def _read_one(path: str, value: object, number: Number) -> float:
-    try:
-        return number.read(value)
-    except ValueError as error:
-        raise BalcliError(f"{path}: {error}") from None
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
@@ -238,15 +230,6 @@ def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile)
     alike = [name for name in known if name.partition(".")[0] == first] or list(known)
     some = f"{', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
     return f"{path}: unknown parameter; there are {some}"
-
-
-def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:
-    """Raise BalcliError for the first extreme of the values that the field does not allow."""
-    for extreme in (values.min(), values.max()):
-        try:
-            number.read(float(extreme))
-        except ValueError as error:
-            raise BalcliError(f"{path}: {error}") from None
 
 
 def _read_values(text: str, number: Number) -> NDArray[np.float64]:
@@ -274,12 +257,6 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     """Return first + k step for k = 0 .. count-1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
-    if max(abs(start), abs(start + rise * count), scale) < _EXACT:
-        values = np.arange(count, dtype=float)  # whole numbers, which are exact
-        values *= rise
-        values += start
-        values /= scale
-        return values
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Literal, Protocol, cast
 
+from ..engine.engine import Engine
 from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError
@@ -17,10 +19,16 @@ from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile, Override
 from ..file.plain_tables import choose_assumed
 from ..file.table import FileTable, document_keys
-from ..forces.quantity import Quantity, parse_quantity
+from ..forces.kinds import GAS_KINDS
+from ..forces.quantity import (
+    Quantity,
+    TargetQuantity,
+    parse_quantity,
+    refuse_unknown as refuse_unknown_of_engine,
+)
 from ..names import QUANTITIES, import_name
 from .parameters import find_numbers
-from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, Chapter, Form, find_chapter
+from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, TORSION, Form, join_patterns
 
 
 @dataclass(frozen=True)
@@ -34,17 +42,7 @@ class NamedEngine:
     name: str
 
 
-class ChapterQuantity(Protocol):
-    """A figure by its name, and its unit."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def unit(self) -> str: ...
-
-
-AnyQuantity = Quantity | ChapterQuantity
-Chapters = Mapping[Chapter, Sequence[ChapterQuantity]]
+AnyQuantity = Quantity | TargetQuantity
 
 
 class Variants(Protocol):
@@ -57,29 +55,27 @@ class Variants(Protocol):
 class ChapterModule(Protocol):
     """Interface of a module that computes quantities of its chapter."""
 
-    def parse_quantity(self, text: str) -> ChapterQuantity:
-        """Return the quantity of this name; BalcliError if it does not exist."""
-
     def list_names(self, model: EngineFile) -> Iterable[str]:
         """Return the names of the quantities of a file, with N for any order."""
 
-    def refuse_unknown(self, model: EngineFile, quantities: Sequence[ChapterQuantity]) -> None:
+    def refuse_unknown(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         """Raise BalcliError if the file lacks the subject of a quantity."""
 
     def Variants(  # a class, which a function may be, too
-        self, model: EngineFile, quantities: Sequence[ChapterQuantity]
+        self, model: EngineFile, quantities: Sequence[TargetQuantity]
     ) -> Variants: ...
 
 
-def load_chapter(chapter: Chapter) -> ChapterModule:
+def load_chapter(chapter: str) -> ChapterModule:
     """Return the module that computes the quantities of a chapter other than ENGINE."""
-    return cast(ChapterModule, import_name(QUANTITIES[chapter.name]))
+    return cast(ChapterModule, import_name(QUANTITIES[chapter]))
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:
     """Return the quantities of these names, in their order, each once.
 
     Args:
+        text: Names with commas between them.
         with_gas: Whether the engine has gas: `torque` is then the torque of gas and inertia.
 
     Raises:
@@ -94,14 +90,17 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
 
 
 def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
-    chapter = find_chapter(word)
-    if chapter is None:
-        there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
-        hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
-        raise BalcliError(f"{word} is no quantity: {hint}")
-    if chapter is ENGINE:
+    for form in FORMS:
+        if form.chapter != ENGINE and form.matches(word):
+            return TargetQuantity(word, form.unit, form.chapter)
+    alike = [form for form in FORMS if form.beginning == word.partition(".")[0]]
+    if any(form.chapter == ENGINE for form in alike):
         return parse_quantity(word, with_gas=with_gas)
-    return load_chapter(chapter).parse_quantity(word)
+    there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
+    hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
+    if alike:
+        hint = f"give {' or '.join(join_patterns(alike))}"
+    raise BalcliError(f"{word} is no quantity: {hint}")
 
 
 def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
@@ -109,61 +108,65 @@ def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
     return tuple(q for q in wanted if isinstance(q, Quantity))
 
 
-def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
+def group_by_chapter(wanted: Iterable[AnyQuantity]) -> dict[str, list[TargetQuantity]]:
     """Return all other quantities by their chapters."""
-    groups: dict[Chapter, list[ChapterQuantity]] = {}
+    groups: dict[str, list[TargetQuantity]] = {}
     for q in wanted:
-        if isinstance(q, Quantity):
-            continue
-        chapter = find_chapter(q.name)
-        if chapter is not None:
-            groups.setdefault(chapter, []).append(q)
+        if isinstance(q, TargetQuantity):
+            groups.setdefault(q.chapter, []).append(q)
     return groups
 
 
-def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity]) -> None:
-    """Raise an error if the file lacks the subject of a quantity of a chapter.
+def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuantity]) -> None:
+    """Raise an error if the file lacks the subject of a quantity, or its variants do.
+
+    Args:
+        model: Engine file.
+        engine: Engine of the file, or variants along trailing axes.
+        wanted: Wanted quantities.
 
     Raises:
         BalcliError, InputError: The quantity does not exist; the error lists those there are.
     """
+    wanted = tuple(wanted)
     for chapter, members in group_by_chapter(wanted).items():
         load_chapter(chapter).refuse_unknown(model, members)
+    refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-_MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
-_TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
+# Tables whose defaults count for the quantities of a chapter, beside those of any engine.
+_TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}}
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")  # their inertia
-_OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
+_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")  # their mass, at steady speed
 
 
 def list_assumed(
-    model: EngineFile, names: Collection[str], varied: Iterable[str] = ()
+    model: EngineFile, quantities: Collection[AnyQuantity], varied: Iterable[str] = ()
 ) -> tuple[str, ...] | None:
     """Return the values that are taken because a file leaves them out, as far as quantities depend
     on them; None: none.
 
     Args:
         model: Engine file.
-        names: Names of the quantities.
+        quantities: Requested quantities.
         varied: Names of the figures that vary.
     """
-    tables = set[str]()
-    for name in names:
-        chapter = find_chapter(name) or ENGINE
-        of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
-        tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    uneven = model.operation.speed_ripple
-    idle = set[str]() if uneven or any(map(_feels_throws, names)) else {"crank.throw_mass"}
-    idle |= {"rod.inertia"} if all(each.startswith(_WITHOUT_RODS) for each in names) else set()
-    tables |= {"flywheel"} if "fluctuation" in names else set()
-    idle |= set() if uneven or (tables & {"flywheel"} and model.flywheel) else {"crank.inertia"}
-    return choose_assumed(list_inferred(Parts(model)), tables, {*varied, *idle}) or None
-
-
-def _feels_throws(name: str) -> bool:
-    """Return whether a quantity depends on the masses of the throws at steady speed."""
-    return name.startswith(("force.1.", "moment.1.", "peak.", "mount.", "point."))
+    names = [q.name for q in quantities]
+    tables = {"flywheel"} if "fluctuation" in names else set[str]()
+    for q in quantities:
+        if isinstance(q, TargetQuantity):
+            tables |= _TABLES.get(q.chapter, {"gas"})
+        elif q.kind in GAS_KINDS:
+            tables.add("gas")
+    idle = set(varied)
+    if not model.operation.speed_ripple:
+        if not any(name.startswith(_OF_THROWS) for name in names):
+            idle.add("crank.throw_mass")
+        if not ("flywheel" in tables and model.flywheel):
+            idle.add("crank.inertia")
+    if all(name.startswith(_WITHOUT_RODS) for name in names):
+        idle.add("rod.inertia")
+    return choose_assumed(list_inferred(Parts(model)), tables, idle) or None
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:
@@ -172,19 +175,15 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
     Raises:
         BalcliError, InputError: a chapter of the file has mistakes.
     """
-    for chapter in CHAPTERS:
-        forms = [form for form in chapter.forms if not form.table or getattr(model, form.table)]
-        if chapter is ENGINE:
+    there = [form for form in FORMS if not form.table or getattr(model, form.table)]
+    for chapter, forms in groupby(there, lambda form: form.chapter):
+        if chapter == ENGINE:
             yield from forms
-        elif forms:
-            yield from _list_of_chapter(chapter, model)
-
-
-def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
-    module = load_chapter(chapter)
-    for name in module.list_names(model):
-        form = next(form for form in chapter.forms if form.matches(name))
-        yield form._replace(pattern=name)
+            continue
+        known = list(forms)
+        for name in load_chapter(chapter).list_names(model):
+            number = name.replace(".N.", ".1.")
+            yield next(f for f in known if f.matches(number))._replace(pattern=name)
 
 
 @dataclass(frozen=True)

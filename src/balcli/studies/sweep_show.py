@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import cycle, product
+from itertools import cycle
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..show.formats import Columnar
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, given, number
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
+from .sweep import split_columns
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -93,18 +94,9 @@ def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
-    """Return rows of a chunk, with commas; each value of a parameter is written out once."""
-    axes = [
-        _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
-    ]
-    figures = (_texts(values, nothing) for values in chunk.values)
-    return map(",".join, zip(map(",".join, product(*axes)), *figures, strict=True))
-
-
-def _texts(values: Array, nothing: str) -> list[str]:
-    """Return the shortest texts that read back to the same numbers."""
-    texts = map(repr, values.tolist())
-    return [nothing if text == "nan" else text for text in texts]
+    """Yield the rows of a chunk, with commas: the shortest texts that read back to the numbers."""
+    for row in np.column_stack(split_columns(sweep, chunk)).tolist():
+        yield ",".join([repr(value) if value == value else nothing for value in row])
 
 
 def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:

@@ -15,33 +15,13 @@ from ..engine.load import EngineVariants, Values, choose_speeds, remember
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
-from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from .build import build_engine_system, excite_engine
 from .modes import find_chain_modes
 from .response import count_columns, find_largest
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
-_SUBJECTS = {
-    "torsion": Subject("1", {"Hz": "Hz"}),
-    "shaft": Subject("flywheel", {"torque": "N·m", "stress": "Pa"}),
-}
-
-
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity of a name such as `torsion.1.Hz`. Torque and stress of a shaft are the
-    largest half of peak to peak over a range of speeds.
-
-    Raises:
-        BalcliError: There is no such quantity; the error lists those there are.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    number = found.target
-    if found.kind == "torsion" and not (number.isascii() and number.isdigit() and int(number)):
-        raise BalcliError(
-            f"{text} is no quantity: after torsion comes the number of a mode, from 1"
-        )
-    return found
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -67,10 +47,10 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
             f"{quantities[0].name}: the file has no [torsion]; see balcli torsion --help"
         )
     system = _build(model)
-    modes = len(_find_frequencies(system))
+    modes = [str(number) for number, _ in enumerate(_find_frequencies(system), 1)]
     for q in quantities:
-        if q.kind == "torsion" and int(q.target) > modes:
-            raise BalcliError(f"{q.name}: there are {modes} modes")
+        if q.kind == "torsion" and q.target not in modes:
+            raise BalcliError(f"{q.name}: there are {len(modes)} modes")
         if q.kind == "shaft":
             refuse_stranger(q, system.shafts)
         if q.part == "stress" and not system.stress_by_torque[system.shafts.index(q.target)]:

@@ -18,19 +18,16 @@ from ...engine.build import build
 from ...engine.engine import Engine, check_engine, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
-from ...engine.parse import parse_dict
 from ...errors import BalcliError, InputError, check_type, wrong_type
 from ...file.fields import nearest
 from ...file.model import EngineFile
-from ...file.plain_tables import change_tables
-from ...forces.quantity import refuse_unknown
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
 from ...shell.arguments import Words, check_count, join_names, tell_arguments
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
-from ..quantities import choose_of_engine, list_assumed, refuse_unknown_of_chapters
+from ..quantities import choose_of_engine, list_assumed, refuse_unknown
 from .designs import (
     PATHS,
     Design,
@@ -41,6 +38,7 @@ from .designs import (
     drop_mirror_images,
     fires_evenly,
     list_changes,
+    name_throws,
     parse_objective,
     rank_designs,
     rank_one_by_one,
@@ -169,12 +167,10 @@ def search_arrangements(
             moment is asked for and the file does not say where the throws stand.
     """
     wanted = [over] if isinstance(over, str) else list(over)
-    engine = build(model)
-    refuse_unknown(engine, choose_of_engine(objective.quantities))
-    refuse_unknown_of_chapters(model, objective.quantities)
+    refuse_unknown(model, build(model), objective.quantities)
     ranges = read_ranges(model, wanted)
     named = ", ".join(one.key for one in ranges) or wanted[0]
-    asked = [q.name for q in objective.quantities]
+    varied = {one.number.path for one in ranges} or _ARRANGED
     constant, refused = False, ""
     if ranges:
         candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
@@ -195,7 +191,7 @@ def search_arrangements(
         raise BalcliError(f"no {words} can {' and '.join(limits or ['make an engine'])}")
     return Search(
         model=model,
-        assumed=list_assumed(model, asked, {one.number.path for one in ranges} or _ARRANGED),
+        assumed=list_assumed(model, objective.quantities, varied),
         over=named,
         results=found,
         objective=objective,
@@ -215,11 +211,10 @@ def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[D
             for order in slots.find_orders(throws):
                 yield {"firing_order": [*order], "throws": throws}
         return
-    free = drop_firing_order(model)
-    for design in list_throws(give_throws(model)):
-        changed = parse_dict(change_tables(free, list_changes(design)), free.folder)
-        if not even_firing or fires_evenly(build(changed), changed).all():
-            yield design
+    free, throws = drop_firing_order(model), list_throws(give_throws(model))
+    if even_firing:
+        throws = throws[fires_evenly(build(free, name_throws(throws)), free)]
+    yield from ({"throws": row} for row in throws.tolist())
 
 
 # ------------------------------------------------------------------ numbers

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -138,59 +139,38 @@ def _exactly(value: float | list[float]) -> str:
 RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
+OVER = (
+    "What is arranged: the throws of the file (or of its firing order), its firing order, the "
+    "angle of the vee or of its split pins, or any number in a range, as mount.left.loss=0.05:0.3. "
+    "Several numbers and angles are searched together."
+)
+MINIMISE = (
+    "Minimize this sum of quantities, such as moment.1.major=1,force.2.major=0.5 (different units "
+    "need weights)."
+)
+LIMIT = (
+    "Upper limit of a quantity, SI or with its unit, such as 'moment.2.major<100' or "
+    "'shaft.flywheel.stress<60 N/mm^2'."
+)
+MAXIMISE = "Maximize this sum instead."
+REQUIRE = "Only arrangements with even firing intervals."
+WRITE = "Write the engine file with the best one."
+goal = partial(optional, "WHAT[=WEIGHT],...")
+
+
 def search(
     path: EnginePath,
     over: Annotated[
-        list[str],
-        optional(
-            "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
-            "Variables: the sequence of the file's throw angles (or of those of its firing order), "
-            "the firing order, the angle of the vee, or of its split pins; or any number of the "
-            "file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles are "
-            "searched together.",
-            "--over",
-        ),
+        list[str], optional("throws|firing_order|bank_angle|splay|NUMBER=FROM:TO", OVER)
     ],
-    minimise: Annotated[
-        str | None,
-        optional(
-            "WHAT[=WEIGHT],...",
-            "Minimize this sum, such as moment.1.major=1,force.2.major=0.5 (different units need "
-            "weights), of any quantities of sweep, such as shaft.flywheel.torque.",
-            "--minimise",
-            "--minimize",
-        ),
-    ] = None,
-    maximise: Annotated[
-        str | None,
-        optional(
-            "WHAT[=WEIGHT],...",
-            "Maximize this sum instead.",
-            "--maximise",
-            "--maximize",
-        ),
-    ] = None,
-    limit: Annotated[
-        list[str] | None,
-        optional(
-            "WHAT<VALUE",
-            "Upper limit of a quantity (N, N·m, Hz, Pa, or with its unit), such as "
-            "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
-            "--limit",
-        ),
-    ] = None,
-    require: Annotated[
-        str,
-        optional("even-firing", "even-firing: only arrangements with even intervals.", "--require"),
-    ] = "",
-    top: Annotated[
-        int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
-    ] = 10,
+    minimise: Annotated[str | None, goal(MINIMISE, "--minimise", "--minimize")] = None,
+    maximise: Annotated[str | None, goal(MAXIMISE, "--maximise", "--maximize")] = None,
+    limit: Annotated[list[str] | None, optional("WHAT<VALUE", LIMIT)] = None,
+    require: Annotated[str, optional("even-firing", REQUIRE)] = "",
+    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="How many to show.")] = 10,
     form: FormatOption = None,
     output: Output = None,
-    write: Annotated[
-        Path | None, optional("OUT.toml", "Write the engine file with the best one.", "--write")
-    ] = None,
+    write: Annotated[Path | None, optional("OUT.toml", WRITE)] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
     and rotations once.
@@ -211,7 +191,9 @@ def search(
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
     with naming_file(name):
-        _doubt(build.build(model).unlikely, over, name)
+        unlikely = build.build(model).unlikely
+    varied = [text.partition("=")[0] for text in over]
+    warn_each((doubt for doubt in unlikely if not any(one in doubt for one in varied)), name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     with_gas = model.gas is not None
@@ -223,10 +205,3 @@ def search(
     if write is not None:
         write_file(designs.write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")
-
-
-def _doubt(doubts: Iterable[str], over: list[str], name: str) -> None:
-    """Warn of unlikely figures of the file, except those that are arranged or vary."""
-
-    varied = [text.partition("=")[0] for text in over]
-    warn_each((d for d in doubts if not any(one in d for one in varied)), name)

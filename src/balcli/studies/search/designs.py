@@ -453,11 +453,7 @@ def rank_one_by_one(
         BalcliError: More than MOST_DESIGNS_ONE_BY_ONE.
     """
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
-    if len(every) > MOST_DESIGNS_ONE_BY_ONE:
-        raise BalcliError(
-            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
-            "give crank.throws, or search by quantities of inertia such as moment.1.major"
-        )
+    refuse_many(len(every))
     rows: list[list[Array]] = []
     for k, design in enumerate(every, 1):
         changed = parse_dict(change_tables(model, list_changes(design)), model.folder)
@@ -468,3 +464,12 @@ def rank_one_by_one(
     return rank_designs(
         every[: len(rows)], dict(zip(objective.quantities, values, strict=True)), objective
     )
+
+
+def refuse_many(count: int) -> None:
+    """Raise BalcliError for more arrangements than can be computed one by one."""
+    if count > MOST_DESIGNS_ONE_BY_ONE:
+        raise BalcliError(
+            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
+            "give crank.throws, or search by quantities of inertia such as moment.1.major"
+        )

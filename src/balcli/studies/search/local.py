@@ -3,7 +3,7 @@
 Candidates are spread over the box: a grid of one number, a quasi-random sequence of several. From
 each candidate that is better than its neighbours a local search starts. It compares candidates and
 uses no derivatives, because sizes of vectors have kinks where they vanish, limits have edges, and
-some numbers make no engine: golden section for one number, the evolution strategy with covariance
+some numbers make no engine: halved steps for one number, the evolution strategy with covariance
 adaptation (Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772) for several.
 """
 
@@ -16,14 +16,12 @@ from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.figures import ranked
 from .designs import Merit
 
 Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
-_GOLDEN = (math.sqrt(5) - 1) / 2
 _DIGITS = 12  # of numbers
 _LEVEL, _ROUNDING = 1e-9, 1e-12  # relative difference of costs that are equal; of the largest
 
@@ -92,8 +90,8 @@ class Effort:
 
     def count_evaluations(self, numbers: int) -> int:
         """Return about how many candidates are evaluated."""
-        rounds = math.log(self.exact) / math.log(_GOLDEN)
-        return round(self.points + self.starts * rounds * (1 if numbers == 1 else 20 * numbers))
+        halvings = -math.log2(self.exact)
+        return round(self.points + self.starts * halvings * (2 if numbers == 1 else 30 * numbers))
 
 
 class LocalOptima(NamedTuple):
@@ -104,12 +102,11 @@ class LocalOptima(NamedTuple):
             roundest point that is as good.
         lines: for each, another end of a line of equally good points, or itself, shape (optima,
             numbers).
-        points, merits: the points that were spread over the box.
+        merits: merits of the points that were spread over the box.
     """
 
     places: Array
     lines: Array
-    points: Array
     merits: Merit
 
 
@@ -120,21 +117,18 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     starts = _find_starts(points, merits, box)[: effort.starts]
     step = effort.points ** (-1 / box.size)  # between neighbours, as a share of the box
     if box.size == 1:
-        found = _divide(judge, points[starts], step * box.span, effort.exact * box.span)
+        found = _descend(judge, box, points[starts], step * box.span, effort.exact * box.span)
     else:
         found = _adapt(judge, box, points[starts], 0.5 * step, effort)
-    found = box.bring_inside(found)
     ends = judge(found)
-    better = ends.is_at_most(merits.take(starts))[:, None]
-    found = np.where(better, found, points[starts])
-    found = found[judge(found).excess == 0]  # others would be rounded to wherever limits are kept
-    slack = effort.as_good * np.abs(judge(found).cost)
-    rounded = [_round_off(judge, box, x, each) for x, each in zip(found, slack, strict=True)]
+    kept = np.flatnonzero((ends.excess == 0) & np.isfinite(ends.cost))
+    slack = effort.as_good * np.abs(ends.cost)
+    rounded = [_round_off(judge, box, found[k], slack[k]) for k in kept]
     found = np.array(rounded).reshape(-1, box.size)
     costs = merits.cost[np.isfinite(merits.cost)]
     noise = _ROUNDING * np.abs(costs).max(initial=0)
     places, lines = _separate(judge, box, found, effort, noise)
-    return LocalOptima(places, lines, points, merits)
+    return LocalOptima(places, lines, merits)
 
 
 def _separate(
@@ -150,8 +144,6 @@ def _separate(
     lines: list[Array] = []
     ends = judge(found)
     for k in Merit(ends.excess, ranked(ends.cost)).rank():
-        if ends.excess[k] > 0 or not np.isfinite(ends.cost[k]):
-            continue
         for n, other in enumerate(best):
             way = box.subtract(found[k], other)
             if np.abs(way).max() <= effort.same:
@@ -204,36 +196,28 @@ def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
     return np.array(sorted(starts, key=lambda k: int(place[k])), int)
 
 
-def _divide(judge: Judge, middle: Array, step: Array, exact: Array) -> Array:
-    """Return the minima in middle +- step by golden section, all at once, shape (minima, 1).
-
-    The best point so far stays between the ends of its bracket, so that the search never leaves
-    the region within the limits, however narrow.
+def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
+    """Return the minima near some starts, shape (starts, 1), all at once: each moves to a neighbour
+    that is better, at a distance `step`, or halves the distance where neither is.
     """
-    low, best, high = middle - step, middle, middle + step
-    reached = judge(best)
-    for _ in range(4 + math.ceil(math.log(float(exact[0] / (2 * step[0]))) / math.log(_GOLDEN))):
-        above = high - best > best - low
-        new = best + (1 - _GOLDEN) * np.where(above, high - best, low - best)
-        merit = judge(new)
-        better = merit.is_at_most(reached)
-        found = better[:, None]
-        low = np.where(above, np.where(found, best, low), np.where(found, low, new))
-        high = np.where(above, np.where(found, high, new), np.where(found, best, high))
-        best = np.where(found, new, best)
-        reached = _choose(better, merit, reached)
+    steps, reached = np.broadcast_to(step, best.shape).copy(), judge(best)
+    while np.any(steps > exact):
+        stays = np.full(len(best), True)
+        for side in (-1, 1):
+            points = box.bring_inside(best + side * steps)
+            merits = judge(points)
+            better = ~reached.is_at_most(merits)
+            best = np.where(better[:, None], points, best)
+            reached = Merit(*np.where(better, merits, reached))
+            stays &= ~better
+        steps[stays] /= 2
     return best
-
-
-def _choose(where: NDArray[np.bool_], one: Merit, other: Merit) -> Merit:
-    return Merit(*(np.where(where, a, b) for a, b in zip(one, other, strict=True)))
 
 
 def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> Array:
     """Return an optimum for each start (starts, numbers) by evolution strategies that run side by
     side: each draws candidates, moves to the mean of the better half, and adapts its step and its
-    covariance. Lengths are shares of the box. Starts that do not converge return their best; one
-    that comes near a better one, when both have narrowed down, stops there.
+    covariance. Lengths are shares of the box. Starts that do not converge return their best.
     """
     count, k = mean.shape
     drawn, most = 8 + 4 * k, 300 + 100 * k
@@ -246,13 +230,7 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
     for _ in range(most):
         squares, axes = np.linalg.eigh(covariance)
         widths = np.sqrt(np.maximum(squares, 1e-28))
-        wide = size * widths[:, -1]
-        for n in np.flatnonzero((wide > effort.exact) & (wide < effort.same / 10)):
-            near = np.abs(box.subtract(mean, mean[n])).max(axis=1) < effort.same
-            near &= (wide < effort.same / 10) & reached.is_at_most(reached.take(n)) & (size > 0)
-            if near.sum() > 1:  # another one than itself
-                size[n] = wide[n] = 0.0
-        live = np.flatnonzero(wide > effort.exact)
+        live = np.flatnonzero(size * widths[:, -1] > effort.exact)
         if not len(live):
             break
         sizes = size[live, None] * np.exp(
