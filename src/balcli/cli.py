@@ -87,31 +87,23 @@ GROUPS = {
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
-# The module of each; its function is called like the command.
-MODULES = {
-    "analyze": "analysis.command",
-    "compare": "analysis.command",
-    "sum": "analysis.command",
-    "layouts": "books.command",
-    "torque": "torque.command",
-    "curves": "analysis.command",
-    "plot": "report.command",
-    "report": "report.command",
-    "balance": "balancing.command",
-    "field": "field.command",
-    "numbers": "studies.numbers",
-    "sweep": "studies.sweep_command",
-    "search": "studies.search.command",
-    "scatter": "studies.scatter_command",
-    "mounts": "mounts.command",
-    "torsion": "torsion.command",
-    "new": "commands",
-    "engines": "commands",
-    "schema": "commands",
-    "check": "commands",
-    "tables": "books.command",
-    "bench": "commands",
+# The commands of each module; their functions are called like them.
+_COMMANDS_OF = {
+    "analysis.command": ("analyze", "compare", "sum", "curves"),
+    "balancing.command": ("balance",),
+    "books.command": ("layouts", "tables"),
+    "commands": ("new", "engines", "schema", "check", "bench"),
+    "field.command": ("field",),
+    "mounts.command": ("mounts",),
+    "report.command": ("plot", "report"),
+    "studies.numbers": ("numbers",),
+    "studies.scatter_command": ("scatter",),
+    "studies.search.command": ("search",),
+    "studies.sweep_command": ("sweep",),
+    "torque.command": ("torque",),
+    "torsion.command": ("torsion",),
 }
+MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
 IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
 

@@ -176,20 +176,16 @@ def _describe_file(kind: File) -> Node:
     from .file import schema as files, torsion_tables  # pydantic
     from .torsion import tables as chain
 
-    match kind:
-        case File.ENGINE:
-            return files.describe_engine_file()
-        case File.FIELD:
-            return files.describe_file(
-                runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs"
-            )
-        case File.TORSION:
-            return files.describe_file(
-                chain.ChainFile,
-                [torsion_tables.Damper, *chain.LISTS],
-                "chain-file",
-                "balcli chain file",
-            )
+    if kind is File.FIELD:
+        return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")
+    if kind is File.TORSION:
+        return files.describe_file(
+            chain.ChainFile,
+            [torsion_tables.Damper, *chain.LISTS],
+            "chain-file",
+            "balcli chain file",
+        )
+    return files.describe_engine_file()
 
 
 def _describe_result(name: str, kind: File | None) -> Node:

@@ -11,7 +11,6 @@ from support.engines import build_text
 from support.paths import ENGINES, write
 
 from balcli.analysis.speeds import find_marine_sheet
-from balcli.core.records import remove_unit
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
 THROWS = (0.0, 240.0, 120.0, 30.0)
@@ -70,18 +69,19 @@ def test_every_column_is_that_of_the_motion() -> None:
     found = find_marine_sheet(build_text(TEXT), RPM, [1, 2, 3, 4])
     for i, rpm in enumerate(RPM):
         for name, curve in sampled(rpm).items():
-            (values,) = (figure for key, figure in found.figures.items() if remove_unit(key) == name)
+            values = [line.values for line in found.lines if line.kind.name == name]
             largest = max(amplitude(curve, n) for n in (1, 2, 3, 4))
             for k in range(4):
                 expected = pytest.approx(amplitude(curve, k + 1), abs=1e-9 * largest, rel=1e-9)
-                assert values[i, k] == expected, (name, rpm, k + 1)
+                assert values[k][i] == expected, (name, rpm, k + 1)
 
 
 def test_the_guide_height_divides_x_alone() -> None:
     engine = build_text(TEXT)
     usual, given = (find_marine_sheet(engine, (), [1, 2], height) for height in (None, 3.0))
-    assert given.figures["guide_x_Nm"] == pytest.approx(usual.figures["guide_x_Nm"] * ROD / 3.0, rel=1e-12)
-    assert given.figures["guide_h_Nm"] == pytest.approx(usual.figures["guide_h_Nm"], rel=1e-12)
+    for one, other in zip(given.speeds[0].orders, usual.speeds[0].orders, strict=True):
+        assert one.guide_x_Nm == pytest.approx(other.guide_x_Nm * ROD / 3.0, rel=1e-12)
+        assert one.guide_h_Nm == pytest.approx(other.guide_h_Nm, rel=1e-12)
 
 
 def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:

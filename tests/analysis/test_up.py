@@ -155,7 +155,7 @@ def test_csv_names_components_like_json(tmp_path):
         ("moment", 0, 0, "4 N·m yawing (about x);"),
         ("moment", 90, 0, "4 N·m pitching (about y);"),
         ("moment", 90, 89.96, "4 N·m yawing (about y);"),
-        ("force", 30, 0, "4 N along an axis at 30.0 deg, 3.464 vertical and 2 horizontal;"),
+        ("force", 30, 0, "4 N along an axis at 30.0 deg;"),
         ("moment", 90, None, "4 N·m about y;"),
     ],
 )

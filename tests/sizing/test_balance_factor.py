@@ -257,7 +257,7 @@ def test_what_is_there_counts_in_sum_where_moments_are_not_known():
     assert len(first.devices) == 3
     again = fit(insert_remedy(three.encode(), first))
     assert not again.devices
-    assert again.note.startswith("nothing is missing in sum; opposite which pin")
+    assert again.note.startswith("nothing is missing")
 
 
 @pytest.mark.parametrize("form", ["table", "card"])

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Annotated, Literal, TypedDict
+from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
-from ..core.peaks import Peak, find_peak
+from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine
@@ -30,6 +30,7 @@ from ..show.figures import (
     EngineState,
     Peaks,
     describe_state,
+    find_peaks,
     list_orders,
     measure_engine,
 )
@@ -44,7 +45,6 @@ from .records import (
     Stroke,
     describe_guide,
     describe_inner,
-    list_strokes,
     name_devices,
 )
 
@@ -201,33 +201,43 @@ def analyze(
     for one in beside:
         check_engine("analyze", one)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
-    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
     shown = wanted.intersection(EVERY_KIND)
-    computed = _choose_computed(engine, asked, whole=bool(peaked))
-    visible, whole = _compute_visible_and_whole(engine, computed, asked, shown, peaked)
-    visible = visible.select_orders(
-        choose_orders(visible, list_gas_orders(engine)) if asked is None else asked
-    )
+    of_gas = () if engine.gas is None else list_gas_orders(engine)
+    # near its lock an engine has tens of thousands: peaks need all of them, tables a few
+    due = DEFAULT_ORDERS if asked is None else asked
+    every = merge_orders(find_relevant_orders(engine), of_gas, due)
+    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+    visible = compute_spectra(engine, few, shown)
+    if asked is None:
+        visible = visible.select_orders(choose_orders(visible, of_gas))
+    peak = None
+    if "peak" in wanted:
+        peak = find_peaks(compute_spectra(engine, every, [kind.name for kind in VECTORS]))
+    ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas"),
-        peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])) if peaked else None,
+        peak=peak,
+        sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
+        ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
-        **_compute_chapters(engine, asked, wanted, guide_height_m, small),
+        inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
+        guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
+        travel=_list_strokes(engine) if engine.cylinders.linkage is not None else None,
         why=_explain(engine, visible.orders, shown) if reasons else None,
         small=small,
     )
 
 
 def _check_height(guide_height_m: float | None) -> None:
-    if guide_height_m is None:
-        return
-    height = check_number("guide_height_m", guide_height_m, "give a length in m, such as 0.6")
-    if not 0 < height < HIGHEST_GUIDE_M:
+    wanted = "give a length in m, such as 0.6"
+    if guide_height_m is not None and not (
+        0 < check_number("guide_height_m", guide_height_m, wanted) < HIGHEST_GUIDE_M
+    ):
         raise BalcliError(
-            f"guide_height_m {height:g}: the distance from the crankshaft to the middle of "
+            f"guide_height_m {guide_height_m:g}: the distance from the crankshaft to the middle of "
             f"the guides must be positive, below {HIGHEST_GUIDE_M:g} m"
         )
 
@@ -253,30 +263,6 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
 
 
-def _choose_computed(engine: Engine, asked: Array | None, *, whole: bool) -> Array:
-    """Return orders to compute: those asked for; all if none was or the whole curve is needed."""
-    if asked is not None and not whole:
-        return asked
-    due = DEFAULT_ORDERS if asked is None else asked
-    of_gas = () if engine.gas is None else list_gas_orders(engine)
-    return merge_orders(find_relevant_orders(engine), of_gas, due)
-
-
-def _compute_visible_and_whole(
-    engine: Engine, computed: Array, asked: Array | None, shown: set[str], peaked: set[str]
-) -> tuple[Spectra, Spectra]:
-    """Return the spectra that may be shown, and those from which peaks are found. An engine near
-    its lock has tens of thousands of orders. Its peaks need all of them; its gas is computed only
-    for the few that may be shown.
-    """
-    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
-        everything = compute_spectra(engine, computed, shown | peaked)
-        return everything.only(shown), everything
-    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = compute_spectra(engine, few, shown)
-    return visible, compute_spectra(engine, computed, peaked) if peaked else visible
-
-
 def _analyze_cylinders(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[CylinderShare, ...]:
@@ -291,40 +277,17 @@ def _analyze_cylinders(
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 
 
-class _Chapters(TypedDict, total=False):
-    sizing: Sizing
-    ladder: Ladder
-    inner: InnerLoads
-    guide: GuideMoments
-    travel: tuple[Stroke, ...]
+def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collection[str]) -> Sizing:
+    """Return the devices that the ladder fits, and the forces left with them."""
+    remedy = ladder.fit()
+    left = {*wanted, "force", "moment", "peak"} - {"sizing", "ladder"}
+    return Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
 
 
-def _compute_chapters(
-    engine: Engine,
-    asked: Array | None,
-    wanted: Collection[str],
-    guide_height_m: float | None,
-    small: float,
-) -> _Chapters:
-    """Return sizing, ladder, inner loads, guide moments and travel, as far as they are wanted or
-    exist.
-    """
-    found: _Chapters = {}
-    if "sizing" in wanted or "ladder" in wanted:
-        ladder = find_ladder(engine, small)
-        if "ladder" in wanted:
-            found["ladder"] = ladder
-        if "sizing" in wanted:
-            remedy = ladder.fit()
-            left = {*wanted, "force", "moment", "peak"} - {"sizing", "ladder"}
-            found["sizing"] = Sizing(remedy, analyze(fit_devices(engine, remedy), asked, left))
-    if "inner" in wanted:
-        found["inner"] = find_inner_loads(engine, asked)
-    if "guide" in wanted:
-        found["guide"] = compute_guide_moments(engine, asked, guide_height_m)
-    if engine.cylinders.linkage is not None:
-        found["travel"] = list_strokes(find_travel(engine.cylinders), engine.numbers)
-    return found
+def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
+    """Return strokes and dead centers by the numbers of the cylinders, in rising order."""
+    columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
+    return tuple(sorted(map(Stroke, engine.numbers, *columns)))
 
 
 def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
@@ -343,6 +306,4 @@ def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
         asked: Orders to show, shape (orders,); None: the usual ones.
     """
     inner = compute_inner_loads(engine, asked)
-    if engine.gas is None:
-        return inner
-    return add_gas_loads(inner, engine, asked)
+    return inner if engine.gas is None else add_gas_loads(inner, engine, asked)

@@ -6,15 +6,16 @@ import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import repeat
 from math import nan
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from ..core.phasors import Array
+from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN
 from ..engine.engine import Engine, check_engine
-from ..errors import BalcliError, list_values, list_words, wrong_type
+from ..errors import BalcliError, list_words
 from ..file.fields import order_number
-from ..forces.kinds import EVERY_KIND, GAS, MOMENT, TORQUE, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, MOMENT, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..show.csv import Rows, name_cell
@@ -38,27 +39,17 @@ from ..show.sheet import (
 from ..sizing.ladder import Ladder
 from .answer import UNASKED, Analysis, analyze
 from .devices_show import ladder_grid, list_ladder
+from .sections import list_loads
 
 if TYPE_CHECKING:
-    from ..forces.crankshaft import AlongCrank, InnerLoads
     from ..forces.guide import GuideMoments
     from ..show.units import ShownUnit, System
 
 
-SHEAR = Kind("shear", "shear force in the crankshaft", "Q", "shear_N", True, "force")
-BENDING = Kind("bending", "bending moment in the crankshaft", "M_b", "bending_Nm", True, "moment")
-BEARING = Kind("bearing", "load of a main bearing", "R", "bearing_N", True, "force")
-WITH_GAS = (  # in the order of `crankshaft.LoadsWithGas`
-    Kind("shaft_shear", "shear of the shaft with gas", "Q", "shaft_shear_N", True, "force"),
-    Kind("shaft_bending", "bending of the shaft with gas", "M", "shaft_bending_Nm", True, "moment"),
-    Kind("main", "load of a main bearing with gas", "R", "main_N", True, "force"),
-    Kind("block_shear", "shear of the block with gas", "Q", "block_shear_N", True, "force"),
-    Kind("block_bending", "bending of the block with gas", "M", "block_bending_Nm", True, "moment"),
+GUIDES = (
+    Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm"),
+    Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm"),
 )
-GUIDE_H = Kind("guide_h", "H-type guide moment", "M_H", "guide_h_Nm", False, "moment")
-GUIDE_X = Kind("guide_x", "X-type guide moment", "M_X", "guide_x_Nm", False, "moment")
-GUIDES = (GUIDE_H, GUIDE_X)
-KINDS = tuple(EVERY_KIND.values())
 LEFT = {
     kind: kind._replace(
         name=f"{kind.name} with devices",
@@ -79,7 +70,7 @@ class Line:
         values: One an engine; null for moments that are not known.
         ratios: Ratios to the first engine's value; null where that is 0.
         kind: Kind of force or moment.
-        single: Value for one cylinder of each engine, against which a value may be negligible; 0
+        single: Value against which each one may be negligible, such as that of one cylinder; 0
             where there is no such measure.
     """
 
@@ -89,6 +80,22 @@ class Line:
     ratios: tuple[float, ...]
     kind: Annotated[Kind, HIDDEN]
     single: Annotated[tuple[float, ...], HIDDEN]
+
+    @property
+    def largest(self) -> float:
+        """Largest value that is known."""
+        return max((value for value in self.values if not math.isnan(value)), default=0.0)
+
+    @property
+    def negligible(self) -> list[bool]:
+        """Whether each value is 0, or small against its measure."""
+        pairs = zip(self.values, self.single, strict=True)
+        return [value == 0 or value < NEGLIGIBLE * single for value, single in pairs]
+
+    @property
+    def low(self) -> bool:
+        """Whether it is a peak, or of an order up to 2."""
+        return self.order is None or self.order <= 2
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -190,41 +197,35 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
         every_order: also orders above 2 that are balanced in all of them.
     """
     guides = _list_guides(analyses)
+    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia alone"
     tables = [
-        {(kind, order): float(size) for kind, order, size in _list_sizes(one, guide)}
+        {(kind, order): size for kind, order, size in _list_sizes(one, guide)}
         for one, guide in zip(analyses, guides, strict=True)
     ]
-    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia alone"
     lines = []
     for kind, order in tables[0]:
-        values = tuple(table.get((kind, order), nan) for table in tables)
-        there = all((kind, order) in table for table in tables)  # one throw has no known bearings
-        least = order is None or order <= 2 if kind in KINDS else order is None or order % 1 == 0
-        if there and (least or any(values) or kind in GUIDES or (every_order and kind in KINDS)):
-            shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
-            lines.append(_make_line(shown, order, values, analyses))
+        if not all((kind, order) in table for table in tables):
+            continue  # one throw has no known bearings
+        values = tuple(table[kind, order] for table in tables)
+        line = Line(
+            quantity=f"peak_{kind.key}" if order is None else kind.key,
+            order=order,
+            values=values,
+            ratios=tuple(value / values[0] if values[0] else nan for value in values),
+            kind=kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind,
+            single=tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses),
+        )
+        free = kind.name in EVERY_KIND
+        due = line.low if free else order is None or order % 1 == 0
+        if due or any(values) or kind in GUIDES or (every_order and free):
+            lines.append(line)
     return tuple(lines)
-
-
-def _make_line(
-    kind: Kind, order: float | None, values: tuple[float, ...], analyses: Sequence[Analysis]
-) -> Line:
-    return Line(
-        quantity=f"peak_{kind.key}" if order is None else kind.key,
-        order=order,
-        values=values,
-        ratios=tuple(value / values[0] if values[0] else nan for value in values),
-        kind=kind,
-        single=tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses),
-    )
 
 
 def _list_orders(one: Analysis) -> Iterator[Array]:
     yield one.orders
     if one.inner is not None:
-        yield one.inner.bending.phasors.orders
-        if one.inner.with_gas is not None:
-            yield one.inner.with_gas.bending.phasors.orders
+        yield from (along.phasors.orders for _, along in list_loads(one.inner))
     if one.guide is not None:
         yield one.guide.h.orders
 
@@ -233,40 +234,26 @@ def _list_sizes(
     one: Analysis, guide: GuideMoments | None
 ) -> Iterator[tuple[Kind, float | None, float]]:
     """Yield the figures of an analysis: kind, order (None for a peak), and size."""
+
+    def by_order(kind: Kind, phasors: Phasors) -> Iterator[tuple[Kind, float | None, float]]:
+        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # of several places
+        yield from zip(repeat(kind), map(order_number, phasors.orders), sizes.tolist())
+
+    def peaks(of: Analysis) -> Iterator[tuple[Kind, float]]:
+        for kind, peak in of.peaks:
+            yield kind, peak.value if of.moments_known or kind is not MOMENT else nan
+
     for kind, phasors in one.spectra.with_moment_if(one.moments_known).items():
-        yield from _list_by_order(kind, one.orders, phasors.major)
-    yield from _list_peaks(one)
-    if one.inner is not None:
-        loads = zip((SHEAR, BENDING, BEARING, *WITH_GAS), _list_loads(one.inner), strict=False)
-        for kind, along in loads:
-            if along is not None:
-                sizes = along.phasors.major.max(axis=1)
-                yield from _list_by_order(kind, along.phasors.orders, sizes)
-                yield kind, None, max(peak.value for peak in along.peaks)
-    if guide is not None:
-        for kind, moment in zip(GUIDES, (guide.h, guide.x), strict=True):
-            if moment is not None:
-                yield from _list_by_order(kind, moment.orders, moment.major)
+        yield from by_order(kind, phasors)
+    yield from ((kind, None, value) for kind, value in peaks(one))
+    for kind, along in () if one.inner is None else list_loads(one.inner):
+        yield from by_order(kind, along.phasors)
+        yield kind, None, max(peak.value for peak in along.peaks)
+    for kind, moment in () if guide is None else zip(GUIDES, (guide.h, guide.x), strict=True):
+        if moment is not None:
+            yield from by_order(kind, moment)
     if one.sizing is not None:
-        for kind, _, peak in _list_peaks(one.sizing.after):
-            yield LEFT[kind], None, peak
-
-
-def _list_peaks(one: Analysis) -> Iterator[tuple[Kind, None, float]]:
-    for kind, peak in one.peaks:
-        yield kind, None, peak.value if one.moments_known or kind is not MOMENT else nan
-
-
-def _list_by_order(
-    kind: Kind, orders: Array, sizes: Array
-) -> Iterator[tuple[Kind, float | None, float]]:
-    for order, size in zip(orders.tolist(), sizes.tolist(), strict=True):
-        yield kind, order_number(order), size
-
-
-def _list_loads(inner: InnerLoads) -> tuple[AlongCrank | None, ...]:
-    """Return the largest loads along the crank, by order and of all orders."""
-    return inner.shear, inner.bending, inner.bearings, *(inner.with_gas or ())
+        yield from ((LEFT[kind], None, value) for kind, value in peaks(one.sizing.after))
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
@@ -309,8 +296,10 @@ def compare(
         >>> compare(load("i4.toml"), load("i6.toml")).to_pandas()
     """
     checked = [check_engine("compare", engine) for engine in engines]
-    called = [engine.name for engine in checked] if names is None else _check_names(names)
-    if names is None and ("" in called or len(set(called)) < len(called)):
+    called = [engine.name for engine in checked]
+    if names is not None:
+        called = list_words("names", names, '["before", "after"]')
+    elif "" in called or len(set(called)) < len(called):
         called = [f"engine {k}" for k in range(1, len(checked) + 1)]
     if len(called) != len(checked):
         raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
@@ -318,43 +307,26 @@ def compare(
     return compare_engines(checked, called, orders, wanted)
 
 
-def _check_names(names: object) -> list[str]:
-    if isinstance(names, Iterable) and not isinstance(names, str):
-        listed = list_values("names", names)
-        if all(isinstance(name, str) for name in listed):
-            return listed
-    raise wrong_type("names", names, 'give a text for each engine, such as ["before", "after"]')
-
-
-TITLES = {TORQUE: "inertia torque"}
-
-
 def rows(result: Comparison, system: System) -> Rows:
-    """Return CSV: a figure a line, a column an engine.
+    """Return CSV: a figure a line, a column an engine; last every figure of the steps, SI, empty
+    for an engine without this step.
 
     Args:
         result: Comparison of the engines.
         system: System of units.
     """
-    header = ("quantity", "order", "unit", *map(name_cell, result.engines))
-    lines = [_csv_line(line, system) for line in result.figures]
-    return Rows(header, [*lines, *_list_ladders(result)])
-
-
-def _list_ladders(result: Comparison) -> Iterator[tuple[object, ...]]:
-    """Yield a line for every figure of a step, SI: empty for an engine without this step."""
-    found: dict[tuple[str, str], dict[int, object]] = {}
+    lines: list[tuple[object, ...]] = []
+    for line in result.figures:
+        unit = system.unit(line.kind)
+        name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
+        lines.append((name, line.order, unit.name, *map(unit.of, line.values)))
+    steps: dict[tuple[str, str], dict[int, object]] = {}
     for k, ladder in enumerate(result.ladders or ()):
-        for step, name, value, unit in list_ladder(ladder):
-            found.setdefault((f"{step}: {name}", unit), {})[k] = value
-    for (name, unit), values in found.items():
-        yield name, None, unit, *map(values.get, range(len(result.engines)))
-
-
-def _csv_line(line: Line, system: System) -> tuple[object, ...]:
-    unit = system.unit(line.kind)
-    name = line.kind.name if line.order is not None else f"peak {line.kind.name}"
-    return name, line.order, unit.name, *map(unit.of, line.values)
+        for step, name, value, si in list_ladder(ladder):
+            steps.setdefault((f"{step}: {name}", si), {})[k] = value
+    for (name, si), values in steps.items():
+        lines.append((name, None, si, *map(values.get, range(len(result.engines)))))
+    return Rows(("quantity", "order", "unit", *map(name_cell, result.engines)), lines)
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
@@ -364,33 +336,28 @@ def sheet(result: Comparison, system: System) -> Sheet:
         result: Comparison of the engines.
         system: System of units.
     """
-    heads = (
-        "",
-        result.engines[0],
-        *(head for name in result.engines[1:] for head in (name, "ratio")),
-    )
-    grids: list[Grid | Text] = []
+    first, *others = result.engines
+    heads = ("", first, *(head for name in others for head in (name, "ratio")))
+    parts: list[Facts | Grid | Text] = [_tell_speeds(result), *assumed_facts(result.assumed)]
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):
         every = [line for line in result.figures if line.kind == kind]
         lines = every if result.whole else find_lines_that_matter(every)
         if not lines:
-            nothing.append(TITLES.get(kind, kind.label))
+            nothing.append(kind.label)
             continue
         unit = fit_unit(kind, lines, system)
-        title = f"{capitalized(TITLES.get(kind, kind.label))}, {unit.name}: largest by order"
-        grids.append(
-            Grid(title, heads, tuple(_row(line, unit, every=result.whole) for line in lines))
-        )
+        title = f"{capitalized(kind.label)}, {unit.name}: largest by order"
+        body = tuple(_row(line, unit, every=result.whole) for line in lines)
+        parts.append(Grid(title, heads, body))
     for name, engine, ladder in zip(
         result.engines, result.compared, result.ladders or (), strict=False
     ):
         grid = ladder_grid(ladder, engine, system)
-        grids.append(grid._replace(title=f"{name}: {grid.title}"))
+        parts.append(grid._replace(title=f"{name}: {grid.title}"))
     if nothing:
-        grids.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
-    head = (_tell_speeds(result), *assumed_facts(result.assumed))
-    return Sheet("Engines side by side", (*head, *grids))
+        parts.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
+    return Sheet("Engines side by side", tuple(parts))
 
 
 def _tell_speeds(result: Comparison) -> Facts:
@@ -408,54 +375,41 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
         lines: Lines with its values.
         system: System of units.
     """
-    known = (v for line in lines for v in _list_known(line))
-    return system.unit(kind).fit(max(known, default=0.0))
+    return system.unit(kind).fit(max((line.largest for line in lines), default=0.0))
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
     """Return the orders that are not small against the largest or against one cylinder's, and the
     peak; none if all are 0. Low orders are kept where one engine's are not known.
     """
-    largest = max((v for line in lines for v in _list_known(line)), default=0.0)
-    return [line for line in lines if _matters(line, NEGLIGIBLE * largest)]
+    least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
+    return [
+        line
+        for line in lines
+        if (line.low and any(map(math.isnan, line.values)))
+        or (line.largest > least and not all(line.negligible))
+    ]
 
 
-def _list_known(line: Line) -> list[float]:
-    return [value for value in line.values if not math.isnan(value)]
-
-
-def _matters(line: Line, least: float) -> bool:
-    known = _list_known(line)
-    if len(known) < len(line.values) and (line.order is None or line.order <= 2):
-        return True
-    return max(known, default=0.0) > least and not all(_tell_negligible(line))
-
-
-def show_sizes(line: Line, unit: ShownUnit, *, every: bool) -> list[str]:
+def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None = None) -> list[str]:
     """Return amplitudes in their unit, or a word for one that is negligible.
 
     Args:
         line: Amplitudes of all engines.
         unit: Unit of the column.
         every: Whether negligible amplitudes are shown as numbers.
+        digits: As for `number`.
     """
-    small = [False] * len(line.values) if every else _tell_negligible(line)
-    sizes = zip(line.values, small, strict=True)
-    return [size_cell(value, unit, negligible=s, digits=None) for value, s in sizes]
-
-
-def _tell_negligible(line: Line) -> list[bool]:
-    """Return whether each value is 0, or small against that of one cylinder of its engine."""
-    single = line.single or (0.0,) * len(line.values)
-    pairs = zip(line.values, single, strict=True)
-    return [value == 0 or value < NEGLIGIBLE * one for value, one in pairs]
+    return [
+        size_cell(value, unit, negligible=small and not every, digits=digits)
+        for value, small in zip(line.values, line.negligible, strict=True)
+    ]
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
     """Return sizes, and ratios to the first engine's unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
-    to_nothing = _tell_negligible(line)[0]
-    ratios = [UNKNOWN if to_nothing else number(ratio, 4) for ratio in line.ratios[1:]]
+    ratios = (UNKNOWN if line.negligible[0] else number(ratio, 4) for ratio in line.ratios[1:])
     return (
         "peak" if line.order is None else f"order {order_name(line.order)}",
         first,

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -205,46 +206,17 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
 _ROUNDING = 1e-14
 
 
-def add_gas_torque(engine: Engine, curves: Curves) -> Curves:
-    """Return the curves of a whole engine, with gas torque, total torque and total roll (N m).
-
-    Args:
-        curves: of the engine, from `forces.curves.compute_engine_curves`.
-    """
-    gas = compute_piecemeal(
-        engine, curves.crank_deg, lambda angles: {GAS.key: _find_gas_torque(engine, angles)}
-    )[GAS.key]
-    gas = _settle(gas)
-    inertia, roll = curves.curves[TORQUE.key], curves.curves[ROLL.key]
-    added = {GAS.key: gas, TORQUE_TOTAL.key: inertia + gas, ROLL_TOTAL.key: roll - gas}
-    return replace(curves, curves={**curves.curves, **added})
-
-
-def _find_gas_torque(engine: Engine, crank_deg: Array) -> Array:
+def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return the torque of all cylinders' gas, N m, shape (angles,)."""
     at = np.radians(crank_deg)
     each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
-    return sum(each, np.zeros(at.shape))
-
-
-def add_cylinder_gas(engine: Engine, number: int, curves: Curves) -> Curves:
-    """Return the motion of one piston, with pressure (Pa), volume (m3), gas force, side thrust,
-    force along the rod, force on its crank or knuckle pin along and across the cylinder (N), and
-    the cylinder's torque of gas and inertia (N m); as far as they are known.
-
-    Args:
-        curves: of that cylinder, from `forces.curves.compute_cylinder_curves`.
-    """
-    row = engine.numbers.index(number)
-    of_gas = compute_piecemeal(
-        engine, curves.crank_deg, lambda angles: _find_cylinder_gas(engine, row, angles)
-    )
-    settled = {name: _settle(values) for name, values in {**curves.curves, **of_gas}.items()}
-    return replace(curves, curves=settled)
+    return {GAS.key: sum(each, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Return the curves that `add_cylinder_gas` adds for the cylinder in a row, each (angles,).
+    """Return pressure (Pa), volume (m3), gas force, side thrust, force along the rod, force on the
+    crank or knuckle pin along and across the cylinder (N), and the torque of gas and inertia (N m)
+    of the cylinder in a row, as far as they are known, each (angles,).
 
     Forces across count to the side to which the crank pin moves after top dead centre, which seen
     from a cylinder that turns lies behind it.
@@ -315,9 +287,19 @@ def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float
     crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
     if cylinder is None:
         found = compute_engine_curves(engine, crank_deg)
-        return found if engine.gas is None else add_gas_torque(engine, found)
-    found = compute_cylinder_curves(engine, cylinder, crank_deg)
-    return found if engine.gas is None else add_cylinder_gas(engine, cylinder, found)
+    else:
+        found = compute_cylinder_curves(engine, cylinder, crank_deg)
+    if engine.gas is None:
+        return found
+    compute = partial(_find_gas_torque, engine)
+    if cylinder is not None:
+        compute = partial(_find_cylinder_gas, engine, engine.numbers.index(cylinder))
+    every = dict(found.curves)
+    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, crank_deg, compute).items()}
+    if cylinder is None:
+        every[TORQUE_TOTAL.key] = every[TORQUE.key] + every[GAS.key]
+        every[ROLL_TOTAL.key] = every[ROLL.key] - every[GAS.key]
+    return replace(found, curves=every)
 
 
 def columns(curves: Curves) -> Columns:
@@ -327,9 +309,8 @@ def columns(curves: Curves) -> Columns:
 
 def rows(curves: Curves) -> Rows:
     """Return CSV: a line a crank angle, a column a quantity that is known."""
-    known = curves.known()
-    columns = [curves.crank_deg.tolist(), *(y.tolist() for y in known.values())]
-    return Rows(("crank_deg", *known), zip(*columns, strict=True))
+    found = columns(curves).values
+    return Rows(tuple(found), np.column_stack([*found.values()]).tolist())
 
 
 RENDERER = Columnar(columns=columns)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..core.records import list_figures, remove_unit, to_document
 from ..file.model import Counterweight, Shaft, Slider
-from ..forces.kinds import FORCE, MOMENT, Kind
+from ..forces.kinds import FORCE, MOMENT
 from ..limits import SMALL, WORTH_A_SHAFT
 from ..show.sheet import (
     UNKNOWN,
@@ -21,7 +21,7 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut, Scale
+from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import KEYS, find_value
@@ -81,12 +81,6 @@ def ladder_grid(
         tell_fitted: Whether a sentence says what `balcli balance` fits.
     """
     steps, scale = ladder.steps, ladder.scale
-
-    def column(kind: Kind, key: str, least: float) -> tuple[str, list[str]]:
-        sizes = [getattr(step, key) or 0.0 for step in steps]
-        unit = system.unit(kind).fit(max(sizes))
-        return unit.name, [size_cell(size if size > least else 0.0, unit) for size in sizes]
-
     columns = [("step", [f"{k} {step.step}" for k, step in enumerate(steps)])]
     for name, kind, key, of_one in (
         ("force", FORCE, "peak_force_N", scale.force_N),
@@ -94,55 +88,52 @@ def ladder_grid(
         ("main bearing", FORCE, "main_bearing_N", scale.force_N),
     ):
         if of_one is not None and getattr(steps[0], key) is not None:
-            unit, cells = column(kind, key, _ROUNDING * of_one)
-            columns.append((f"{name}, {unit}", cells))
+            sizes = [getattr(step, key) or 0.0 for step in steps]
+            unit = system.unit(kind).fit(max(sizes))
+            clean = (size if size > _ROUNDING * of_one else 0.0 for size in sizes)
+            columns.append((f"{name}, {unit.name}", [size_cell(size, unit) for size in clean]))
     for name, key in (("weights", "counterweights"), ("shafts", "shafts")):
         columns.append((name, [str(getattr(step, key) or UNKNOWN) for step in steps]))
     mass = system.mass
     weigh = (number(mass.of(step.mass_kg), 3) if step.mass_kg else UNKNOWN for step in steps)
     columns.append((mass.name, [*weigh]))
-    at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
-    heads = tuple(head for head, _ in columns)
     fitted = [step.step for step in steps].index(ladder.auto)
-    option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
-    what = f"step {fitted}" if fitted else "nothing"
-    notes = [f"balcli balance{option} fits {what}."] * tell_fitted
-    if fitted < len(steps) - 1 and tell_fitted:
-        notes.append(_tell_later(scale, system))
+    notes = []
+    if tell_fitted:
+        option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
+        what = f"step {fitted}" if fitted else "nothing"
+        notes.append(f"balcli balance{option} fits {what}.")
+        if fitted < len(steps) - 1:
+            first = size_text(scale.force_N, system.force)
+            if scale.moment_Nm is not None:
+                first += f", {size_text(scale.moment_Nm, system.moment)}"
+            least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
+            notes.append(f"No part of a later step reaches {least}.")
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
-    rows = tuple(zip(*(cells for _, cells in columns), strict=True))
-    told = " ".join(filter(None, notes))
-    return Grid(f"What balances it, step by step ({at})", heads, rows, told)
-
-
-def _tell_later(scale: Scale, system: System) -> str:
-    """Return a sentence that compares the steps after the fitted one with one cylinder."""
-    force, moment = scale.force_N, scale.moment_Nm
-    sizes = [size_text(force, system.unit(FORCE))]
-    sizes += [] if moment is None else [size_text(moment, system.unit(MOMENT))]
-    of_one = f"one cylinder's first order ({', '.join(sizes)})"
-    return f"No part of a later step reaches {100 * WORTH_A_SHAFT:.0f} % of {of_one}."
+    heads, cells = zip(*columns, strict=True)
+    at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
+    title, rows = f"What balances it, step by step ({at})", tuple(zip(*cells, strict=True))
+    return Grid(title, heads, rows, " ".join(filter(None, notes)))
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
     """Return a sentence on an omitted step, with the larger of the force and moment it removes."""
-    size = abs(ladder.measure(out))
+    size, fall = abs(ladder.measure(out)), out.main_bearing_N
     if size < _HARDLY:
         return ""
     digits = f"{size:.1f}" if round(size, 1) < 100 * ladder.small else f"{size:.3g}"
     share = "" if math.isnan(size) else f" ({digits} % of one cylinder's first order)"
     what = f"a {out.step}" if out.step == SHAFT else out.step
     what = f"in one sense of rotation, {what}" if out.step == SHAFTS else what
-    if (fall := out.main_bearing_N) is not None:
-        does = "lower" if fall >= 0 else "raise"
-        change = size_text(abs(fall), system.unit(FORCE).fit(abs(fall)))
-        takes = f"{does} the largest main bearing load by {change}"
-        return f"{capitalized(what)} would {takes}{share}: left out."
-    force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
-    by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
-    kind, value = (MOMENT, moment) if by_moment else (FORCE, force)
-    part = size_text(value, system.unit(kind).fit(value))
-    return f"{capitalized(what)} would remove {part}{share}: left out."
+    if fall is not None:
+        change = size_text(abs(fall), system.force)
+        does = f"{'lower' if fall >= 0 else 'raise'} the largest main bearing load by {change}"
+    else:
+        force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
+        by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
+        does = f"remove {size_text(moment, system.moment)}"
+        does = does if by_moment else f"remove {size_text(force, system.force)}"
+    return f"{capitalized(what)} would {does}{share}: left out."
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
@@ -181,25 +172,15 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
     if remedy.sliders:
         note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
-
-    def cells(device: DeviceTable, p: Practical) -> Iterator[str]:
-        yield from (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg), 4))
-        for size in (p.disc_radius_mm, p.disc_thickness_mm):  # what slides is no disc
-            yield UNKNOWN if isinstance(device, Slider) else _length(size, length, 3)
-
-    heads = (
-        "device",
-        "rpm",
-        f"force, {force.name}",
-        f"mass, {mass.name}",
-        f"disc r, {length.name}",
-        f"thick, {length.name}",
-    )
-    rows = tuple(
-        (f"{k} {name_kind(device)}", *cells(device, figures))
-        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
-    )
-    return Grid("Sizes of the weights", heads, rows, note)
+    rows = []
+    for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
+        disc = [_length(size, length, 3) for size in (p.disc_radius_mm, p.disc_thickness_mm)]
+        disc = [UNKNOWN, UNKNOWN] if isinstance(device, Slider) else disc  # it is no disc
+        at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg), 4))
+        rows.append((f"{k} {name_kind(device)}", *at_speed, *disc))
+    units = (f"force, {force.name}", f"mass, {mass.name}")
+    sizes = (f"disc r, {length.name}", f"thick, {length.name}")
+    return Grid("Sizes of the weights", ("device", "rpm", *units, *sizes), tuple(rows), note)
 
 
 def holes_grid(
@@ -217,17 +198,15 @@ def holes_grid(
     drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
     rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
 
-    def cells(p: Practical) -> tuple[str, ...]:
-        return (
+    rows = tuple(
+        (
+            f"{k} {name_kind(device)}",
             degrees(p.hole_angle_deg or 0.0),
             f"{p.holes}",
             _length(p.drill_depth_mm or 0.0, unit, 4),
         )
-
-    rows = tuple(
-        (f"{k} {name_kind(device)}", *cells(figures))
-        for k, (device, figures) in enumerate(zip(remedy.devices, practical, strict=True), 1)
-        if figures.holes is not None
+        for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1)
+        if p.holes is not None
     )
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
@@ -294,16 +273,13 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, floa
         device: Table of the device.
         system: System of units.
     """
-    for field, key in KEYS.items():
-        if field not in FIELDS[type(device)]:
-            continue
-        value = find_value(device, field)
-        if field == "at":
-            for axis, coordinate in zip("xy", value, strict=True):
-                yield f"at_{axis}", system.length.of(coordinate / 1e3), system.length.name
-        elif key.endswith("_mm"):
+    own = FIELDS[type(device)]
+    figures = {field: find_value(device, field) for field in KEYS if field in own}
+    figures |= zip(("at_x", "at_y"), figures.pop("at", ()), strict=False)
+    for field, value in figures.items():
+        if field in ("position", "at_x", "at_y"):
             yield field, system.length.of(value / 1e3), system.length.name
-        elif key.endswith("_kg_m"):
+        elif field == "unbalance":
             yield field, system.unbalance.of(value), system.unbalance.name
         else:
-            yield field, value, "deg" if key.endswith("_deg") else ""
+            yield field, value, "deg" if field in ("angle", "direction") else ""

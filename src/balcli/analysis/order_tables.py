@@ -125,20 +125,20 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         system: System of units.
         every: As for `order_tables`.
     """
-    units = book.units
+    units, built = book.units, book.built
     if not units.force:
         return
-    if book.built.force is not None:
+    if built.force is not None:
         cylinder = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
         note = (
             f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
             f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
         )
         yield _textbook_table(FORCE, book, note, every)
-    if book.built.moment is not None and not math.isnan(units.arm):
+    if built.moment is not None and not math.isnan(units.arm):
         arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
         note = f"a = {arm}, the smallest distance of neighbouring throws."
-        note = note if book.built.force else f"{note} {_AS_BUILT}"
+        note += f" {_AS_BUILT}" * (built.force is None)
         yield _textbook_table(MOMENT, book, note, every)
 
 
@@ -150,21 +150,18 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
         share: Its spectra.
         system: System of units.
     """
-    vectors = [(kind, phasors, system.unit(kind)) for kind, phasors in share.vectors()]
+    heads, columns = ["order"], [list(map(order_name, share.orders))]
+    for kind, phasors in share.vectors():
+        unit = system.unit(kind)
+        for way, part in (("with", phasors.forward), ("against", phasors.backward)):
+            heads.append(f"{kind.name} {way}, {unit.name}")
+            columns.append([_tell_vector(v, unit) for v in part.tolist()])
+    return Grid(f"Cylinder {cylinder} alone", tuple(heads), tuple(zip(*columns, strict=True)))
 
-    def cells(k: int) -> Iterator[str]:
-        for _, phasors, unit in vectors:
-            for v in (phasors.forward[k], phasors.backward[k]):
-                angle = degrees(math.degrees(cmath.phase(v)))
-                yield f"{number(unit.of(abs(v)), 4)} ∠ {angle}" if v else NOTHING
 
-    heads = [
-        f"{kind.name} {way}, {unit.name}"
-        for kind, _, unit in vectors
-        for way in ("with", "against")
-    ]
-    rows = tuple((order_name(order), *cells(k)) for k, order in enumerate(share.orders))
-    return Grid(f"Cylinder {cylinder} alone", ("order", *heads), rows)
+def _tell_vector(v: complex, unit: ShownUnit) -> str:
+    angle = degrees(math.degrees(cmath.phase(v)))
+    return f"{number(unit.of(abs(v)), 4)} ∠ {angle}" if v else NOTHING
 
 
 def peak_facts(
@@ -205,23 +202,32 @@ def _table(
     return Grid(title, ("order", *heads), rows, note)
 
 
+def vector_cells(
+    phasors: Phasors, k: int, unit: ShownUnit, digits: int | None = None
+) -> tuple[str, str, str, str, str]:
+    """Return one order of a force or moment: largest and smallest value, axis, and the parts that
+    turn with the crank and against it.
+
+    Args:
+        phasors: Force or moment.
+        k: Row of the order.
+        unit: Unit of the cells.
+        digits: As for `number`.
+    """
+    if phasors.balanced[k]:
+        return NOTHING, "", "", "", ""
+    values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
+    largest, smallest, ahead, against = (number(unit.of(float(v[k])), digits) for v in values)
+    if not phasors.orders[k]:  # a mean does not turn
+        return largest, UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN
+    return largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
+
+
 def _vector_table(kind: Kind, phasors: Phasors, unit: ShownUnit, every: bool) -> Grid:
     unit = fit_largest(unit, phasors)
-
-    def cells(k: int) -> Cells:
-        if phasors.balanced[k]:
-            return NOTHING, "", "", "", ""
-        if np.isnan(phasors.forward[k]):
-            return (UNKNOWN,) * 5
-        values = (phasors.major, phasors.minor, abs(phasors.forward), abs(phasors.backward))
-        largest, smallest, ahead, against = (number(unit.of(float(v[k]))) for v in values)
-        if not phasors.orders[k]:  # a mean does not turn
-            return largest, *[UNKNOWN] * 4
-        return largest, smallest, degrees(float(phasors.axis_deg[k]), 180), ahead, against
-
     heads = ("largest", "smallest", "axis, deg", "with crank", "against")
     title = f"{capitalized(kind.label)} by order, {unit.name}"
-    return _table(title, heads, [phasors], cells, every)
+    return _table(title, heads, [phasors], lambda k: vector_cells(phasors, k, unit), every)
 
 
 def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every: bool) -> Grid:
@@ -232,21 +238,11 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
         order = spectra.orders[k]
         for c in (p.x[k] for p in phasors):
             yield number(unit.of(size_or_mean(c, order))) if c else NOTHING
-            yield show_peak_deg(c, order) if c else ""
+            yield degrees(float(peak_deg(c, order))) if c else ""
 
     labels = [ROLL.name if roll and kind == ROLL else kind.label for kind in kinds]
     heads = [head for label in labels for head in (label, "peak, deg")]
     return _table(f"About {what}, {unit.name}", heads, phasors, cells, every, roll)
-
-
-def show_peak_deg(c: complex, order: float) -> str:
-    """Return the crank angle at which an amplitude is first reached, or a dash for a mean.
-
-    Args:
-        c: Coefficient of e^{i n theta}.
-        order: Order n.
-    """
-    return degrees(float(peak_deg(c, order)))
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
@@ -258,16 +254,12 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     """Return multiples of each order's own unit; a dash where the order is no multiple of it."""
     alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
+    columns = (alone.major, abs(alone.forward), abs(alone.backward), built.major)
+
     def cells(k: int) -> Iterator[str]:
         size = book.units.size(kind, order_number(built.orders[k]))
-        for value in (
-            alone.major[k],
-            abs(alone.forward[k]),
-            abs(alone.backward[k]),
-            built.major[k],
-        ):
-            multiple = "–" if math.isnan(size) else number(float(value) / size, 4)
-            yield multiple if value else NOTHING
+        for value in (float(column[k]) for column in columns):
+            yield number(value / size, 4) if value else NOTHING
 
     heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
     title = f"{capitalized(kind.label)} in textbook units"
@@ -301,27 +293,25 @@ def gas_grid(
     found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
     if len(found) < len(_SHOWN):
         return
-    inertia, gas, total, roll = found
-    unit = fit_largest(system.moment, *found)
-    least = NEGLIGIBLE * float(max(gas.major.max(initial=0), inertia.major.max(initial=0)))
+    unit, roll = fit_largest(system.moment, *found), found[-1]
+    least = NEGLIGIBLE * max(float(p.major.max(initial=0)) for p in found[:2])
 
-    def row(k: int) -> Iterator[str]:
-        order = float(spectra.orders[k])
+    def row(k: int, order: float) -> Iterator[str]:
         yield order_name(order)
-        for phasors in (inertia, gas, total, roll):
+        for phasors in found:
             yield size_cell(size_or_mean(complex(phasors.x[k]), order), unit)
         at = float(peak_deg(roll.x[k], order))
         yield "" if math.isnan(at) else degrees(at)
 
-    shown = [
-        k
-        for k, order in enumerate(spectra.orders)
+    rows = tuple(
+        tuple(row(k, order))
+        for k, order in enumerate(spectra.orders.tolist())
         if order in (1, 2) or every_order or max(p.major[k] for p in found) > least
-    ]
+    )
     yield Grid(
         f"About {pivot} with gas, {unit.name}",
         ("order", "inertia torque", "gas torque", "torque", "roll of the frame", "peak, deg"),
-        tuple(tuple(row(k)) for k in shown),
+        rows,
         "Torque = inertia + gas." + (" Mean torque, flywheel and more: balcli torque." * hints),
     )
 
@@ -341,10 +331,10 @@ def tell_rocking(spectra: Spectra, system: System, pivot: str) -> str:
     if not size.any():
         return f"No order rocks the engine about {pivot}."
     k = int(find_first_largest(size))
-    parts = {"gas": float(gas.major[k]), "inertia": float(inertia.major[k])}
-    there = {name: value for name, value in parts.items() if value}
-    told = ", ".join(f"{name} {size_text(value, system.moment)}" for name, value in there.items())
-    if len(there) == 1:
-        told = f"{next(iter(there))} alone"
+    parts = [("gas", float(gas.major[k])), ("inertia", float(inertia.major[k]))]
+    there = [f"{name} {size_text(value, system.moment)}" for name, value in parts if value]
     most = size_text(float(size[k]), system.moment)
-    return f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} ({told})."
+    return (
+        f"Order {order_name(roll.orders[k])} rocks the engine most: roll of {most} "
+        f"({', '.join(there)})."
+    )

@@ -6,8 +6,8 @@ which part needs shafts.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,6 @@ from ..limits import SMALL
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import (
     NEGLIGIBLE,
-    NOTHING,
-    UNKNOWN,
     Facts,
     Grid,
     degrees,
@@ -34,7 +32,7 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from ..sizing.residual import Scales, is_small
-from .order_tables import fit_largest, peak_facts
+from .order_tables import fit_largest, peak_facts, vector_cells
 
 if TYPE_CHECKING:
     from .answer import Analysis
@@ -72,7 +70,9 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
         heads += [f"{kind.name}, {unit.name}", "with crank", "against"]
-        columns += zip(*(_vector_cells(phasors, k, unit) for k in range(len(shown))), strict=True)
+        cells = (vector_cells(phasors, k, unit, 4) for k in range(len(shown)))
+        largest, _, _, ahead, against = zip(*cells, strict=True)
+        columns += [largest, ahead, against]
     return Grid(
         "Largest by order, and its parts that turn with the crank and against it",
         tuple(heads),
@@ -149,36 +149,15 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
     return f"order {', '.join(sizes)} {unit.name}"
 
 
-def _vector_cells(phasors: Phasors, k: int, unit: ShownUnit) -> tuple[str, str, str]:
-    if phasors.balanced[k]:
-        return NOTHING, "", ""
-    if np.isnan(phasors.forward[k]):
-        return UNKNOWN, UNKNOWN, UNKNOWN
-    largest, ahead, against = (
-        number(unit.of(float(v)), 4)
-        for v in (phasors.major[k], abs(phasors.forward[k]), abs(phasors.backward[k]))
-    )
-    return (largest, ahead, against) if phasors.orders[k] else (largest, UNKNOWN, UNKNOWN)
-
-
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
 _MOST_WORDS = 25  # of a sentence
 _MOST_TOLD = 8  # near the lock dozens of orders matter: these one by one, the others together
 _MOST_NAMED = 5  # orders in a row
 _AXES = {"0.0": "x", "90.0": "y"}
-_WEIGHTS = "counterweights"
+_SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
     "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
     "order there also cancels what that order adds to others."
-)
-_Wording: TypeAlias = Literal["components", "axis", "angle", ""]  # of a direction
-_WORDINGS: tuple[tuple[_Wording, bool], ...] = (  # the longest first; whether parts have sizes
-    ("components", True),
-    ("components", False),
-    ("axis", True),
-    ("axis", False),
-    ("angle", False),
-    ("", False),
 )
 
 
@@ -196,47 +175,29 @@ class _Vector(NamedTuple):
         turning = self.phasors.forward if sense > 0 else self.phasors.backward
         return float(abs(turning[k]))
 
-    def find_large(self, k: int, small: float) -> list[int]:
-        """Return the senses in which something turns that is not small."""
-        least = small * self.scale
-        return [sense for sense in (1, -1) if not is_small(self.part(k, sense), least)]
-
     def tell_size(self, k: int, sense: int = 0) -> str:
         """Return the largest value of an order, or of its part in one sense."""
         size = self.part(k, sense) if sense else float(self.phasors.major[k])
         return size_text(size, self.unit)
 
-    def describe(self, k: int, wording: _Wording) -> str:
-        """Return size and direction: `force of 4 N along x`."""
-        told = f"{self.kind.name} of {self.tell_size(k)}"
-        if not wording:
-            return told
-        sense = next((sense for sense in (1, -1) if not self.part(k, -sense)), 0)
-        return f"{told} {f'turning {_SENSES[sense]}' if sense else self._tell_axis(k, wording)}"
-
-    def _tell_axis(self, k: int, wording: _Wording) -> str:
-        """Return the axis along which a force acts, or about which a moment does; and what that is
-        called where the file says which way is up.
+    def describe(self, k: int, *, directed: bool) -> str:
+        """Return size and direction: `force of 4 N along x`; the axis is also named where the file
+        says which way is up.
         """
-        axis_deg, up = float(self.phasors.axis_deg[k]), self.up_deg
+        told = f"{self.kind.name} of {self.tell_size(k)}"
+        if not directed:
+            return told
+        for sense, turning in _SENSES.items():
+            if not self.part(k, -sense):
+                return f"{told} turning {turning}"
+        axis_deg = float(self.phasors.axis_deg[k])
         angle = degrees(axis_deg, 180)
         axis = self.kind.tell_axis(_AXES.get(angle) or f"an axis at {angle} deg")
-        if wording == "angle" and angle not in _AXES:
-            return f"at {angle} deg"
-        if up is None:
-            return axis
-        names = dict(zip(_AXES, self.kind.upright, strict=True))
-        if name := names.get(degrees(float(wrap_degrees(axis_deg - up, 180)), 180)):
-            return f"{name} ({axis})"
-        if wording != "components":
-            return axis
-        turned, unit = self.phasors.turn(-up), self.unit.fit(float(self.phasors.major[k]))
-        parts = zip((turned.x[k], turned.y[k]), self.kind.upright, strict=True)
-        sizes = " and ".join(f"{number(unit.of(abs(c)), 4)} {name}" for c, name in parts)
-        return f"{axis}, {sizes}"
-
-
-_SENSES = {1: "with the crank", -1: "against the crank"}
+        if self.up_deg is not None:
+            names = dict(zip(_AXES, self.kind.upright, strict=True))
+            from_up = degrees(float(wrap_degrees(axis_deg - self.up_deg, 180)), 180)
+            axis = f"{names[from_up]} ({axis})" if from_up in names else axis
+        return f"{told} {axis}"
 
 
 class _Order(NamedTuple):
@@ -258,29 +219,24 @@ class _Order(NamedTuple):
     cures: Mapping[int, str]
 
     @property
-    def name(self) -> str:
-        """`Second order`."""
-        if self.order % 1:
-            return f"Order {order_name(self.order)}"
-        n = int(self.order)
-        return f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
-
-    @property
     def balanced(self) -> bool:
         """Whether force and moment are balanced."""
         return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
     def tell(self) -> str:
         """Return the longest sentence on the order that is not too long."""
+        n = int(self.order)
+        name = f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
+        if self.order % 1:
+            name = f"Order {order_name(self.order)}"
         if not self.large:
             names = " and ".join(vector.kind.name for vector in self.rest)
-            how = "balanced" if self.balanced else "small"
-            return f"{self.name}: {self.couple}; {names} {how}."
+            return f"{name}: {self.couple}; {names} {'balanced' if self.balanced else 'small'}."
         told = ""
-        for wording, sizes in _WORDINGS:
-            there = " and ".join(vector.describe(self.k, wording) for vector in self.large)
+        for directed, sizes in ((True, True), (True, False), (False, False)):
+            there = " and ".join(one.describe(self.k, directed=directed) for one in self.large)
             there = ", ".join(filter(None, (there, self.couple)))
-            told = f"{self.name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
+            told = f"{name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
             if len(told.split()) <= _MOST_WORDS:
                 break
         return told
@@ -292,24 +248,23 @@ class _Order(NamedTuple):
         if self.order > 2:
             return f"usually left: its shafts would turn at {self.order:g} times crank speed"
         one = self.large[0] if len(self.large) == 1 else None
-        everything = one.kind.name if one else ""
-        everything = f"the {everything}" if self.couple and one else "it" if one else "both"
-        if len(self.cures) == 1:
-            ((sense, device),) = self.cures.items()
-            cancel = "cancel" if device.endswith(_WEIGHTS) else "cancels"
+        everything = "both" if one is None else f"the {one.kind.name}" if self.couple else "it"
+        devices = [*self.cures.values()]
+        if len(devices) == 1:
+            (sense,) = self.cures
+            cancel = f"{devices[0]} cancel{'s' * devices[0].startswith('a ')}"
             if not any(vector.part(self.k, -sense) for vector in self.large):
-                return f"{device} {cancel} {everything}"
-            what = (
-                f"{one.tell_size(self.k, sense)} of it" if one else f"what turns {_SENSES[sense]}"
-            )
-            return f"{device} {cancel} {what}"
+                return f"{cancel} {everything}"
+            if one is None:
+                return f"{cancel} what turns {_SENSES[sense]}"
+            return f"{cancel} {one.tell_size(self.k, sense)} of it"
         if self.order == 2:
-            further = "further " * any("further" in device for device in self.cures.values())
+            further = "further " * ("further" in " ".join(devices))
             return f"{further}shafts at +2 and -2 cancel {everything}"
         if one and sizes:
-            ahead, against = (one.tell_size(self.k, sense) for sense in (1, -1))
-            return f"{self.cures[1]} cancel {ahead} of it, {self.cures[-1]} the other {against}"
-        return f"{self.cures[1]} and {self.cures[-1]} cancel {everything}"
+            ahead, against = (one.tell_size(self.k, sense) for sense in self.cures)
+            return f"{devices[0]} cancel {ahead} of it, {devices[1]} the other {against}"
+        return f"{' and '.join(devices)} cancel {everything}"
 
 
 def verdict(
@@ -342,21 +297,24 @@ def verdict(
         return ()
 
     def judge(k: int, order: float) -> _Order:
-        senses = {vector.kind.name: vector.find_large(k, small) for vector in vectors}
-        whole = steady and order % 1 == 0  # no device turns at half orders
-        due = {sense for found in senses.values() for sense in found} if whole else set()
+        senses = {
+            vector: [s for s in _SENSES if not is_small(vector.part(k, s), small * vector.scale)]
+            for vector in vectors
+        }
+        due = {sense for found in senses.values() for sense in found}
         moments = (vector for vector in vectors if vector.kind is MOMENT)
-        couple, balanced = 0.0, all(vector.phasors.balanced[k] for vector in moments)
-        if spectra.couple and order <= 2 and balanced:
+        couple = 0.0
+        if spectra.couple and order <= 2 and all(one.phasors.balanced[k] for one in moments):
             couple = float(spectra.couple.major[k])
         told = couple > NEGLIGIBLE * of_one.get("roll", 0.0)
         return _Order(
             k=k,
             order=order,
-            large=[vector for vector in vectors if senses[vector.kind.name]],
-            rest=[vector for vector in vectors if not senses[vector.kind.name]],
+            large=[vector for vector, found in senses.items() if found],
+            rest=[vector for vector, found in senses.items() if not found],
             couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
-            cures=dict(_list_cures(int(order), due, devices)),
+            # no device turns at half orders
+            cures=_find_cures(int(order), due, devices) if steady and order % 1 == 0 else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
@@ -379,26 +337,21 @@ def verdict(
     return (*told, sentence(last)) if last else tuple(told)
 
 
-def _list_cures(
-    order: int, due: Collection[int], devices: Sequence[Device]
-) -> Iterator[tuple[int, str]]:
-    """Yield what would cancel an order, by sense of rotation; further ones where the file has some.
+def _find_cures(order: int, due: Collection[int], devices: Sequence[Device]) -> dict[int, str]:
+    """Return what would cancel an order, by sense of rotation; further ones next to the file's.
 
     Args:
         order: Order.
         due: Senses in which something turns that is not small.
         devices: Devices of the file.
     """
-    for sense in (1, -1):
-        further = any(
-            np.any(device.forward if sense > 0 else device.backward)
-            for device in devices
-            if device.order == order and device.kind in (DeviceKind.COUNTERWEIGHT, DeviceKind.SHAFT)
-        )
-        if sense in due and order * sense == 1:
-            yield sense, f"{'further ' * further}{_WEIGHTS}"
-        elif sense in due:
-            yield sense, f"a {'further ' * further}shaft at {order * sense:+d}"
+    cures = {}
+    alike = [one for one in devices if one.order == order and one.kind is not DeviceKind.SLIDER]
+    for sense in sorted(due, reverse=True):
+        there = any(np.any(one.forward if sense > 0 else one.backward) for one in alike)
+        device = "counterweights" if order * sense == 1 else f"shaft at {order * sense:+d}"
+        cures[sense] = f"{'a ' * device.startswith('shaft')}{'further ' * there}{device}"
+    return cures
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:

@@ -2,11 +2,9 @@
 moments, strokes, and the devices of the scheme `auto`.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
-from ..core.cylinders import Travel
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..core.records import INLINE, Node, Reached, WrittenAs
@@ -243,17 +241,6 @@ class Stroke(NamedTuple):
     stroke_m: float
     top_deg: float
     bottom_deg: float
-
-
-def list_strokes(travel: Travel, numbers: Sequence[int]) -> tuple[Stroke, ...]:
-    """Return strokes and dead centers by the numbers of the cylinders, in rising order.
-
-    Args:
-        travel: Strokes and dead centers, one for each cylinder.
-        numbers: Numbers of the cylinders.
-    """
-    columns = ((values + 0.0).tolist() for values in travel)
-    return tuple(sorted(map(Stroke, numbers, *columns)))
 
 
 # ------------------------------------------------------------------ devices

@@ -10,18 +10,19 @@ Why each order is balanced or is not: as sentences and as rows.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.records import write_each
+from ..forces.kinds import Kind
 from ..show.figures import FigureRow, clean, order_rows, peak_rows
 from ..show.sheet import (
-    NOTHING,
     UNKNOWN,
     Facts,
     Grid,
     Text,
+    capitalized,
     degrees,
     number,
     order_name,
@@ -48,63 +49,57 @@ _TOGETHER = (
     "Of inertia: gas presses on throw and head alike, so that it shears and bends crankshaft and "
     "block together nowhere."
 )
+_BEHIND = "Values just behind each load."
 _CUT = (
     "Main bearings half-way between throws and as far outside the end ones; the shaft counts as "
     "cut in each."
 )
-ORDERS_SHOWN, GAS_ORDERS_SHOWN = 6, 5  # in a table, which has a column an order
+ORDERS_SHOWN = 6  # in a table, which has a column an order
 
 
-class _Load(NamedTuple):
-    """A load along the crank: its name in CSV, its title, and whether gas has a part in it."""
+_LABELS = {  # by name, in the order of `InnerLoads` and `LoadsWithGas`
+    "shear": "shear force in the crankshaft",
+    "bending": "bending moment in the crankshaft",
+    "bearing": "load of a main bearing",
+    "shaft_shear": "shear force in the crankshaft with gas",
+    "shaft_bending": "bending moment in the crankshaft with gas",
+    "main": "load of a main bearing with gas",
+    "block_shear": "shear force in the block with gas",
+    "block_bending": "bending moment in the block with gas",
+}
+LOADS = tuple(
+    Kind(name, label, "", f"{name}_Nm", vector=True)
+    if name.endswith("bending")
+    else Kind(name, label, "", f"{name}_N", vector=True, dimension="force")
+    for name, label in _LABELS.items()
+)
 
-    name: str
-    along: AlongCrank
-    unit: ShownUnit
-    title: str
-    with_gas: bool = False
 
-
-def _list_loads(inner: InnerLoads, system: System) -> Iterator[_Load]:
-    force, moment, gas = system.force, system.moment, inner.with_gas
-    where = "crankshaft" if gas is None else "crankshaft and block together"
-    yield _Load("shear", inner.shear, force, f"Shear force in the {where} behind each load")
-    yield _Load("bending", inner.bending, moment, f"Bending moment in the {where}")
-    if inner.bearings is not None:
-        title = "Inertia loads of main bearings half-way between throws, shaft cut in each"
-        yield _Load("bearing", inner.bearings, force, title)
-    if gas is None:
-        return
-    for part, name, shear, bending in (
-        ("crankshaft", "shaft", gas.shear, gas.bending),
-        ("block", "block", gas.block_shear, gas.block_bending),
-    ):
-        yield _Load(f"{name}_shear", shear, force, f"Shear force in the {part} with gas", True)
-        yield _Load(
-            f"{name}_bending", bending, moment, f"Bending moment in the {part} with gas", True
-        )
-        if name == "shaft":
-            yield _Load("main", gas.bearings, force, "Loads of main bearings with gas", True)
+def list_loads(inner: InnerLoads) -> list[tuple[Kind, AlongCrank]]:
+    """Return each load along the crank that is known, with its kind."""
+    found = zip(LOADS, (*inner[:3], *(inner.with_gas or ())), strict=False)
+    return [(kind, along) for kind, along in found if along is not None]
 
 
 def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
-    """Yield a table of each quantity, a row for each place, and the largest bending moment; for an
-    engine with gas also the loads of gas inside it.
+    """Yield a table of each load, a row for each place, and the largest bending moments.
 
     Args:
         inner: Loads along the crankshaft.
         system: System of units.
     """
-    gas = inner.with_gas
-    notes = {"bending": _OPEN_END if gas is None else f"{_TOGETHER} {_OPEN_END}", "main": _CUT}
-    for load in _list_loads(inner, system):
-        if load.name != "bearing" or gas is None:
-            yield _grid(load, system.length, notes.get(load.name, ""))
-    facts = [("largest inner moment", _largest_bending(inner.bending, system))]
-    if gas is not None:
-        facts.append(("in the crankshaft", _largest_bending(gas.bending, system)))
-        facts.append(("in the block", _largest_bending(gas.block_bending, system)))
-    yield Facts(tuple(facts))
+    with_gas = inner.with_gas is not None
+    bending = f"{_TOGETHER} {_OPEN_END}" if with_gas else _OPEN_END
+    notes = {"shear": _BEHIND, "bending": bending, "bearing": _CUT, "main": _CUT}
+    for kind, along in list_loads(inner):
+        title = capitalized(kind.label)
+        if with_gas and kind in LOADS[:2]:
+            title = title.replace("crankshaft", "crankshaft and block together")
+        if not (with_gas and kind.name == "bearing"):  # those with gas stand below
+            yield _grid(along, title, system.unit(kind), system.length, notes.get(kind.name, ""))
+    moments = [along for kind, along in list_loads(inner) if kind.name.endswith("bending")]
+    places = ("largest inner moment", "in the crankshaft", "in the block")[: len(moments)]
+    yield Facts(tuple(zip(places, (_tell_largest(one, system) for one in moments), strict=True)))
     if inner.obstacle:
         yield Text("", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle}.",))
 
@@ -118,36 +113,35 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
         system: System of units.
     """
     length = system.length
-    for name, along, unit, *_ in _list_loads(inner, system):
+    for kind, along in list_loads(inner):
         for k, z in enumerate(along.z_m):
-            here, place = write_each(list_load_orders(along.at(k))), f"{name} {k + 1}"
+            place, unit = f"{kind.name} {k + 1}", system.unit(kind)
             yield FigureRow(0, place, None, "position", clean(length.of(z)), length.name)
             yield from peak_rows(place, along.peaks[k], unit)
-            for entry in here:
+            for entry in write_each(list_load_orders(along.at(k))):
                 yield from order_rows(place, entry.pop("order"), entry, unit)
 
 
-def _grid(load: _Load, length: ShownUnit, note: str) -> Grid:
+def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, note: str) -> Grid:
     """Return one row a place: the peak over a revolution, and the largest of each of the first
     orders.
     """
-    along = load.along
-    orders = along.phasors.orders[: GAS_ORDERS_SHOWN if load.with_gas else ORDERS_SHOWN]
-    unit = load.unit.fit(max(peak.value for peak in along.peaks))
+    unit = unit.fit(max(peak.value for peak in along.peaks))
+    orders = along.phasors.orders[:ORDERS_SHOWN]
     heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))
+    rows = tuple(
+        (
+            number(length.of(float(z))),
+            size_cell(peak.value, unit, digits=None),
+            degrees(float(np.degrees(peak.theta))) if peak.value else "",
+            *(number(unit.of(float(size)), 4) for size in along.at(k).major[:ORDERS_SHOWN]),
+        )
+        for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True))
+    )
+    return Grid(f"{title}, {unit.name}", heads, rows, note)
 
-    def cells(k: int) -> Iterator[str]:
-        peak, sizes = along.peaks[k], along.at(k).major[: len(orders)]
-        yield number(length.of(float(along.z_m[k])))
-        yield number(unit.of(peak.value)) if peak.value else NOTHING
-        yield degrees(float(np.degrees(peak.theta))) if peak.value else ""
-        yield from (number(unit.of(float(size)), 4) for size in sizes)
 
-    rows = tuple(tuple(cells(k)) for k in range(len(along.z_m)))
-    return Grid(f"{load.title}, {unit.name}", heads, rows, note)
-
-
-def _largest_bending(bending: AlongCrank, system: System) -> str:
+def _tell_largest(bending: AlongCrank, system: System) -> str:
     most = bending.largest
     moment = size_text(bending.peaks[most].value, system.moment, 5)
     place = number(system.length.of(float(bending.z_m[most])))

@@ -9,24 +9,23 @@ also called vertical: M1V is My of order 1, M1H its Mx.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, field, fields, replace
-from functools import cached_property, partial
+from dataclasses import astuple, dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import HIDDEN, WrittenAs, remove_unit
+from ..core.records import HIDDEN, WrittenAs
 from ..engine.engine import Engine
 from ..file.fields import order_number
-from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL, Kind
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts
 from ..show.figures import clean, name_engine
 from ..show.formats import Renderer, write_named
 from ..show.sheet import (
     NAMELESS,
-    NEGLIGIBLE,
     Facts,
     Grid,
     NamedResult,
@@ -35,13 +34,11 @@ from ..show.sheet import (
     capitalized,
     given,
     order_name,
-    size_cell,
     size_text,
 )
 from . import sections, show as analysis_show
 from .answer import Analysis, analyze
 from .comparison import (
-    TITLES,
     Line,
     analyze_alike,
     find_lines_that_matter,
@@ -54,8 +51,7 @@ from .records import Includes, name_included
 from .sections import define_guide_moments
 
 if TYPE_CHECKING:
-    from ..forces.kinds import Kind
-    from ..show.units import ShownUnit, System
+    from ..show.units import System
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -134,7 +130,15 @@ class MarineOrder:
     torque_Nm: float
 
 
-FIGURES = tuple(each.name for each in fields(MarineOrder))[1:]
+FIGURES = (  # names as engineers write them, `n` for the order
+    Kind("force_v", "external vertical force FnV", "FnV", "force_v_N", dimension="force"),
+    Kind("force_h", "external horizontal force FnH", "FnH", "force_h_N", dimension="force"),
+    Kind("moment_v", "external vertical moment MnV", "MnV", "moment_v_Nm"),
+    Kind("moment_h", "external horizontal moment MnH", "MnH", "moment_h_Nm"),
+    Kind("guide_h", "H-type guide-force moment Hn", "Hn", "guide_h_Nm"),
+    Kind("guide_x", "X-type guide-force moment Xn", "Xn", "guide_x_Nm"),
+    Kind("torque", "torque on the crank Tn", "Tn", "torque_Nm"),
+)
 
 
 @dataclass(frozen=True)
@@ -181,10 +185,8 @@ class MarineSheet:
             number.
         assumed: Values taken because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
-        force_of_one: Force of one cylinder at each speed, N, next to which an external force may be
-            negligible, shape (speeds,).
-        moment_of_one: Moment of one cylinder, N m, shape (speeds,).
-       every_order: Whether tables show negligible orders as well.
+        lines: Amplitudes by order and figure, with a value a speed.
+        every_order: Whether tables show negligible orders as well.
     """
 
     format: Literal["balcli.marine/1"] = "balcli.marine/1"
@@ -194,25 +196,13 @@ class MarineSheet:
     height_m: Array
     assumed: tuple[str, ...] | None = None
     speeds: tuple[MarineSpeed, ...]
-    force_of_one: Annotated[Array, HIDDEN]
-    moment_of_one: Annotated[Array, HIDDEN]
+    lines: Annotated[tuple[Line, ...], HIDDEN]
     every_order: Annotated[bool, HIDDEN] = False
 
     @property
-    def speeds_rpm(self) -> Array:
-        """Speeds of the sheet, rpm, shape (speeds,)."""
-        return np.array([speed.speed_rpm for speed in self.speeds])
-
-    @property
-    def orders(self) -> Array:
-        """Orders, ascending, shape (orders,)."""
-        return np.array([each.order for each in self.speeds[0].orders])
-
-    @cached_property
-    def figures(self) -> dict[str, Array]:
-        """Amplitudes by their names in `FIGURES`, shape (speeds, orders); nan: not known."""
-        table = np.array([[astuple(each)[1:] for each in speed.orders] for speed in self.speeds])
-        return dict(zip(FIGURES, np.moveaxis(table, 2, 0), strict=True))
+    def speeds_rpm(self) -> list[float]:
+        """Speeds of the sheet, rpm."""
+        return [speed.speed_rpm for speed in self.speeds]
 
 
 def find_marine_sheet(
@@ -243,18 +233,40 @@ def find_marine_sheet(
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
     guide = found[0].guide
+    listed = [_list_amplitudes(one, torque.name) for one in found]
     return MarineSheet(
         engine=replace(engine, speed_rpm=speeds[0]),
         includes=name_included(engine.gas is not None),
         height_m=np.array([]) if guide is None else guide.height_m,
         assumed=found[0].assumed,
-        speeds=tuple(
-            MarineSpeed(speed, _list_amplitudes(one, torque.name))
-            for speed, one in zip(speeds, found, strict=True)
-        ),
-        force_of_one=np.array([one.of_one_cylinder["force"] for one in found]),
-        moment_of_one=np.array([one.of_one_cylinder["moment"] for one in found]),
+        speeds=tuple(map(MarineSpeed, speeds, listed)),
+        lines=_list_lines(found, listed),
         every_order=every_order or orders is not None,
+    )
+
+
+def _list_lines(
+    found: Sequence[Analysis], listed: Sequence[Sequence[MarineOrder]]
+) -> tuple[Line, ...]:
+    """Return amplitudes by order and figure. Forces and moments are negligible against one
+    cylinder's, other figures against the largest of all orders.
+    """
+    figures = np.array([[astuple(one)[1:] for one in orders] for orders in listed])
+    single = np.nan_to_num(figures).max(axis=1)  # shape (speeds, figures)
+    single[:, 4:6] = single[:, 4:6].max(axis=1, keepdims=True)
+    for k, one in enumerate(found):
+        single[k, :4] = np.repeat([one.of_one_cylinder["force"], one.of_one_cylinder["moment"]], 2)
+    return tuple(
+        Line(
+            quantity=kind.key,
+            order=one.order,
+            values=tuple(figures[:, k, i].tolist()),
+            ratios=(),
+            kind=kind,
+            single=tuple(single[:, i].tolist()),
+        )
+        for k, one in enumerate(listed[0])
+        for i, kind in enumerate(FIGURES)
     )
 
 
@@ -327,20 +339,17 @@ def _kind_part(
     """Return one kind by speed, a column an order, and the peak; one sentence where nothing
     matters.
     """
-    title = TITLES.get(kind, kind.label)
     shown = lines if whole else find_lines_that_matter(lines)
     if not shown:
-        largest = max(v for line in lines for v in line.values)
+        largest = max(line.largest for line in lines)
         most = f" (at most {size_text(largest, system.unit(kind), 2)})" if largest else ""
-        return Text("", (f"{'Negligible' if largest else 'Balanced'}: {title}{most}.",))
+        return Text("", (f"{'Negligible' if largest else 'Balanced'}: {kind.label}{most}.",))
     unit = fit_unit(kind, shown, system)
     heads = ("peak" if line.order is None else f"order {order_name(line.order)}" for line in shown)
     columns = [show_sizes(line, unit, every=whole) for line in shown]
-    table = tuple(
-        (given(speed), *cells) for speed, *cells in zip(speeds_rpm, *columns, strict=True)
-    )
-    title = f"{capitalized(title)}, {unit.name}: largest by order"
-    return Grid(title, ("rpm", *heads), table, words=())
+    rows = tuple(zip(map(given, speeds_rpm), *columns, strict=True))
+    title = f"{capitalized(kind.label)}, {unit.name}: largest by order"
+    return Grid(title, ("rpm", *heads), rows, words=())
 
 
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
@@ -350,11 +359,6 @@ _NAMES = (
     "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
     "vertical force makes a vertical moment."
 )
-
-
-# Names of the figures as engineers write them, `n` for the order.
-_SYMBOLS = dict(zip(FIGURES, ("FnV", "FnH", "MnV", "MnH", "Hn", "Xn", "Tn"), strict=True))
-_EXTERNAL, _INNER = FIGURES[:4], FIGURES[4:]
 
 
 def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
@@ -367,26 +371,24 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     """
     result = one.result
     head = engine_facts(
-        result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm.tolist()
+        result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm
     )
     alone = "of inertia alone, without gas"
     of_what = alone if result.engine.gas is None else "of inertia and gas"
-    if len(result.speeds_rpm) == 1:
+    parts: list[Facts | Grid | Text] = [head]
+    if len(result.speeds) == 1:
         title = f"Guide-force moments Hn, Xn and torque on the crank Tn, {of_what}"
-        groups = {"External forces and moments": _EXTERNAL, title: _INNER}
-        draw = _grid_by_order
+        external = _grid_by_order("External forces and moments", FIGURES[:4], result, system)
+        parts.append(external._replace(note=_NAMES))
+        parts.append(_grid_by_order(title, FIGURES[4:], result, system))
     else:
-        groups = {
-            "External forces": _EXTERNAL[:2],
-            "External moments": _EXTERNAL[2:],
-            f"H-type guide-force moments {of_what}": _INNER[:1],
-            f"X-type guide-force moments {of_what}": _INNER[1:2],
-            f"Torque on the crank {of_what}": _INNER[2:],
-        }
-        draw = _grid_by_speed
-    grids = (draw(title, names, result, system) for title, names in groups.items())
+        for kind in FIGURES:
+            lines = [line for line in result.lines if line.kind == kind]
+            speeds, whole = result.speeds_rpm, result.every_order
+            parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
+        parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
     notes = (_tell_axes(result), define_guide_moments(result.height_m, system))
-    return Sheet(result.engine.name or NAMELESS, (head, *grids, Text("", notes)))
+    return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 
 
 def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
@@ -396,96 +398,39 @@ def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
         one: Marine sheet with the engine's name.
         system: System of units.
     """
-    result = one.result
-    units = {name: _unit(name, system) for name in FIGURES}
-    heads = (f"{remove_unit(name)}_{unit.name.replace('·', '')}" for name, unit in units.items())
+    units = [system.unit(kind) for kind in FIGURES]
+    heads = (
+        f"{k.name}_{unit.name.replace('·', '')}" for k, unit in zip(FIGURES, units, strict=True)
+    )
     lines = (
         (
             name_cell(one.name),
-            speed,
-            order_number(order),
-            *(clean(unit.of(result.figures[name][i, k])) for name, unit in units.items()),
+            speed.speed_rpm,
+            order,
+            *(clean(unit.of(value)) for unit, value in zip(units, figures, strict=True)),
         )
-        for i, speed in enumerate(result.speeds_rpm)
-        for k, order in enumerate(result.orders)
+        for speed in one.result.speeds
+        for order, *figures in map(astuple, speed.orders)
     )
     return Rows(("engine", "speed_rpm", "order", *heads), lines)
 
 
-def _unit(name: str, system: System) -> ShownUnit:
-    return system.force if name.endswith("_N") else system.moment
-
-
-def _find_least(name: str, result: MarineSheet) -> Array:
-    """Return above which size a figure matters, shape (speeds, 1)."""
-    if name.startswith("force"):
-        largest = result.force_of_one
-    elif name.startswith("moment"):
-        largest = result.moment_of_one
-    else:
-        alike = [values for key, values in result.figures.items() if key[:5] == name[:5]]
-        largest = np.nan_to_num(np.hstack(alike)).max(axis=1)
-    return NEGLIGIBLE * largest[:, None]
-
-
-def _find_orders_that_matter(name: str, result: MarineSheet) -> Array:
-    """Return which orders matter at one of the speeds, shape (orders,); if every order is wanted,
-    all that are not 0.
-    """
-    least = 0.0 if result.every_order else _find_least(name, result)
-    return np.asarray(np.any(np.nan_to_num(result.figures[name]) > least, axis=0))
-
-
-# ------------------------------------------------------------------ tables
-def _grid_by_order(
-    title: str, names: tuple[str, ...], result: MarineSheet, system: System
-) -> Grid | Text:
-    """Return a table at one speed: an order a row."""
-    matter = np.any([_find_orders_that_matter(name, result) for name in names], axis=0)
-    shown = np.flatnonzero(matter | (result.orders <= 2) & (result.orders % 1 == 0))
-    units = {name: _fit(names, name, result, system) for name in names}
-    rows = tuple(
-        (
-            order_name(result.orders[k]),
-            *(_cell(name, 0, k, unit, result) for name, unit in units.items()),
-        )
-        for k in map(int, shown)
-    )
-    heads = (f"{_SYMBOLS[name]}, {unit.name}" for name, unit in units.items())
-    return Grid(title, ("order", *heads), rows, _NAMES if names == _EXTERNAL else "")
-
-
-def _grid_by_speed(
-    title: str, names: tuple[str, ...], result: MarineSheet, system: System
-) -> Grid | Text:
-    """Return a table of several speeds: a speed a row, a column an order; one sentence where none
-    matters.
-    """
-    matter = {name: _find_orders_that_matter(name, result) for name in names}
-    orders = range(len(result.orders))
-    chosen = [(name, k) for k in orders for name in names if matter[name][k]]
-    if not chosen:
-        unknown = all(np.isnan(result.figures[name]).all() for name in names)
-        return Text("", (f"{title}: {'not known' if unknown else 'balanced'}.",))
-    unit = _fit(tuple(name for name, _ in chosen), names[0], result, system)
-    heads = (_SYMBOLS[name].replace("n", order_name(result.orders[k])) for name, k in chosen)
-    lines = tuple(
-        (given(speed), *(_cell(name, i, k, unit, result) for name, k in chosen))
-        for i, speed in enumerate(result.speeds_rpm.tolist())
-    )
-    return Grid(f"{title}, {unit.name}", ("rpm", *heads), lines, words=())
-
-
-def _fit(names: tuple[str, ...], like: str, result: MarineSheet, system: System) -> ShownUnit:
-    """Return one unit for all forces or all moments of a table."""
-    unit = _unit(like, system)
-    alike = [result.figures[name] for name in names if _unit(name, system) == unit]
-    return unit.fit(max(float(np.nan_to_num(values).max()) for values in alike))
-
-
-def _cell(name: str, i: int, k: int, unit: ShownUnit, result: MarineSheet) -> str:
-    value, least = float(result.figures[name][i, k]), float(_find_least(name, result)[i, 0])
-    return size_cell(value, unit, negligible=not result.every_order and value < least)
+def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, system: System) -> Grid:
+    """Return a table at one speed: a row for each whole order up to 2 and each that matters."""
+    every = result.every_order
+    chosen = [line for line in result.lines if line.kind in kinds]
+    units, rows = [], []
+    for kind in kinds:
+        alike = (line for line in chosen if line.kind.dimension == kind.dimension)
+        units.append(fit_unit(kind, alike, system))
+    for order in dict.fromkeys(line.order for line in chosen):
+        lines = [line for line in chosen if line.order == order]
+        there = any(line.largest if every else not all(line.negligible) for line in lines)
+        if there or order in (0, 1, 2):
+            sizes = map(partial(show_sizes, every=every, digits=4), lines, units)
+            rows.append((order_name(order or 0), *(size for (size,) in sizes)))
+    heads = (f"{kind.symbol}, {unit.name}" for kind, unit in zip(kinds, units, strict=True))
+    return Grid(title, ("order", *heads), tuple(rows))
 
 
 def _tell_axes(result: MarineSheet) -> str:

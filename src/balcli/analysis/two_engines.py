@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 import numpy as np
 
-from ..core.peaks import Peak, find_peak
-from ..core.phasors import Array, Complex, Figure, Phasors, unit
+from ..core.peaks import Peak
+from ..core.phasors import Array, Figure, Phasors, unit
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type
+from ..file.fields import counted
 from ..forces.kinds import EVERY_KIND, GAS, KINDS, Kind
 from ..forces.spectrum import (
     Spectra,
@@ -37,6 +38,7 @@ from ..show.figures import (
     Peaks,
     describe_state,
     figure_rows,
+    find_peaks,
     list_assumed,
     list_orders,
     measure_engine,
@@ -156,12 +158,6 @@ class Combined(Result):
         return f"of {' and '.join(engine.name or 'an engine' for engine in self.engines)}"
 
     @property
-    def has_gas(self) -> tuple[bool, bool]:
-        """Whether each engine has gas."""
-        first, second = self.engines
-        return first.gas is not None, second.gas is not None
-
-    @property
     def moments_known(self) -> bool:
         """Whether both engine files say where their throws stand."""
         return all(engine.places_known for engine in self.engines)
@@ -195,22 +191,19 @@ def combine_engines(
         *(list_gas_orders(engine) for engine in (first, second) if engine.gas is not None),
     )
     few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = whole = _compute_sum(first, second, arrangement, few)
-    if len(few) < len(computed):  # near the lock tens of thousands: all have a part in the peaks
-        one, other = (replace(engine, gas=None) for engine in (first, second))
-        whole = _compute_sum(one, other, arrangement, computed)
-    shown = (
-        choose_orders(visible, merge_orders(*map(list_gas_orders, (first, second))))
-        if asked is None
-        else asked
-    )
+    visible = _compute_sum(first, second, arrangement, few)
+    if asked is None:
+        of_gas = merge_orders(*map(list_gas_orders, (first, second)))
+        visible = visible.select_orders(choose_orders(visible, of_gas))
+    # near its lock an engine has tens of thousands of orders, and all have a part in the peaks
+    one, other = (replace(engine, gas=None) for engine in (first, second))
     return Combined(
         engines=given,
         arrangement=arrangement,
         state=describe_state(first),
-        spectra=visible.select_orders(shown),
+        spectra=visible,
         assumed=list_assumed(("first", "second"), (first, second)),
-        peak=Peaks(find_peak(whole["force"]), find_peak(whole["moment"])),
+        peak=find_peaks(_compute_sum(one, other, arrangement, computed)),
         every_order=asked is not None,
     )
 
@@ -274,11 +267,10 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
     also changes its sign.
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
+    ahead, against = sign * phasors.forward.conj(), sign * phasors.backward.conj()
     mean = phasors.orders == 0
-    ahead, against = phasors.forward.conj(), phasors.backward.conj()
-    forward: Complex = np.where(mean, ahead, against)
-    backward: Complex = np.where(mean, 0, ahead)
-    return Phasors.of(phasors.orders, sign * forward, sign * backward, phasors.noise)
+    forward, backward = np.where(mean, ahead, against), np.where(mean, 0, ahead)
+    return Phasors.of(phasors.orders, forward, backward, phasors.noise)
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
@@ -353,14 +345,9 @@ def combine(
 
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL = {
-    "first": f"{_GEARED} It drives the load, and the roll is C − T.",
-    "second": f"{_GEARED} The second one drives the load, against its sense: the roll is C + T.",
-    "both": f"{_GEARED} Each has its own flywheel and load: the roll is C − T1 + T2.",
-}
-_GAS = {  # whose gas counts, by whether the first and the second have some
-    (True, True): "of both; their torques add as those of inertia do",
-    (True, False): "of the first alone; the file of the second has no [gas]",
-    (False, True): "of the second alone; the file of the first has no [gas]",
+    "first": "It drives the load, and the roll is C − T.",
+    "second": "The second one drives the load, against its sense: the roll is C + T.",
+    "both": "Each has its own flywheel and load: the roll is C − T1 + T2.",
 }
 
 
@@ -384,7 +371,7 @@ def sheet(result: Combined, system: System) -> Sheet:
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
     how, pivot = result.arrangement, tell_pivot(result.engines[0])
-    roll = _ROLL[how.load] if how.reverse else ""
+    roll = f"{_GEARED} {_ROLL[how.load]}" if how.reverse else ""
     parts: tuple[Facts | Grid, ...] = (
         Facts(tuple(_list_facts(result, system))),
         *order_tables(spectra, system, pivot, roll, every=result.every_order),
@@ -396,9 +383,9 @@ def sheet(result: Combined, system: System) -> Sheet:
 def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     """Yield the engines, and how they stand and turn next to each other."""
     (first, second), how = result.engines, result.arrangement
-    for which, engine in (("first", first), ("second", second)):
-        count = engine.cylinders.count
-        yield which, f"{engine.name}, {count} cylinder{'s' * (count > 1)}"
+    named = {"first": first, "second": second}
+    for which, engine in named.items():
+        yield which, f"{engine.name}, {counted(engine.cylinders.count, 'cylinder')}"
     place = _tell_place(how.at_m, system.length)
     yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
     against = ", and turns against the first" if how.reverse else ""
@@ -407,8 +394,8 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     other = slower or second.ripple not in ((), first.ripple)
     ignored = "; what the second's file says of its speed does not count" * other
     yield "speed", f"both at {tell_speed(first)}{ignored}"
-    if any(result.has_gas):
-        yield "gas", _GAS[result.has_gas]
+    if fired := [which for which, engine in named.items() if engine.gas is not None]:
+        yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
     if result.assumed:
         yield "assumed", tell_assumed(result.assumed)
     if result.moments_known:

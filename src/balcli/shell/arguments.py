@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, list_values, refuse_more, wrong_type
+from ..errors import BalcliError, InputError, list_words, refuse_more, wrong_type
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
@@ -72,11 +72,7 @@ def join_names(function: str, words: Words | None) -> str | None:
     """
     if words is None or isinstance(words, str):
         return words
-    if isinstance(words, Iterable):
-        listed = list_values(function, words)
-        if all(isinstance(word, str) for word in listed):
-            return ",".join(listed)
-    raise wrong_type(function, words, 'give names, such as ["force.2.major", "moment.1.backward"]')
+    return ",".join(list_words(function, words, '["force.2.major", "moment.1.backward"]'))
 
 
 def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:

@@ -28,9 +28,7 @@ TEXTS = {
     ".md": Format.MARKDOWN,
 }
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
-_LATEX = "for LaTeX let pandoc convert Markdown (pandoc X.md -o X.tex)"
 _INSTEAD = {
-    ".tex": _LATEX,
     **dict.fromkeys(
         PICTURES,
         "pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
@@ -119,8 +117,7 @@ def format_option(formats: type[StrEnum], text: str) -> object:
             return formats(_SHORT.get(small, small))
         except ValueError:
             known = ", ".join(f"'{one}'" for one in formats)
-            latex = f"; {_LATEX}" if small in ("latex", "tex") and "markdown" in [*formats] else ""
-            raise typer.BadParameter(f"'{name}' is not one of {known}{latex}.") from None
+            raise typer.BadParameter(f"'{name}' is not one of {known}.") from None
 
     names = "|".join(formats)
     return optional(names, text, "--format", "-f", parser=parse)

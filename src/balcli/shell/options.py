@@ -14,11 +14,11 @@ from ..limits import (
     HIGHEST_GUIDE_M,
     HIGHEST_ORDER,
     LONGEST_SHOWN,
-    MOST_SMALL,
     SMALL,
     SMALLEST_POSITIVE,
 )
 from ..show.formats import Format, Units
+from ..sizing.options import check_small
 from .file_names import format_option, parse_output
 from .values import optional, read_length, read_share, read_speed
 
@@ -163,12 +163,8 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
             raise BalcliError(start + right)
         if not 2 * least <= low <= high <= 2 * most:
             raise BalcliError(f"{start}{part.strip()} {bounds}")
-        in_halves = low % 2 or high % 2
-        orders += (
-            [half / 2 for half in range(low, high + 1)]
-            if in_halves
-            else range(low // 2, high // 2 + 1)
-        )
+        step = 1 if low % 2 or high % 2 else 2
+        orders += [half / 2 for half in range(low, high + 1, step)]
     return orders
 
 
@@ -224,11 +220,8 @@ def parse_small(text: str | None) -> float:
     Raises:
         BalcliError: no share from 0 to MOST_SMALL.
     """
-    wanted = f"a share of one cylinder's first order from 0 to {MOST_SMALL:.0%}, such as 2%"
-    share = SMALL if text is None else read_share("--small", text, wanted)
-    if not 0 <= share <= MOST_SMALL:
-        raise BalcliError(f'--small "{text}": give {wanted}')
-    return share
+    wanted = "a share of one cylinder's first order, such as 2%"
+    return check_small(SMALL if text is None else read_share("--small", text, wanted))
 
 
 def parse_speed(text: str | None) -> float | None:
@@ -262,7 +255,7 @@ def parse_guide_height(text: str | None, units: Units) -> float | None:
     height = read_length("--guide-height", text, units)
     if not 0 < height < HIGHEST_GUIDE_M:
         raise BalcliError(
-            f"--guide-height {text}: the distance from the crankshaft to the middle of the guides "
-            f"must be positive, below {HIGHEST_GUIDE_M:g} m"
+            f"--guide-height {text}: must be positive, below {HIGHEST_GUIDE_M:g} m, from the "
+            "crankshaft to the middle of the guides"
         )
     return height

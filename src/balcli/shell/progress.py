@@ -128,7 +128,8 @@ def reporting_until_stopped(
             progress.stopped = True
             signal.signal(signal.SIGINT, before)
 
-        signal.signal(signal.SIGINT, before if before is signal.SIG_IGN else stop)
+        if before is not signal.SIG_IGN:
+            signal.signal(signal.SIGINT, stop)
         try:
             yield progress
         finally:

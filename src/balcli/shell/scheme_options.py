@@ -86,7 +86,7 @@ def parse_scheme_options(
         position=along,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else _parse_factors(factor),
-        measured=None if measured is None else _parse_measured(measured, units),
+        measured=None if measured is None else read_mass_on_scales("--measured", measured, units),
         roll=roll,
         small=None if small is None else parse_small(small),
     )
@@ -128,23 +128,13 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     return places
 
 
-def _parse_measured(text: str, units: Units) -> float:
-    """Return a mass in kg."""
-    mass = read_mass_on_scales("--measured", text, units)
-    if mass < 0:
-        raise BalcliError(f'--measured "{text[:60]}": a mass on the pin is not negative')
-    return mass
-
-
 def _parse_factors(text: str) -> tuple[float, ...]:
     """Return the factors of `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
     if ":" not in text:
-        if re.fullmatch(r"0,\d+|\d+,\d+ *%", text) and max(parts) > LARGEST_FACTOR:
-            raise BalcliError(
-                f'--factor "{text}": decimals take a point, such as {text.replace(",", ".")}'
-            )
+        if max(parts) > LARGEST_FACTOR and "," in text:
+            raise BalcliError(f'--factor "{text}": decimals take a point, not a comma')
         return tuple(parts)
     first, last, step = parts if len(parts) == 3 else (1, 0, 1)
     if not (step > 0 and last >= first and (last - first) / step <= MOST_FACTORS):

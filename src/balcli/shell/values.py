@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -57,9 +56,7 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
     Raises:
         BalcliError: It is no length.
     """
-    found = _read(option, text, LENGTH, units) / 1e3
-    _doubt_metres(option, text, [_as_bare(text)])
-    return found
+    return _read(option, text, LENGTH, units) / 1e3
 
 
 def read_lengths(
@@ -85,15 +82,7 @@ def read_lengths(
     found = tuple(_read(option, part, LENGTH, units) / 1e3 for part in parts)
     if not all(map(math.isfinite, found)):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
-    _doubt_metres(option, text, bare)
     return found
-
-
-def _doubt_metres(option: str, text: str, bare: Sequence[float | None]) -> None:
-    """Warn where no bare length is as much as a millimetre."""
-    largest = max((abs(length) for length in bare if length is not None), default=0.0)
-    if 0 < largest < 1:
-        warn(f'{_shown(option, text)}: bare lengths are mm; metres are said as in "{largest:g} m"')
 
 
 def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
@@ -145,15 +134,6 @@ def read_speed(option: str, text: str) -> float:
     return _read(option, text, SPEED, Units.SI)
 
 
-def doubt_thousands(option: str, text: str) -> None:
-    """Warn of two speeds that look like one with a comma between thousands: `6,500`."""
-    if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
-        warn(
-            f"{_shown(option, text)}: a comma parts speeds, not thousands: was "
-            f"{figure[1]}{figure[2]} rpm meant?"
-        )
-
-
 def read_number(option: str, text: str, needed: str) -> float:
     """Return a plain number; BalcliError with the option, its text and the wanted value."""
     value = _as_bare(text)
@@ -162,21 +142,10 @@ def read_number(option: str, text: str, needed: str) -> float:
     return value
 
 
-def convert_speed(text: str) -> float:
-    """Return a speed in rpm, for one of a range; ValueError for anything else."""
-    value = _as_bare(text)
-    if value is None:
-        return convert(text, SPEED)
-    refuse_thousands(text, value, SPEED)
-    return value
-
-
 def read_share(option: str, text: str, needed: str) -> float:
     """Return a share, given as a number or in per cent; errors as of `read_number`."""
     number, percent, rest = text.strip().partition("%")
-    value = _as_bare(number)
-    if value is None or rest or not math.isfinite(value):
-        raise BalcliError(f"{_shown(option, text)}: give {needed}")
+    value = read_number(option, text if rest else number, needed)
     return value / 100 if percent else value
 
 
@@ -185,25 +154,18 @@ def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
     judge.
     """
     value = _as_bare(text)
-    if value is None:
-        return _convert(option, text, dimension)
     if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
         ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
         raise BalcliError(
             f"{_shown(option, text)}: with --units imperial {dimension.name} needs its unit: {ways}"
         )
     try:
+        if value is None:
+            return convert(text, dimension)
         refuse_thousands(text, value, dimension)
     except ValueError as error:
         raise BalcliError(f"{_shown(option, text)}: {error}") from None
     return value
-
-
-def _convert(option: str, text: str, dimension: Dimension) -> float:
-    try:
-        return convert(text, dimension)
-    except ValueError as error:
-        raise BalcliError(f"{_shown(option, text)}: {error}") from None
 
 
 def _as_bare(text: str) -> float | None:
@@ -259,27 +221,26 @@ def parse_speeds(
     import numpy as np
 
     right = "give first:last:step in rpm, such as 1000:2500:25, or speeds such as 1500,2000"
-    start = f'{option} "{text[:LONGEST_SHOWN]}": '
+    start, ranged = f"{_shown(option, text)}: ", ":" in text
     try:
-        ranged = ":" in text
-        figures = [convert_speed(part) for part in text.split(":" if ranged else ",")]
-    except ValueError as error:
-        thousands = f"{error}; " if "thousands:" in str(error) else ""
-        raise BalcliError(f"{start}{thousands}{right}") from None
+        figures = [read_speed(option, part) for part in text.split(":" if ranged else ",")]
+    except BalcliError as error:
+        hint = str(error).partition('": ')[2]
+        raise BalcliError(f"{start}{f'{hint}; ' * ('thousands:' in hint)}{right}") from None
     if ranged and len(figures) > 3:
         raise BalcliError(start + right)
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
-    doubt_thousands(option, text)
+    if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
+        meant = f"{figure[1]}{figure[2]} rpm"
+        warn(f"{start}a comma parts speeds, not thousands: was {meant} meant?")
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]
     if not (first <= last and (step > 0 or first == last)):
         raise BalcliError(f"{start}must rise; {right}")
-    if first == last:
-        return np.array([first])
-    count = int((last - first) / step + 1e-9) + 1
+    count = int((last - first) / step + 1e-9) + 1 if step else 1
     if count > most:
         raise BalcliError(f"{start}has {count} speeds; at most {most} are computed")
     speeds = np.round(first + step * np.arange(count), 9)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..core.cylinders import Device, DeviceKind, find_travel
+from ..core.cylinders import find_travel
 from ..core.phasors import Figure
 from ..engine.engine import Engine, SilentCylinders
 from ..file.fields import count_lambda_digits
@@ -52,8 +52,6 @@ def engine_facts(
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
     count = len(engine.devices)
     devices = f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
-    if any(map(_has_arm, engine.devices)):
-        devices += "; a slider whose path misses the crank axis changes couple and roll"
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
     pairs = (
         ("cylinders", cylinders),
@@ -71,14 +69,6 @@ def engine_facts(
         ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
-
-
-def _has_arm(device: Device) -> bool:
-    """Return whether a slider moves on a line that misses the crank axis."""
-    if device.kind != DeviceKind.SLIDER:
-        return False
-    along = device.place**2 * np.conj(device.forward * device.backward)  # positive: through it
-    return bool(abs(along - abs(along)) > 1e-12 * abs(along))
 
 
 def _tell_inferred(engine: Engine) -> str:

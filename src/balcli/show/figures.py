@@ -9,7 +9,7 @@ from typing import Annotated, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.peaks import Peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
 from ..engine.engine import Engine, SilentCylinders
@@ -214,6 +214,11 @@ class FigureRow(NamedTuple):
     unit: str
 
 
+def find_peaks(spectra: Spectra) -> Peaks:
+    """Return the peaks of force and moment, of all orders that they have."""
+    return Peaks(find_peak(spectra["force"]), find_peak(spectra["moment"]))
+
+
 def measure_engine(engine: Engine) -> EngineSize:
     """Return name and size of an engine without trailing axes."""
     return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
@@ -380,9 +385,8 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
         peak: Largest value (SI) and its crank angle.
         unit: Unit of the value.
     """
-    found = Reached("peak", "peak_deg").split(peak)
-    yield FigureRow(0, quantity, None, "peak", clean(unit.of(peak.value)), unit.name)
-    yield FigureRow(0, quantity, None, "peak_deg", found["peak_deg"], "deg")
+    for figure in _flattened(Reached("peak", "peak_deg").split(peak), unit):
+        yield FigureRow(0, quantity, None, *figure)
 
 
 def order_rows(

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Generic, TypeVar, assert_never
 
 from ..core.records import Node, to_document
 from .csv import csv_text, json_text
-from .table import markdown, plain_text
+from .table import coloured_text, markdown, plain_text
 
 if TYPE_CHECKING:
     from .csv import Columns, Rows
@@ -103,8 +105,8 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
     """
     if form is Format.MARKDOWN:
         return markdown(sheets)
-    if seen:
-        from .terminal import terminal  # rich
-
-        return terminal(sheets)
-    return plain_text(sheets)
+    if not seen:
+        return plain_text(sheets)
+    without_styles = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    write = plain_text if without_styles else coloured_text
+    return write(sheets, get_terminal_size().columns)

@@ -1,7 +1,7 @@
-"""Sheets as plain text and as Markdown.
+"""Sheets as text, plain or with the styles of a terminal, and as Markdown.
 
-Plain text is what rich would print without colours; importing rich takes longer than all else that
-a command does.
+Plain text is what rich would print into a file; it is laid out here, because rich folds figures
+where a table is too wide, and its import is a tenth of the run time of `analyze`.
 """
 
 from __future__ import annotations
@@ -21,44 +21,82 @@ PROSE = 50  # width at which columns of words are folded; figures never are
 _SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write ourselves takes one place each
 
 
-def plain_text(sheets: Sequence[Sheet]) -> str:
+Piece = tuple[str, str]  # of a line: its text, and its style in a terminal
+_BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # codes of ANSI
+
+
+def plain_text(sheets: Sequence[Sheet], width: int = WIDTH) -> str:
     """Return all sheets one after the other, no line with blanks at its end."""
-    text = "\n".join(line for sheet in sheets for line in _lines(sheet))
-    return legible("\n".join(line.rstrip() for line in text.split("\n")))
+    lines = (line for sheet in sheets for line in _lines(sheet, width))
+    return "\n".join(legible("".join(text for text, _ in line)).rstrip() for line in lines)
 
 
-def _lines(sheet: Sheet) -> Iterator[str]:
-    yield sheet.title
+def coloured_text(sheets: Sequence[Sheet], width: int) -> str:
+    """Return all sheets with escapes for a terminal of this width. Figures are never broken: a
+    table that is too wide is divided into pieces, each with the first column.
+    """
+    lines = (line for sheet in sheets for line in _lines(sheet, width, divided=True))
+    return "\n".join("".join(map(_paint, line)).rstrip() for line in lines)
+
+
+def _paint(piece: Piece) -> str:
+    text, style = piece
+    return f"\x1b[{style}m{legible(text)}\x1b[0m" if style and text.strip() else legible(text)
+
+
+def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[Piece]]:
+    yield [(sheet.title, _BOLD)]
     for part in sheet.parts:
-        yield ""
+        yield []
         if part.title:
-            yield part.title
+            yield [(part.title, _BOLD)]
         match part:
             case Grid():
-                yield from _grid_lines(part)
-                if part.note:
-                    yield from fold(part.note, WIDTH)
+                for grid in _divide(part, width) if divided else (part,):
+                    yield from _grid_lines(grid, width)
+                yield from ([(line, _DIM)] for line in fold(part.note, width) if line)
             case Facts():
-                yield from _fact_lines(part)
+                yield from _fact_lines(part, width)
             case Text():
-                yield from chain.from_iterable(fold(p, WIDTH) for p in part.paragraphs)
-    yield ""
+                for paragraph in part.paragraphs:
+                    yield from ([(line, _PLAIN)] for line in fold(paragraph, width))
+    yield []
 
 
-def _grid_lines(grid: Grid) -> Iterator[str]:
+def _divide(grid: Grid, width: int) -> Iterator[Grid]:
+    """Yield tables of as many columns as fit, each with the first column."""
+    least = [_narrow(grid, k) for k in range(len(grid.columns))]
+    pieces = [[0]]
+    for k in range(1, len(least)):
+        wider = [*pieces[-1], k]
+        if len(wider) > 2 and sum(least[j] + 2 for j in wider) - 2 > width:
+            pieces.append([0, k])
+        else:
+            pieces[-1] = wider
+    for piece in pieces:
+        yield grid._replace(
+            columns=tuple(grid.columns[k] for k in piece),
+            rows=tuple(tuple(row[k] for k in piece) for row in grid.rows),
+            marked=frozenset((i, piece.index(k)) for i, k in grid.marked if k in piece),
+            words=tuple(place for place, k in enumerate(piece) if k in grid.words),
+        )
+
+
+def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
     """Yield headings, a rule, and the rows; words to the left, figures to the right."""
     every = range(len(grid.columns))
     natural = [_measure(grid, k) for k in every]
     narrow = [_narrow(grid, k) for k in every]
     whole = [natural[0], *narrow[1:]]  # the headings of rows on one line
     for gap, least in ((GAP, natural), (2, whole), (1, whole), (2, narrow)):
-        if sum(least) + gap * (len(least) - 1) <= WIDTH:
+        if sum(least) + gap * (len(least) - 1) <= width:
             break
-    widths = list(share_out(WIDTH, every, least, natural, gap).values())
-    yield from _row_lines(grid.columns, widths, grid.words, gap)
-    yield "─" * (sum(widths) + gap * (len(widths) - 1))
-    for row in grid.rows:
-        yield from _row_lines(row, widths, grid.words, gap)
+    widths = _share_out(width, least, natural, gap)
+    yield from _row_lines(grid, grid.columns, [_PLAIN] * len(widths), widths, gap)
+    yield [("─" * (sum(widths) + gap * (len(widths) - 1)), _PLAIN)]
+    for i, row in enumerate(grid.rows):
+        styles = [_RED if (i, k) in grid.marked else _PLAIN if k else _BOLD for k in every]
+        yield from _row_lines(grid, row, styles, widths, gap)
 
 
 def _measure(grid: Grid, k: int) -> int:
@@ -90,37 +128,39 @@ def longest_word(texts: Iterable[str]) -> int:
     return max((count_places(word) for text in texts for word in text.split()), default=1)
 
 
-def share_out(
-    width: int, columns: Sequence[int], least: Sequence[int], natural: Sequence[int], gap: int = 2
-) -> dict[int, int]:
+def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: int) -> list[int]:
     """Return the width of each column: the least width, and the remaining width place by place to
     the column that lacks most.
 
     Args:
         width: Width of the table.
-        columns: Columns in it.
         least: Least width of every column.
         natural: Width of every column without folding.
         gap: Blanks between columns.
     """
-    widths = {k: least[k] for k in columns}
-    for _ in range(width - sum(widths.values()) - gap * (len(columns) - 1)):
-        needy = max(columns, key=lambda k: natural[k] - widths[k])
-        widths[needy] += natural[needy] > widths[needy]
+    widths = list(least)
+    for _ in range(width - sum(widths) - gap * (len(widths) - 1)):
+        lacking = [wanted - got for wanted, got in zip(natural, widths, strict=True)]
+        widths[lacking.index(max(lacking))] += max(lacking) > 0
     return widths
 
 
 def _row_lines(
-    cells: Sequence[str], widths: Sequence[int], words: Sequence[int], gap: int
-) -> Iterator[str]:
+    grid: Grid, cells: Sequence[str], styles: Sequence[str], widths: Sequence[int], gap: int
+) -> Iterator[list[Piece]]:
     """Yield one line, or as many as the longest of its cells takes when it is folded."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
-    for pieces in zip_longest(*folded, fillvalue=""):
-        columns = enumerate(zip(pieces, widths, strict=True))
-        yield (" " * gap).join(_justify(*cell, to_the_left=k in words) for k, cell in columns)
+    for texts in zip_longest(*folded, fillvalue=""):
+        line: list[Piece] = []
+        for k, (text, style) in enumerate(zip(texts, styles, strict=True)):
+            line += [
+                (" " * gap * (k > 0), _PLAIN),
+                (_justify(text, widths[k], k in grid.words), style),
+            ]
+        yield line
 
 
-def _justify(text: str, width: int, *, to_the_left: bool) -> str:
+def _justify(text: str, width: int, to_the_left: bool) -> str:
     blanks = " " * (width - count_places(text))
     return text + blanks if to_the_left else blanks + text
 
@@ -148,13 +188,14 @@ def fold(text: str, width: int) -> list[str]:
     return [line for line in lines if line]
 
 
-def _fact_lines(facts: Facts) -> Iterator[str]:
+def _fact_lines(facts: Facts, width: int) -> Iterator[list[Piece]]:
     """Yield names to the left, their values to the right."""
-    width = max((count_places(name) for name, _ in facts.pairs), default=0)
-    room = max(WIDTH - width - FACTS_GAP, PROSE)
+    names = max((count_places(name) for name, _ in facts.pairs), default=0)
+    room = max(width - names - FACTS_GAP, PROSE)
     for name, value in facts.pairs:
         for k, line in enumerate(fold(value, room)):
-            yield _justify("" if k else name, width, to_the_left=True) + " " * FACTS_GAP + line
+            head = _justify("" if k else name, names, to_the_left=True)
+            yield [(head, _DIM), (" " * FACTS_GAP + line, _PLAIN)]
 
 
 def count_places(text: str) -> int:

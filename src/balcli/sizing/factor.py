@@ -5,8 +5,8 @@ share of the reciprocating mass of the rods on it; less what the file's own coun
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from contextlib import suppress
+from itertools import compress
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +18,6 @@ from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import Engine
-from ..engine.rods import CylinderMasses
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
@@ -32,18 +31,6 @@ from .remedy import Remedy, fit_devices, remove_counterweights
 _NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
 _FLAT = 1e-9  # of the largest value: factors that differ by less are equally good
 _ROUNDS = 32  # to 2e-7 of the range of factors
-COMPLETE = "nothing is missing: the counterweights of the file balance this factor"
-IN_SUM = (
-    "nothing is missing in sum; opposite which pin the counterweights of the file stand is not "
-    "known, as moments are not"
-)
-OF_ITSELF = "nothing is missing: the masses on the pins balance each other in these planes"
-OWN_PLACES = (
-    "these planes are where the counterweights of the file stand; --planes throws computes "
-    "weights at every throw instead"
-)
-
-
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _UNCHANGED = 1e-9  # of the wanted weight: a change below this is none
 
@@ -102,15 +89,20 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
         fitting = fitting.add_details(best=bests)
     own = bool(_find_counterweights(engine)[1].any())
     from_pin = (complex(unit(-float(engine.first_axis_deg))) * found.needs).T.tolist()
-    needs = [
+    needs = tuple(
         PlaneNeed(position_mm=1e3 * z, wanted=wanted, present=present, missing=missing)
         for z, (wanted, present, missing) in zip(found.z.tolist(), from_pin, strict=True)
-    ]
-    unasked = options.planes is None and planes is not None
+    )
+    note = _note(fitting, best, found.z, own)
+    if not note and options.planes is None and planes is not None:
+        note = (
+            "these planes are where the counterweights of the file stand; --planes throws computes "
+            "weights at every throw instead"
+        )
     return fitting.remedy._replace(
-        note=_note(fitting, best, found.z, own=own, unasked=unasked),
+        note=note,
         card=fill_card(engine, best),
-        needs=tuple(needs) if own else (),
+        needs=needs if own else (),
         sweep=sweep if len(sweep) > 1 else (),
     )
 
@@ -148,10 +140,10 @@ def _find_best_factors(
         tried = [*(one["factor"] for one in best.values()), round(low + share * (high - low), 6)]
         sizes = [judge((factor - low) / (high - low)) for factor in tried]
         least, most = min(sizes), max(judge(0.0), judge(1.0))
-        factor = tried[next(k for k, size in enumerate(sizes) if size - least <= _FLAT * most)]
         if most - least > _FLAT * most:
+            flat = (size - least <= _FLAT * most for size in sizes)
             name = key.removeprefix("peak_").rpartition("_")[0]
-            best[name] = {"factor": factor, key: least}
+            best[name] = {"factor": next(compress(tried, flat)), key: least}
     return best
 
 
@@ -174,32 +166,24 @@ def _list_curves(
     return curves
 
 
-def _note(fitting: Fitting, factor: float, z: Array, *, own: bool, unasked: bool) -> str:
-    """Return a note on the planes: the file may have counterweights of its `own`, and their planes
-    may have been chosen `unasked`.
-    """
-    if _loses_moment(fitting.engine, factor, z):
-        return SAME_PLACE
+def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
+    """Return a note on what the factor or the planes leave; `own`: the file has counterweights."""
+    engine = fitting.engine
+    if len(set(z)) == 1 and engine.places_known:  # a moment about the one plane stays
+        pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
+        arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
+        vectors = np.array([*(pin.unbalance for pin in pins), *weights])
+        if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
+            return SAME_PLACE
     if factor < 0:
         return "a factor below 0: not even all rotating mass is balanced"
     if factor > 1:
         return "a factor above 1: more than all reciprocating mass on the pin is balanced"
-    if not fitting.remedy.devices:
-        complete = COMPLETE if fitting.engine.places_known else IN_SUM
-        return complete if own else OF_ITSELF
-    return OWN_PLACES if unasked else ""
-
-
-def _loses_moment(engine: Engine, factor: float, z: Array) -> bool:
-    """Return whether there is one plane alone, about which pins or weights elsewhere make a
-    moment.
-    """
-    if len(set(z)) != 1 or not engine.places_known:
-        return False
-    pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
-    arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
-    vectors = np.array([*(pin.unbalance for pin in pins), *weights])
-    return bool(abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)))
+    if fitting.remedy.devices:
+        return ""
+    if own:
+        return "nothing is missing: the counterweights of the file balance this factor"
+    return "nothing is missing: the masses on the pins balance each other in these planes"
 
 
 def find_factor_peaks(
@@ -308,27 +292,26 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
             "--factor: a range does not go together with --measured, which is what the crankshaft "
             "has now; give one factor, such as 55%"
         )
-    measured = options.measured or 0.0
-    has, radius = find_measured_factor(engine, measured), float(engine.cylinders.radius)
-    wanted = options._replace(measured=None)
-    card, slots, unbalances = fill_card(engine, _choose_factors(engine, wanted)[0]), [], []
+    measured, radius = options.measured or 0.0, float(engine.cylinders.radius)
+    has, wanted = find_measured_factor(engine, measured), options._replace(measured=None)
+    card = fill_card(engine, _choose_factors(engine, wanted)[0])
+    slots, unbalances, actions = [], [], []
     for rows, one in zip(engine.rows_by_pin, card, strict=True):
-        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
-        masses = np.array([float(w.rotating + w.reciprocating) for w in _weigh(engine, rows)])
+        weighed = [engine.weighed[row] for row in rows]
+        masses = np.array([float(w.rotating + w.reciprocating) for w in weighed])
         z = _find_centre(masses, engine.cylinders.z[rows])
         slots.append(Slot("counterweight", 1, 1, z))
+        pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
         unbalances.append(-(measured + one.throw_g / 1e3) * radius * pin)
-    bare = remove_counterweights(engine)
-    start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
-    base = fit_devices(bare, start)
-    remedy = size_by_factor(base, wanted)
-    actions = []
-    for one in card:
         wants = one.bobweight_g / 1e3 * radius
         change = wants - measured * radius
         change = change if abs(change) > _UNCHANGED * abs(wants) else 0.0
         action = "add" if change > 0 else "remove" if change else "nothing"
         actions.append({"throw": one.throw, "unbalance_kg_m": change, "action": action})
+    bare = remove_counterweights(engine)
+    start = Fitting.start(bare, "factor").add(slots, unbalances, _MEASURED).remedy
+    base = fit_devices(bare, start)
+    remedy = size_by_factor(base, wanted)
     remedy = remedy.add_details(
         measured_g=1e3 * measured,
         measured_factor=has,
@@ -434,7 +417,7 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
     """Return the load of each crank pin; pins without load are left out."""
     pins = []
     for rows in engine.rows_by_pin:
-        weighed = _weigh(engine, rows)
+        weighed = [engine.weighed[row] for row in rows]
         masses = np.array([float(w.rotating + w.share + factor * w.reciprocating) for w in weighed])
         if total := float(masses.sum()):
             pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
@@ -442,10 +425,6 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
             z = _find_centre(masses, engine.cylinders.z[rows])
             pins.append(_Pin(cylinders, total * float(engine.cylinders.radius) * pin, z))
     return pins
-
-
-def _weigh(engine: Engine, rows: Sequence[int]) -> list[CylinderMasses]:
-    return [engine.weighed[row] for row in rows]
 
 
 def _find_centre(masses: Array, places: Array) -> float:

@@ -9,41 +9,24 @@ it cancels is not small compared with one cylinder.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import reduce
-from operator import add
-from typing import Annotated, NamedTuple
+from typing import Annotated
 
 import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.peaks import find_largest
-from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN
-from ..engine.devices import build_device
 from ..engine.engine import Engine
 from ..errors import BalcliError
-from ..forces.crankshaft import (
-    compute_bearing_forces,
-    compute_bending,
-    compute_loads,
-    is_counterweight,
-    join_loads,
-    place_bearings,
-)
-from ..forces.spectrum import (
-    compute_device_force,
-    compute_spectra,
-    find_relevant_orders,
-    merge_orders,
-)
+from ..forces.crankshaft import find_crank_loads
+from ..forces.spectrum import compute_spectra, find_relevant_orders, merge_orders
 from ..limits import SMALL, WORTH_A_SHAFT
 from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
 from .options import check_small
 from .planes import find_ends, find_planes, find_unbalance
-from .remedy import Remedy
+from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD,
     FORWARD,
@@ -176,13 +159,11 @@ class Ladder:
     def _explain(self, out: LeftOut) -> str:
         """Return the effect of an omitted step, and the option that lists it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
-        moment = "" if out.moment_Nm is None else f" and {out.moment_Nm:.4g} N·m"
-        does = f"it would take {out.force_N:.4g} N{moment}"
+        does, hint = "take", f"; --small {math.floor(share)}% lists it"
         if fall is not None:
-            change = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load"
-            does = f"it would {change} by {abs(fall):.4g} N"
-        hint = f"; --small {math.floor(share)}% lists it" if fall is None or fall > 0 else ""
-        return f"{does}, {abs(share):.2g} % of one cylinder{hint}"
+            does = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load by"
+            hint = hint if fall > 0 else ""
+        return f"it would {does} {abs(share):.2g} % of one cylinder's first order{hint}"
 
     def measure(self, out: LeftOut) -> float:
         """Return the size of the part that a step would cancel, or by how much it would lower a
@@ -260,57 +241,53 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     check_small(small)
     drawn, scales = Fitting.start(engine, ""), find_scales(engine)
     first, second = drawn.find_residual(1), drawn.find_residual(2)
-    meter = _Meter.start(engine)
-    listed, left_out, fitting = _list_weights(drawn, first, meter, scales, small)
-    auto, shafts = listed[-1].step, {}
+    steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
+    auto = steps[-1].step
     for name, residual, senses in ((SHAFT, first, (-1,)), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
         if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:
             fitting = add_shafts(fitting, residual, due)
-            shafts[name] = fitting.remedy
+            steps.append(_make_step(name, engine, fitting))
             auto = name if max(sizes.values()) >= WORTH_A_SHAFT else auto
         elif any(sizes.values()):
             left_out.append(_leave_out(name, engine, residual, senses))
-    steps = (*listed, *meter.measure(shafts, within=listed[-1]).values())
     moment = scales.moment if engine.places_known else None
     scale = Scale(force_N=scales.force, moment_Nm=moment)
-    return Ladder(scale=scale, auto=auto, steps=steps, left_out=tuple(left_out), small=small)
+    return Ladder(scale=scale, auto=auto, steps=tuple(steps), left_out=tuple(left_out), small=small)
 
 
 def _list_weights(
-    drawn: Fitting, first: Residual, meter: _Meter, scales: Scales, small: float
+    engine: Engine, drawn: Fitting, first: Residual, scales: Scales, small: float
 ) -> tuple[list[Step], list[LeftOut], Fitting]:
     """Return the listed steps as drawn and with counterweights, those that are left out, and the
     fitting of the last one listed.
 
     Args:
+        engine: Engine as drawn.
         drawn: Nothing fitted.
         first: Residual of order 1.
-        meter: Measures steps.
         scales: Force, moment and roll of one cylinder.
         small: Share of one cylinder below which a part is left.
     """
-    engine = drawn.engine
     turning = find_size(first, 1, scales)
-    fitted = {AS_DRAWN: drawn}
-    if turning:
-        fitted[WEIGHTS] = add_at_ends(drawn, first)
-    if meter.loads is not None and len(set(engine.joined_throws_m.tolist())) > 2:
-        fitted[WEIGHTS_AT_THROWS] = add_at_throws(drawn)
-    found = meter.measure({name: fitting.remedy for name, fitting in fitted.items()})
-    names, left_out = [AS_DRAWN], []
+    fitting, steps, left_out = drawn, [_make_step(AS_DRAWN, engine, drawn)], []
     if not is_small(turning, small):
-        names.append(WEIGHTS)
-    if step := found.get(WEIGHTS_AT_THROWS):
-        load = found[names[-1]].main_bearing_N or 0.0
+        fitting = add_at_ends(drawn, first)
+        steps.append(_make_step(WEIGHTS, engine, fitting))
+    inside = steps[0].inner_moment_Nm is not None
+    if inside and len(set(engine.joined_throws_m.tolist())) > 2:
+        at_throws = add_at_throws(drawn)
+        step = _make_step(WEIGHTS_AT_THROWS, engine, at_throws)
+        load = steps[-1].main_bearing_N or 0.0
         fall = load - (step.main_bearing_N or 0.0)
         if fall > LEFT * load and not is_small(fall, small * scales.force):
-            names.append(WEIGHTS_AT_THROWS)
+            fitting = at_throws
+            steps.append(step)
         elif step.counterweights:
             left_out.append(_leave_out(WEIGHTS_AT_THROWS, engine, first, [1], fall))
-    if turning and names == [AS_DRAWN]:
+    if turning and len(steps) == 1:
         left_out.insert(0, _leave_out(WEIGHTS, engine, first, [1]))
-    return [found[name] for name in names], left_out, fitted[names[-1]]
+    return steps, left_out, fitting
 
 
 def _leave_out(
@@ -330,91 +307,24 @@ def _leave_out(
     )
 
 
-_FREE = ("peak_force_N", "peak_moment_Nm")
-_WITHIN = ("main_bearing_N", "inner_moment_Nm")
-
-
-class _Meter(NamedTuple):
-    """Figures of an engine as drawn, to which those of devices are added: each is linear in them.
-
-    Attributes:
-        engine: Engine as drawn.
-        free: Free force and moment (of unknown positions: force), shape (orders,).
-        loads, z: Forces of cylinders and counterweights, and their positions, m; None where they
-            are not known, or too many.
-        bearings_m: Positions of the main bearings; None where all throws stand in one plane.
-    """
-
-    engine: Engine
-    free: list[Phasors]
-    loads: Phasors | None
-    z: Array
-    bearings_m: Array | None
-
-    @classmethod
-    def start(cls, engine: Engine) -> _Meter:
-        """Return the figures of an engine."""
-        orders = merge_orders(find_relevant_orders(engine), [1, 2])
-        kinds = ("force", "moment") if engine.places_known else ("force",)
-        free = [phasors for _, phasors in compute_spectra(engine, orders, kinds).items()]
-        loads, z = None, np.zeros(0)
-        if engine.places_known and not engine.rotary:
-            with suppress(BalcliError):  # too many to keep apart
-                loads, z = compute_loads(engine, orders)
-        return cls(engine, free, loads, z, place_bearings(engine.joined_throws_m))
-
-    def measure(
-        self, remedies: Mapping[str, Remedy], *, within: Step | None = None
-    ) -> dict[str, Step]:
-        """Return the steps with these devices, by name.
-
-        Args:
-            remedies: Devices by the name of the step.
-            within: Step whose loads within the crankshaft are those of all.
-        """
-        if not remedies:
-            return {}
-        curves = [self._add(remedy, within is None) for remedy in remedies.values()]
-        apart = [one.vectors for step in curves for one in step.values()]
-        together = Phasors(self.free[0].orders, np.concatenate(apart, axis=2), np.zeros((1, 1)))
-        ends = np.cumsum([one.shape[2] for one in apart])
-        largest = iter(map(np.max, np.split(find_largest(together), ends[:-1])))
-        found = {}
-        for (name, remedy), step in zip(remedies.items(), curves, strict=True):
-            figures = {key: float(next(largest)) for key in step}
-            if within:
-                figures |= {key: getattr(within, key) for key in _WITHIN}
-            found[name] = self._make_step(name, remedy, figures)
-        return found
-
-    def _add(self, remedy: Remedy, with_loads: bool) -> dict[str, Phasors]:
-        """Return curves, shape (orders, curves), by the figures that they are the peaks of."""
-        new = [build_device(table, self.engine.first_axis_deg) for table in remedy.devices]
-        forces = [compute_device_force(self.engine, d, self.free[0].orders) for d in new]
-        arms = [1j * float(device.z - self.engine.reference_m[2]) for device in new]
-        moments = [arm * force for arm, force in zip(arms, forces, strict=True)]
-        found = {}
-        for key, as_drawn, more in zip(_FREE, self.free, (forces, moments), strict=False):
-            one = reduce(add, more, as_drawn).drop_noise()
-            found[key] = Phasors(one.orders, one.vectors[..., None], one.noise[..., None])
-        if self.loads is None or not with_loads:
-            return found
-        on_crank = [k for k, device in enumerate(new) if is_counterweight(device)]
-        loads = join_loads([self.loads, *(forces[k] for k in on_crank)])
-        z = np.array([*self.z, *(float(new[k].z) for k in on_crank)])
-        if self.bearings_m is not None:
-            found["main_bearing_N"] = compute_bearing_forces(loads, z, self.bearings_m)
-        return found | {"inner_moment_Nm": compute_bending(loads, z)}
-
-    def _make_step(self, name: str, remedy: Remedy, figures: Mapping[str, float]) -> Step:
-        unbalance = sum(map(find_unbalance, remedy.devices))
-        shafts = {(shaft.ratio, shaft.at) for shaft in remedy.shafts}
-        radius = self.engine.cylinders.radius
-        return Step(
-            step=name,
-            counterweights=len(remedy.counterweights),
-            shafts=len(shafts),
-            mass_kg=unbalance / float(radius),
-            remedy=remedy,
-            **figures,
-        )
+def _make_step(name: str, engine: Engine, fitting: Fitting) -> Step:
+    """Return the figures of the engine, as drawn, with the devices of a fitting."""
+    remedy = fitting.remedy
+    fitted = fit_devices(engine, remedy)
+    kinds = ("force", "moment") if engine.places_known else ("force",)
+    orders = merge_orders(find_relevant_orders(fitted), [1, 2])
+    peaks = {
+        f"peak_{kind.key}": float(find_largest(phasors))
+        for kind, phasors in compute_spectra(fitted, orders, kinds).items()
+    }
+    loads = find_crank_loads(fitted)
+    return Step(
+        step=name,
+        **peaks,
+        main_bearing_N=None if loads is None else loads.main_N,
+        inner_moment_Nm=None if loads is None else loads.inner_moment_Nm,
+        counterweights=len(remedy.counterweights),
+        shafts=len({(shaft.ratio, shaft.at) for shaft in remedy.shafts}),
+        mass_kg=sum(map(find_unbalance, remedy.devices)) / float(engine.cylinders.radius),
+        remedy=remedy,
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from numbers import Complex, Integral, Real
 from types import NoneType
@@ -13,17 +12,17 @@ from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
 
-# Of each option with numbers: their kind, whether they have to be finite, and what is right.
-_NUMBERS: dict[str, tuple[type, bool, str]] = {
-    "order": (Integral, False, "a whole number, such as 2"),
-    "at": (Complex, True, "places x + iy in m, such as (-0.04 + 0.06j,)"),
-    "position": (Real, True, "a place z in m, such as 0.1"),
-    "planes": (Real, True, '"ends", "throws", or places z in m, such as (-0.1, 0.1)'),
-    "factor": (Real, False, "shares, such as (0.5,)"),
-    "measured": (Real, True, "a mass in kg, such as 0.812"),
-    "orders": (Real, True, "orders, such as (1, 2)"),
-    "small": (Real, True, "a share, such as 0.05"),
-    "radius": (Real, False, "a length in m, such as 0.03"),
+# Of each option with numbers: their kind, and what is right.
+_NUMBERS: dict[str, tuple[type, str]] = {
+    "order": (Integral, "a whole number, such as 2"),
+    "at": (Complex, "places x + iy in m, such as (-0.04 + 0.06j,)"),
+    "position": (Real, "a place z in m, such as 0.1"),
+    "planes": (Real, '"ends", "throws", or places z in m, such as (-0.1, 0.1)'),
+    "factor": (Real, "shares, such as (0.5,)"),
+    "measured": (Real, "a mass in kg, such as 0.812"),
+    "orders": (Real, "orders, such as (1, 2)"),
+    "small": (Real, "a share, such as 0.05"),
+    "radius": (Real, "a length in m, such as 0.03"),
 }
 _SEVERAL = ("at", "planes", "factor", "orders")
 
@@ -107,12 +106,12 @@ class SchemeOptions(NamedTuple):
         """Raise TypeError for a value that is no number, BalcliError for a place that is farther
         away than any engine reaches.
         """
-        for name, (kind, finite, right) in _NUMBERS.items():
+        for name, (kind, right) in _NUMBERS.items():
             given = getattr(self, name)
             if given is None or (name == "planes" and isinstance(given, str)):
                 continue
             values = given if name in _SEVERAL else (given,)
-            if not _are(values, kind, finite):
+            if not _are(values, kind):
                 raise wrong_type(f"SchemeOptions: {name}", given, f"give {right}")
             if name in ("at", "position", "planes"):
                 farthest = max(map(abs, values))
@@ -143,15 +142,13 @@ def check_small(share: float) -> float:
     return share
 
 
-def _are(values: object, kind: type, finite: bool) -> bool:
+def _are(values: object, kind: type) -> bool:
     """Return whether there are values, all numbers of a kind and none with hundreds of digits."""
     if not isinstance(values, tuple) or not values:
         return False
     try:
-        return all(
-            isinstance(value, kind) and (cmath.isfinite(complex(cast(Any, value))) or not finite)
-            for value in values
-        )
+        sizes = [abs(complex(cast(Any, one))) for one in values if isinstance(one, kind)]
+        return len(sizes) == len(values) and max(sizes) < math.inf
     except OverflowError:
         return False
 
@@ -163,15 +160,10 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     """
     if scheme in SCHEMES:
         return SCHEMES[scheme]
-    if scheme == KNUCKLES:
+    if scheme in (KNUCKLES, FIT):
         raise BalcliError(
-            "scheme knuckles sizes no devices but changes the engine file: `balcli balance "
-            "--scheme knuckles` does so"
-        )
-    if scheme == FIT:
-        raise BalcliError(
-            'scheme fit needs devices with unbalance = "fit" in the engine file; only '
-            "`balcli balance` fits them"
+            f"scheme {scheme} changes the engine file, or fits devices that it leaves open: only "
+            f"`balcli balance --scheme {scheme}` does so"
         )
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""

@@ -102,11 +102,10 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
         return tuple(dict.fromkeys(find_ends(engine)))
     if options.planes == "throws":
         return tuple(dict.fromkeys(float(z) for z in engine.throws_m))
-    if isinstance(options.planes, tuple):
-        if len(set(options.planes)) > 1 and not engine.places_known:
-            raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
-        return options.planes
-    raise BalcliError(f'--planes "{options.planes}": give ends, throws, or places along z')
+    places = options.planes if isinstance(options.planes, tuple) else ()
+    if len(set(places)) > 1 and not engine.places_known:
+        raise BalcliError(f"--planes: {MOMENTS_UNKNOWN}")
+    return places
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:

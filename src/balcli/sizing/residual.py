@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, NamedTuple
 
@@ -11,7 +11,6 @@ import numpy as np
 
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
-from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
@@ -218,28 +217,31 @@ def _find_lowest(
     """
     scales, least = find_scales(engine), options.read_small()
     sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
-    rests: dict[str, list[int]] = {}
+    rests: dict[str, list[str]] = {}
     found, small = [], []
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         share = max(find_share(residual, part, scales) for part in sought)
         if not is_small(share, least):
-            lowest = f"Order {order} is the lowest with a free {what}.{_tell_left_alone(rests)}"
-            return residual._replace(note=lowest if rests else "")
+            break
         rest = _tell_rest(residual, kinds, senses)
         if share:
             small.append((share, residual))
             rest.append(f"its {what} is small")
         if rest:
-            rests.setdefault("; ".join(rest), []).append(order)
+            rests.setdefault("; ".join(rest), []).append(str(order))
         found.append(residual)
+    each = (f"{', '.join(orders)} ({rest})" for rest, orders in rests.items())
+    stay = f". Orders that stay as they are: {'; '.join(each)}" if rests else ""
+    if len(found) < HIGHEST_ORDER_SOUGHT:
+        note = f"Order {order} is the lowest with a free {what}{stay}."
+        return residual._replace(note=note if rests else "")
     if small:
         largest = max(small, key=lambda one: one[0])[1]
         raise OnlySmallError(tell_small(largest, sought, found, scales, least))
-    left_alone = _tell_left_alone(rests)
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
-        f"--order names a higher one{'.' if left_alone else ''}{left_alone.removesuffix('.')}"
+        f"--order names a higher one{stay}"
     )
 
 
@@ -266,20 +268,22 @@ def tell_small(
         f"(order {largest.order}), small compared with one cylinder's; "
         f"--order {largest.order} fits it"
     )
-    senses = {part.sense for part in sought}
-    parts = [part for part in (*FORWARD, *BACKWARD) if part.sense in senses]
-    every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
-    if is_small(max(share for share, *_ in every), least):  # in these senses
-        parts = [*FORWARD, *BACKWARD]
-        every = [(find_share(one, part, scales), one, part) for one in found for part in parts]
-    share, one, part = max(every, key=lambda each: each[0])
-    if is_small(share, least):
+    every = [
+        (find_share(one, part, scales), one, part)
+        for one in found
+        for part in (*FORWARD, *BACKWARD)
+        if not is_small(find_share(one, part, scales), least)
+    ]
+    if not every:
         return told
+    senses = {part.sense for part in sought}
+    alike = [each for each in every if each[2].sense in senses]
+    _, one, part = max(alike or every, key=lambda each: each[0])
+    ratio = part.sense * one.order
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes
-    takes = "counterweights" if one.order * part.sense == 1 else takes
-    size, ratio = _tell_size(one, part), part.sense * one.order
-    return f"{told}. {takes} takes the {part.kind} of {size} at {ratio:+d}"
+    takes = "counterweights" if ratio == 1 else takes
+    return f"{told}. {takes} takes the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
 
 
 def _turning(part: ResidualPart) -> str:
@@ -290,30 +294,16 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
     return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
 
 
-def _tell_left_alone(rests: Mapping[str, Sequence[int]]) -> str:
-    """Return sentences on the orders that are left, grouped by the parts that they have."""
-    told = ""
-    for rest, orders in rests.items():
-        if len(orders) == 1:
-            told += f" Order {orders[0]} stays as it is ({rest})."
-        else:
-            of_several = rest.replace("it has", "they have").replace("its ", "their ")
-            each = join_words([f"{order}" for order in orders])
-            told += f" Orders {each} stay as they are ({of_several})."
-    return told
-
-
 def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
     """Return the other parts of an order, and the schemes that cancel them."""
     if 1 in senses:
-        takes: dict[PartKind, str] = {"moment": "couple-shaft", "force": "two-shaft"}
-        others = [what for what in takes if what not in kinds and residual.has(what, senses)]
-        far = ", or far from the engine two-shaft with --order and --position as moment compensator"
-        return [f"it has a free {what}: {takes[what]}{far * (what == 'moment')}" for what in others]
+        far = "couple-shaft, or two-shaft with --order and --position far from the engine"
+        takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
+        others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
+        return [f"it has a free {kind}: {takes[kind]}" for kind in others]
     rest = []
     if forward := [part.kind for part in FORWARD if residual.parts[part]]:
-        shaft = f"a shaft at +{residual.order}"
-        cure = "the scheme counterweights" if residual.order == 1 else shaft
+        cure = "the scheme counterweights" if residual.order == 1 else "two-shaft, couple-shaft"
         rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
     if "moment" not in kinds and residual.has("moment", senses):
         rest.append("its moment turning against the crank: eccentrics in two planes")
