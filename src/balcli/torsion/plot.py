@@ -172,7 +172,8 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: Sys
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it.
     """
-    limit, by_torque = result.system.limit_pa, np.ones(len(result.shafts))
+    limit = result.system.limit_pa
+    by_torque: Real = np.ones(len(result.shafts))
     if by_stress := limit is not None and any(result.system.stress_by_torque):
         by_torque = result.system.stress_by_torque
     values = curves.swings[:, : len(by_torque)] * by_torque
