@@ -73,7 +73,9 @@ def report(
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     with reporting("pictures") as tell:
         system = SYSTEMS[units]
-        book = live.describe_one(model, engine, system, text.decode(), name_file(path))
+        book = live.describe_one(
+            model, engine, system, text.decode(), name_file(path), options.read_small()
+        )
         page = pages.page(found.result, found.balanced, system, *found[2:], tell, live=book)
     emit(page, output)
 

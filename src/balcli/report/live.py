@@ -9,8 +9,13 @@ file by their dotted names.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import json
+import math
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
@@ -22,17 +27,21 @@ from ..engine.load import SPEED
 from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..file import examples
+from ..file.fields import Number
 from ..file.model import EngineFile
 from ..file.units import (
     ANGLE,
     INERTIA,
     LENGTH,
     MASS,
+    PLAIN,
     SPEED as SPEED_OF_ROTATION,
     UNBALANCE,
+    Dimension,
     convert,
 )
 from ..forces.kinds import FORCE
+from ..limits import SMALL
 from ..show.figures import clean
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
@@ -42,13 +51,25 @@ _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
 _UNITS = {  # spellings that the page reads, by dimension
-    LENGTH: ("cm", "m", "in", "ft"),
+    LENGTH: ("cm", "m", "in", "inch", "ft"),
     MASS: ("g", "lb", "oz"),
     UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
     ANGLE: ("rad", "turn"),
     SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
     INERTIA: ("kg m^2", "lb in^2"),
 }
+_NEW = {  # keys of a new device with their dimensions and usual values
+    "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
+    "shaft": {
+        "ratio": (PLAIN, -1),
+        "unbalance": (UNBALANCE, 1e4),
+        "angle": (ANGLE, 0),
+        "at.1": (LENGTH, 0),
+        "at.2": (LENGTH, 0),
+        "position": (LENGTH, 0),
+    },
+}
+_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # ratios and orders
 _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 
@@ -61,16 +82,17 @@ def explain_still(engine: Engine) -> str:
     return "its speed is uneven" if engine.ripple else ""
 
 
-def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
+def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     """Return the engine as `assets/engine.js` takes it: plain slider-cranks at steady speed.
 
     Args:
         model: Engine file.
         engine: Engine of the file.
-        text: Text of the file, to be written anew with other numbers; empty: not known.
+        text: Text of the file, to be written anew with other numbers.
     """
     parts = Parts(model)
-    numbers = _list_numbers(model, float(engine.speed_rpm))
+    numbers = list(_list_numbers(model))
+    speed = float(engine.speed_rpm)
     throws: dict[int, int] = {}  # cylinder by whose firing a throw stands
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
@@ -79,7 +101,9 @@ def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
     reference = model.frame.reference
     return {
         "name": model.name,
-        "text": text,
+        "text": text if _is_plain(text) else _write_plainly(text),
+        "start": {} if speed == model.operation.speed else {SPEED: speed},
+        "frees": _free_throws(model, parts),
         "known": engine.places_known,
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
@@ -100,7 +124,12 @@ def describe_engine(model: EngineFile, engine: Engine, text: str = "") -> Node:
 
 
 def describe_one(
-    model: EngineFile, engine: Engine, system: System, text: str = "", name: str = ""
+    model: EngineFile,
+    engine: Engine,
+    system: System,
+    text: str,
+    name: str = "",
+    small: float = SMALL,
 ) -> Node | None:
     """Return what the panel of an engine's page needs; None if the page cannot compute it.
 
@@ -108,16 +137,23 @@ def describe_one(
         model: Engine file.
         engine: Engine of the file.
         system: Units of the drawings.
-        text: Text of the file; empty: not known.
+        text: Text of the file.
         name: Name of the file; empty: not known.
+        small: Share of one cylinder's first order below which a part is small.
     """
     if explain_still(engine):
         return None
-    return make_book({"": describe_engine(model, engine, text)}, system, Path(name).name)
+    engines = {"": describe_engine(model, engine, text)}
+    return make_book(engines, system, Path(name).name, small=small)
 
 
 def make_book(
-    engines: Mapping[str, Node], system: System, file: str = "", *, choice: str = ""
+    engines: Mapping[str, Node],
+    system: System,
+    file: str = "",
+    *,
+    choice: str = "",
+    small: float = SMALL,
 ) -> Node:
     """Return all that the panel of the page needs.
 
@@ -126,12 +162,18 @@ def make_book(
         system: Units of the drawings.
         file: Name of the file; empty: not known.
         choice: Engine to begin with, where the reader chooses; empty: there is one engine.
+        small: Share of one cylinder's first order below which a part is small.
     """
     units = {"force": system.force, "moment": system.moment}
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
         "choice": choice,
+        "small": small,
+        "devices": {
+            kind: {key: _describe_new(*each) for key, each in keys.items()}
+            for kind, keys in _NEW.items()
+        },
         "units": {
             dimension.unit: {unit: convert(f"1 {unit}", dimension) for unit in others}
             for dimension, others in _UNITS.items()
@@ -159,38 +201,128 @@ def make_examples() -> Node:
     return make_book(engines, SI, choice="vtwin45")
 
 
-def _list_numbers(model: EngineFile, speed_rpm: float) -> list[Node]:
-    """Return the numbers of the file that the page may change, with their values and units.
+def _describe_new(dimension: Dimension, usual: float) -> Node:
+    """Return unit, limits and usual value of a key of a new device."""
+    if dimension is PLAIN:
+        return {**_WHOLE, "usual": usual}
+    least = {"least": 0} if dimension is UNBALANCE else {}
+    return {"unit": dimension.unit, "usual": usual, **least}
 
-    Args:
-        model: Engine file.
-        speed_rpm: Speed of the engine, which an option may have given.
-    """
+
+def _list_numbers(model: EngineFile) -> Iterator[Node]:
+    """Yield the numbers of the file that the page may change, with values, units and limits."""
     tables = dict(model.tables())
-    found = []
     for name, number in find_numbers(model).items():
-        if not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
+        value = _find_value(tables, name)
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
             continue
-        value = speed_rpm if name == SPEED else _find_value(tables, name)
-        if value is None:
-            continue
-        found.append({"name": name, "value": value, "unit": number.dimension.unit})
+        yield {"name": name, "value": value, **_describe_limits(number)}
     for path, table in tables.items():
         for key in ("ratio", "order"):
             if path.startswith(_DEVICES) and hasattr(table, key):
-                found.append({"name": f"{path}.{key}", "value": getattr(table, key), "unit": ""})
-    return found
+                yield {"name": f"{path}.{key}", "value": getattr(table, key), **_WHOLE}
+
+
+def _describe_limits(number: Number) -> Node:
+    """Return unit and limits of a number, as far as it has some."""
+    limits = {"above": number.above, "least": number.least, "most": number.most}
+    given = {key: value for key, value in limits.items() if value is not None}
+    return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
 
 
 def _find_value(tables: Mapping[str, object], name: str) -> float | None:
     """Return the value of a number by its dotted name, in the unit of the file; None: not given."""
     path, _, key = name.rpartition(".")
-    if path in tables:
-        value = getattr(tables[path], key)
-    else:  # a member of a list
+    if path not in tables and key.isdigit():  # a member of a list
         path, _, outer = path.rpartition(".")
         value = getattr(tables[path], outer)[int(key) - 1] if path in tables else None
+    else:
+        value = getattr(tables[path], key) if path in tables else None
     return float(value) if isinstance(value, (int, float)) else None
+
+
+# ------------------------------------------------------------------ the text of the file
+def _is_plain(text: str) -> bool:
+    """Return whether each table has a header and each of its keys a line, so that the page can
+    change them line by line.
+    """
+    data, lines = tomllib.loads(text), text.splitlines()
+    starts = [k for k, line in enumerate(lines) if _HEADER.match(line)]
+    ends = [*starts[1:], len(lines)]
+    for name, table, place in _list_tables(data):
+        named = [k for k in starts if _HEADER.match(lines[k])[1] == name]  # type: ignore[index]
+        if len(named) <= place:
+            return False
+        section = lines[named[place] + 1 : ends[starts.index(named[place])]]
+        for key, value in table.items():
+            rows = [line for line in section if re.match(rf"\s*{re.escape(key)}\s*=", line)]
+            if len(rows) != 1 or not _says(rows[0], {key: value}):
+                return False
+    return True
+
+
+_HEADER = re.compile(r"\s*\[{1,2}\s*([\w.-]+)\s*\]{1,2}\s*(?:#.*)?$")
+
+
+def _says(line: str, wanted: Node) -> bool:
+    try:
+        return tomllib.loads(line) == wanted
+    except tomllib.TOMLDecodeError:
+        return False
+
+
+def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node, int]]:
+    """Yield the tables of a file that the page may change: name, content, and place in a list."""
+    for name in (*_TABLES, *_DEVICES):
+        found = data.get(name, {})
+        if name == "cylinder":
+            yield from ((f"cylinder.{number}", own, 0) for number, own in found.items())
+        elif isinstance(found, list):
+            yield from ((name, table, k) for k, table in enumerate(found))
+        elif found:
+            yield name, found, 0
+
+
+def _write_plainly(text: str) -> str:
+    """Return the text of a file with a line for each key, without comments."""
+    data = tomllib.loads(text)
+    blocks = [("", {k: v for k, v in data.items() if not isinstance(v, (dict, list))})]
+    blocks += [
+        (f"[[{name}]]" if isinstance(data.get(name), list) else f"[{name}]", table)
+        for name, table, _ in _list_tables(data)
+    ]
+    others = {k: v for k, v in data.items() if k not in (*_TABLES, *_DEVICES)}
+    blocks += [(f"[{k}]", v) for k, v in others.items() if isinstance(v, dict)]
+    blocks += [
+        (f"[[{k}]]", v) for k, each in others.items() if isinstance(each, list) for v in each
+    ]
+    written = (
+        "\n".join(filter(None, (head, *(f"{k} = {_format(v)}" for k, v in table.items()))))
+        for head, table in blocks
+    )
+    return "\n\n".join(filter(None, written)) + "\n"
+
+
+def _format(value: object) -> str:
+    """Return a value as TOML has it in one line."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {_format(part)}' for key, part in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_format, value))}]"
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool)) else repr(value)
+
+
+def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
+    """Return what has to be written into [layout] with other throws, banks or splay: a firing order
+    that fits the given throws alone is left out, and the numbering that it implied is given.
+    """
+    layout = model.layout
+    if model.crank.throws is None or layout.firing_order is None or model.gas is not None:
+        return None
+    banks = sorted({cell.bank for cell in parts.plan.cells})
+    rows = [[cell.number for cell in parts.plan.cells if cell.bank == bank] for bank in banks]
+    keys: Node = {"firing_order": "none", "firing_intervals": "none"}
+    return keys | ({} if layout.numbering is not None else {"numbering": _format(rows)})
 
 
 # ------------------------------------------------------------------ axes, pins and places

@@ -4,7 +4,7 @@
 // [x, y]; SI units and radians unless a name says mm or deg.
 const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15;
-  const SMALL = 0.05, WORTH_A_SHAFT = 0.3;
+  const WORTH_A_SHAFT = 0.3;
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
   const polar = (size, angle) => [size * Math.cos(angle), size * Math.sin(angle)];
   const add = (a, b) => [a[0] + b[0], a[1] + b[1]];
@@ -38,8 +38,6 @@ const Kernel = (() => {
     const take = (name) => numbers[name] ?? 0;
     const form = ({ value, by }) => value + sum(Object.entries(by).map(([name, factor]) => factor * take(name)));
     const r = take("crank.stroke") / 2e3, omega = take("operation.speed") * TURN / 60;
-    if (!(r > 0)) throw new Error("crank.stroke: give a stroke above 0 mm");
-    if (!(omega >= 0)) throw new Error("operation.speed: give a speed of at least 0 rpm");
     const cylinders = data.cylinders.map((c) => {
       const l = c.rod.length ? take(c.rod.length) / 1e3 : r / take(c.rod.ratio), e = take(c.offset) / 1e3;
       const rod = weighRod(c.rod, take, l), name = c.rod.length || c.rod.ratio;
@@ -48,9 +46,7 @@ const Kernel = (() => {
           + `length = ${(Math.abs(e) / l).toPrecision(4)} must stay below 1 together; make the rod longer`);
       }
       const piston = sum(c.piston.map(take)), throwMass = c.share * take("crank.throw_mass");
-      const negative = [...c.piston, "crank.throw_mass", c.rod.mass].find((each) => each && take(each) < 0);
-      if (negative) throw new Error(`${negative}: a mass cannot be below 0 kg`);
-      if (rod.bad || rod.small < 0 || rod.big < 0) throw new Error(`${c.rod.cg}: is outside the rod`);
+      if (rod.bad) throw new Error(`${c.rod.cg || "rod"}: is outside the rod, and two masses cannot stand for it`);
       return {
         number: c.number, axis: rad(form(c.axis)), lead: rad(form(c.lead)), by: c.by, z: form(c.z) / 1e3, r, l, e,
         reciprocating: piston + rod.small, rotating: throwMass + rod.big + c.extra, H: rod.H,
@@ -93,32 +89,26 @@ const Kernel = (() => {
   }
 
   // ------------------------------------------------------------------ one crank angle
-  // Free force and moment [x, y], couple and inertia torque at a crank angle.
+  // Force and moment [x, y], couple and inertia torque of the cylinders at a crank angle.
   function load(engine, theta) {
-    const square = engine.omega ** 2, [xr, yr, zr] = engine.reference;
-    let force = [0, 0], moment = [0, 0], couple = 0, torque = 0;
-    const take = (f, z, place) => {
-      force = add(force, f);
-      moment = add(moment, [-(z - zr) * f[1], (z - zr) * f[0]]);
-      couple += cross([place[0] - xr, place[1] - yr], f);
-    };
+    const square = engine.omega ** 2, sums = { force: [0, 0], moment: [0, 0], couple: 0, torque: 0 };
     for (const c of engine.cylinders) {
       const psi = theta + c.psi, lam = c.r / c.l, sine = lam * Math.sin(psi) - c.e / c.l;
       const cosine = Math.sqrt((1 - sine) * (1 + sine)), beta1 = lam * Math.cos(psi) / cosine;
       const beta2 = (sine * beta1 ** 2 - lam * Math.sin(psi)) / cosine;
       const s1 = -c.r * Math.sin(psi) - c.l * sine * beta1;
       const s2 = -c.r * Math.cos(psi) - c.l * (cosine * beta1 ** 2 + sine * beta2);
-      const own = [-c.reciprocating * s2 + c.rotating * c.r * Math.cos(psi), c.rotating * c.r * Math.sin(psi)];
-      take(scaled(times(own, polar(1, c.axis)), square), c.z, [0, 0]);
-      couple += square * (-c.H * beta2 + c.reciprocating * c.e * s2);
-      torque -= square * (c.reciprocating * s1 * s2 - c.H * beta1 * beta2);
+      const along = -c.reciprocating * s2 + c.rotating * c.r * Math.cos(psi);
+      const f = scaled(times([along, c.rotating * c.r * Math.sin(psi)], polar(1, c.axis)), square);
+      sums.force = add(sums.force, f);
+      sums.moment = add(sums.moment, momentOf(engine, f, c.z));
+      sums.couple += square * (-c.H * beta2 + c.reciprocating * c.e * s2) + cross(armOf(engine, [0, 0]), f);
+      sums.torque -= square * (c.reciprocating * s1 * s2 - c.H * beta1 * beta2);
     }
-    for (const d of engine.devices) {
-      const n = d.order, f = add(times(d.forward, polar(1, n * theta)), times(d.backward, polar(1, -n * theta)));
-      take(scaled(f, n * n * square), d.z, d.at);
-    }
-    return { force, moment, couple, torque };
+    return sums;
   }
+  const armOf = (engine, [x, y]) => [x - engine.reference[0], y - engine.reference[1]];
+  const momentOf = (engine, f, z) => [-(z - engine.reference[2]) * f[1], (z - engine.reference[2]) * f[0]];
 
   // ------------------------------------------------------------------ orders
   // Forward and backward phasors of orders 0 to `most` of values [x, y] at even angles.
@@ -137,87 +127,91 @@ const Kernel = (() => {
     return found;
   }
 
-  // What the parts of force, moment and couple would be if nothing cancelled: the measure of rounding.
+  // Largest force, moment and moment about the crank if nothing cancelled: the measure of rounding.
   function bound(engine) {
-    const square = engine.omega ** 2, far = (place) => Math.hypot(place[0] - engine.reference[0], place[1] - engine.reference[1]);
-    const pulls = engine.cylinders.map((c) => ({ f: (2 * c.reciprocating + c.rotating) * c.r * square, c }));
-    const weights = engine.devices.map((d) => ({ f: (size(d.forward) + size(d.backward)) * d.order ** 2 * square, d }));
-    const arm = (z) => Math.abs(z) + Math.abs(engine.reference[2]);
-    const own = pulls.map(({ f, c }) => f * (c.r + Math.abs(c.e)) + Math.abs(c.H) * square);
+    const square = engine.omega ** 2, arm = (z) => Math.abs(z) + Math.abs(engine.reference[2]);
+    const pulls = engine.cylinders.map((c) => (2 * c.reciprocating + c.rotating) * c.r * square);
+    const own = engine.cylinders.map((c, k) => pulls[k] * (c.r + Math.abs(c.e)) + Math.abs(c.H) * square);
     return {
-      force: sum([...pulls, ...weights].map(({ f }) => f)),
-      moment: sum([...pulls.map(({ f, c }) => f * arm(c.z)), ...weights.map(({ f, d }) => f * arm(d.z))]),
-      about: sum([...own, ...pulls.map(({ f }) => f * far([0, 0])), ...weights.map(({ f, d }) => f * far(d.at))]),
+      force: sum(pulls), moment: sum(engine.cylinders.map((c, k) => pulls[k] * arm(c.z))),
+      about: sum(own) + sum(pulls) * size(armOf(engine, [0, 0])),
     };
   }
 
+  // Phasors by kind and order, and peaks: of the cylinders by samples, of the devices in closed form.
   function compute(engine) {
     const loads = Array.from({ length: SAMPLES }, (_, k) => load(engine, TURN * k / SAMPLES)), most = bound(engine);
     const series = (pick, limit, count = ORDERS) => transform(loads.map(pick), count).map((pair) =>
       pair.map((v) => size(v) <= ROUNDING * limit ? [0, 0] : v));
-    return withPeaks({
-      force: series((v) => v.force, most.force, SAMPLES / 2 - 1), moment: series((v) => v.moment, most.moment, SAMPLES / 2 - 1),
+    return addDevices(engine, {
+      force: series((v) => v.force, most.force, SAMPLES / 2 - 1),
+      moment: series((v) => v.moment, most.moment, SAMPLES / 2 - 1),
       couple: series((v) => [v.couple, 0], most.about), torque: series((v) => [v.torque, 0], most.about),
       roll: series((v) => [v.couple - v.torque, 0], most.about),
-    }, loads);
+    }, engine.devices);
   }
 
-  function withPeaks(kinds, loads) {
-    const peak = {};
-    for (const kind of ["force", "moment"]) peak[kind] = findPeak(kinds[kind], loads.map((v) => size(v[kind])));
-    return { kinds, peak, loads };
-  }
-
-  // Force and moment with further devices: each adds to one order.
-  function addDevices(engine, { kinds, loads }, devices) {
-    const sums = { force: [...kinds.force], moment: [...kinds.moment] }, square = engine.omega ** 2;
-    const vectors = devices.map((d) => ({ n: d.order, pair: [d.forward, d.backward].map((v) => scaled(v, d.order ** 2 * square)), z: d.z }));
-    const lever = (v, z) => [-(z - engine.reference[2]) * v[1], (z - engine.reference[2]) * v[0]];
-    for (const { n, pair, z } of vectors) {
-      sums.force[n] = pair.map((v, k) => drop(add(sums.force[n][k], v), v));
-      sums.moment[n] = pair.map((v, k) => drop(add(sums.moment[n][k], lever(v, z)), lever(v, z)));
+  // The same with devices: each adds to one order.
+  function addDevices(engine, kinds, devices) {
+    const sums = Object.fromEntries(Object.entries(kinds).map(([kind, pairs]) => [kind, [...pairs]]));
+    const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
+    const put = (kind, n, parts) => {
+      const before = sums[kind][n] || [[0, 0], [0, 0]];
+      sums[kind][n] = parts.map((v, k) => drop(add(before[k], v), v));
+    };
+    for (const d of devices) {
+      const pair = [d.forward, d.backward].map((v) => scaled(v, (d.order * engine.omega) ** 2));
+      put("force", d.order, pair);
+      put("moment", d.order, pair.map((v) => momentOf(engine, v, d.z)));
+      if (d.order > ORDERS) continue;
+      const arm = armOf(engine, d.at), [[ax, ay], [bx, by]] = pair;                // Im(conj(arm) F), F = a e + b/e
+      const turned = [arm[0] * (ay + by) - arm[1] * (ax + bx), -arm[0] * (ax - bx) - arm[1] * (ay - by)];
+      const half = scaled(turned, 0.5);
+      for (const kind of ["couple", "roll"]) put(kind, d.order, [half, [half[0], -half[1]]]);
     }
-    const more = loads.map((v, k) => vectors.reduce(({ force, moment }, { n, pair, z }) => {
-      const f = add(times(pair[0], polar(1, n * TURN * k / SAMPLES)), times(pair[1], polar(1, -n * TURN * k / SAMPLES)));
-      return { force: add(force, f), moment: add(moment, lever(f, z)) };
-    }, v));
-    return withPeaks({ ...kinds, ...sums }, more);
+    return { kinds: sums, peak: { force: findPeak(sums.force), moment: findPeak(sums.moment) } };
   }
-  const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
 
-  // The largest size of a vector over a revolution, by Newton's method from the samples next to it.
-  function findPeak(phasors, sizes) {
-    const least = 1e-14 * Math.max(...sizes), orders = phasors.map(([a, b], n) => ({ n, a, b })).filter(({ a, b }) => size(a) + size(b) > least);
-    const value = (theta, power) => orders.reduce((v, { n, a, b }) => {
-      const turned = [times(a, polar(n ** power, n * theta)), times(b, polar((-n) ** power, -n * theta))];
-      const [x, y] = add(...turned);
-      return add(v, power === 0 ? [x, y] : power === 1 ? [-y, x] : [-x, -y]);
-    }, [0, 0]);
-    const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
-    const most = Math.max(...sizes), found = [];
+  // The largest size of a vector over a revolution, by Newton's method from the highest of even angles.
+  function findPeak(phasors) {
+    const total = sum(phasors.map(([a, b]) => size(a) + size(b)));
+    const orders = [];
+    phasors.forEach(([a, b], n) => { if (size(a) + size(b) > 1e-14 * total) orders.push({ n, a, b }); });
     if (!orders.length) return { value: 0, theta: null };
+    const value = (theta, power) => {                         // the vector, or its first or second derivative
+      let x = 0, y = 0;
+      for (const { n, a, b } of orders) {
+        const c = Math.cos(n * theta), s = Math.sin(n * theta), [p, q] = [n ** power, (-n) ** power];
+        x += p * (a[0] * c - a[1] * s) + q * (b[0] * c + b[1] * s);
+        y += p * (a[0] * s + a[1] * c) + q * (b[1] * c - b[0] * s);
+      }
+      return power === 0 ? [x, y] : power === 1 ? [-y, x] : [-x, -y];
+    };
+    const dot = (a, b) => a[0] * b[0] + a[1] * b[1], count = 16 * Math.max(16, orders.at(-1).n), step = TURN / count;
+    const sizes = Array.from({ length: count }, (_, k) => size(value(step * k, 0))), most = Math.max(...sizes);
+    const tops = [];
     sizes.forEach((v, k) => {
-      if (v < sizes.at(k - 1) || v < sizes[(k + 1) % sizes.length] || v < 0.98 * most) return;
-      let theta = TURN * k / sizes.length;
-      for (let step = 0; step < 8; step++) {
-        const [p, d1, d2] = [0, 1, 2].map((power) => value(theta, power));
-        const curvature = dot(d1, d1) + dot(p, d2);
-        if (curvature < 0) theta -= Math.max(-0.02, Math.min(0.02, dot(p, d1) / curvature));
+      const here = v >= sizes.at(k - 1) && v >= sizes[(k + 1) % count] && v >= 0.98 * most;
+      if (!here && !(k === 0 && v >= most * (1 - 1e-12))) return;
+      let theta = step * k;
+      for (let round = 0; round < 8; round++) {
+        const [p, d1, d2] = [0, 1, 2].map((power) => value(theta, power)), curvature = dot(d1, d1) + dot(p, d2);
+        if (curvature < 0) theta -= Math.max(-step, Math.min(step, dot(p, d1) / curvature));
       }
       const at = ((theta % TURN) + TURN) % TURN;
-      found.push({ value: size(value(theta, 0)), theta: TURN - at < 1e-7 ? 0 : at });
+      tops.push({ value: size(value(theta, 0)), theta: TURN - at < 1e-7 ? 0 : at });
     });
-    const top = Math.max(...found.map((each) => each.value));
-    return found.filter((each) => each.value >= top * (1 - 1e-9)).sort((a, b) => a.theta - b.theta)[0];
+    const top = Math.max(...tops.map((each) => each.value));
+    return tops.filter((each) => each.value >= top * (1 - 1e-9)).sort((a, b) => a.theta - b.theta)[0];
   }
 
   // ------------------------------------------------------------------ the ladder
   // Devices that balance the engine step by step; without weights at every throw, which are for bearings.
-  function findLadder(engine) {
+  function findLadder(engine, small = 0.05) {
     const square = engine.omega ** 2, z = engine.cylinders.map((c) => c.z);
     const F = Math.max(...engine.cylinders.map((c) => c.reciprocating * c.r)) * square;
     const M = F * Math.max(Math.max(...z) - Math.min(...z), 2 * engine.r);
-    const drawn = compute(engine), steps = [{ step: "as drawn", devices: [], found: drawn }];
+    const drawn = compute(engine), steps = [{ step: "as drawn", devices: [], ...drawn }];
     let auto = "as drawn";
     const part = (order, sense) => ["force", "moment"].map((kind) => {
       const v = drawn.kinds[kind][order][sense > 0 ? 0 : 1];
@@ -226,10 +220,10 @@ const Kernel = (() => {
     const share = ([f, m]) => F ? Math.max(size(f) / F, size(m) / M) : 0;
     const step = (name, wanted) => {
       const due = wanted.map(([order, sense]) => ({ order, sense, part: part(order, sense) }));
-      const large = due.filter((each) => share(each.part) && share(each.part) >= SMALL * (1 - 1e-9));
+      const large = due.filter((each) => share(each.part) && share(each.part) >= small * (1 - 1e-9));
       if (!large.length) return;
       const devices = [...steps.at(-1).devices, ...large.flatMap((each) => cancel(engine, each, M / F))];
-      steps.push({ step: name, devices, found: addDevices(engine, drawn, devices) });
+      steps.push({ step: name, devices, ...addDevices(engine, drawn.kinds, devices) });
       if (name === "counterweights" || Math.max(...large.map((each) => share(each.part))) >= WORTH_A_SHAFT) auto = name;
     };
     step("counterweights", [[1, 1]]);
@@ -263,7 +257,7 @@ const Kernel = (() => {
     const line = n && size(a) && size(b);                     // order 0 is a constant vector
     return {
       forward: a, backward: b, major, minor: Math.abs(size(a) - size(b)) * (n ? 1 : 0),
-      axis_deg: line ? 90 - ((90 - axis) % 180 + 180 + 1e-9) % 180 + 1e-9 : !n && size(a) ? deg(Math.atan2(a[1], a[0])) : null,
+      axis_deg: line ? 90 - ((90 - axis) % 180 + 180 + 1e-6) % 180 + 1e-6 : !n && size(a) ? deg(Math.atan2(a[1], a[0])) : null,
       x: component(add(a, [b[0], -b[1]])), y: component([a[1] + b[1], b[0] - a[0]]), balanced: !major,
     };
   }
@@ -278,14 +272,14 @@ const Kernel = (() => {
 
   // What `balcli analyze -f json` has of orders 0 to 12, peaks and ladder.
   function describe(engine, ladder) {
-    const { kinds, peak } = ladder.steps[0].found, known = engine.known;
+    const { kinds, peak } = ladder.steps[0], known = engine.known;
     const orders = Array.from({ length: ORDERS + 1 }, (_, n) => ({
       order: n, force_N: describeVector(kinds.force[n], n), moment_Nm: describeVector(kinds.moment[n], n),
       couple_Nm: describeScalar(kinds.couple[n], n), inertia_torque_Nm: describeScalar(kinds.torque[n], n),
       roll_Nm: describeScalar(kinds.roll[n], n),
     }));
-    const steps = ladder.steps.map(({ step, devices, found }) => ({
-      step, peak_force_N: found.peak.force.value, ...(known ? { peak_moment_Nm: found.peak.moment.value } : {}),
+    const steps = ladder.steps.map(({ step, devices, peak: left }) => ({
+      step, peak_force_N: left.force.value, ...(known ? { peak_moment_Nm: left.moment.value } : {}),
       counterweights: devices.filter((d) => d.kind === "counterweight").length,
       shafts: new Set(devices.filter((d) => d.kind === "shaft").map((d) => d.ratio)).size,
       mass_kg: sum(devices.map((d) => d.U)) / engine.r,

@@ -2,13 +2,11 @@
 // The panel "Change the engine": numbers to drag, the state in the address, and files to take away.
 (() => {
   const byId = (id) => document.getElementById(id);
-  const book = JSON.parse(byId("live").textContent);          // engines by name, and units
+  const book = JSON.parse(byId("live").textContent);          // engines by name, units, new devices
   const TITLES = { crank: "Crank", rod: "Rods", piston: "Pistons", layout: "Layout", operation: "Speed" };
-  const FIELDS = {
-    counterweight: { unbalance: "g mm", angle: "deg", position: "mm" },
-    shaft: { ratio: "", unbalance: "g mm", angle: "deg", "at.1": "mm", "at.2": "mm", position: "mm" },
-  };
-  let data, original, numbers, engine, ladder, before, past = [], future = [];
+  const DEVICE = /^(counterweight|shaft|slider)\.([1-9]\d*)(?:\.(.+))?$/;
+  const GEOMETRY = /^(crank\.(throws|splay)|layout\.(bank_angle|banks))|\.(bank|throw)$/;   // what a firing order depends on
+  let data, original, numbers, engine, ladder, drawn, before, past = [], future = [];
 
   const make = (tag, attributes = {}, ...children) => {
     const made = document.createElement(tag);
@@ -16,170 +14,213 @@
     made.append(...children);
     return made;
   };
-  const button = (text, act) => {
-    const made = make("button", { type: "button" }, text);
+  const button = (text, act, id = "") => {
+    const made = make("button", { type: "button", id }, text);
     made.addEventListener("click", act);
     return made;
   };
+  const own = (object, key) => Object.hasOwn(object, key) ? object[key] : undefined;
   const tableOf = (name) => name.match(/^(?:counterweight|shaft|slider|cylinder)\.\d+/)?.[0] ?? name.split(".")[0];
-  const isDevice = (name) => /^(counterweight|shaft|slider)\./.test(name);
-  const unitOf = (name) => {
-    const known = data.numbers.find((each) => each.name === name);
-    if (known) return known.unit;
-    const [, kind, key] = name.match(/^(\w+)\.\d+\.(.+)$/) || [];
-    return FIELDS[kind]?.[key];
-  };
-  const short = (value) => String(Number(value.toPrecision(12)));
   const shown = (value, digits = 4) => {
-    const text = value.toPrecision(digits);
-    return Math.abs(value) >= 1000 ? Number(text).toFixed(0) : String(Number(text));
+    const text = Number(value.toPrecision(digits));
+    return Math.abs(value) >= 1000 && Math.abs(value) < 1e9 ? text.toFixed(0) : String(text);
   };
 
-  // ------------------------------------------------------------------ values as people write them
-  // A number in the unit of the file; an Error says what would be right.
-  function readValue(name, text) {
-    const unit = unitOf(name), plain = text.trim().replace(/^[-−]/, "-").replace(",", ".");
-    const match = plain.match(/^(-?)(?:(\d+)\s+)?(\d+)\/(\d+)\s*(.*)$/);
-    const figure = plain.match(/^(-?\d*\.?\d+(?:e[-+]?\d+)?)\s*(.*)$/i);
-    const wanted = `give a number${unit ? ` in ${unit}` : ""}`;
-    if (!match && !figure) throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
-    const value = match ? (match[1] ? -1 : 1) * (Number(match[2] || 0) + match[3] / match[4]) : Number(figure[1]);
-    const own = (match ? match[5] : figure[2]).trim();
-    const factor = own === "" || own === unit ? 1 : book.units[unit]?.[own];
-    if (factor === undefined) {
-      const known = Object.keys(book.units[unit] || {}).join(", ");
-      throw new Error(`${name}: the unit "${own.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
-    }
-    if (!Number.isFinite(value)) throw new Error(`${name}: is no finite number; ${wanted}`);
-    return value * factor;
+  // ------------------------------------------------------------------ numbers and their values
+  // Unit and limits of a number; undefined: there is none of this name.
+  function find(name) {
+    const [, kind, , key] = name.match(DEVICE) || [];
+    return data.numbers.find((each) => each.name === name) || (key && own(own(book.devices, kind) || {}, key));
   }
 
-  function rangeOf(name, value) {
-    const unit = unitOf(name);
-    if (name === "layout.bank_angle") return [0, 180];
-    if (unit === "deg") return value < 0 || value > 360 ? [-360, 360] : [0, 360];
-    if (/\.(at\.[12]|position|offset|positions\.\d+|piston_offset)$|stagger$/.test(name)) {
-      const far = Math.max(2 * Math.abs(value), /offset|stagger/.test(name) ? 50 : 4 * (numbers["crank.stroke"] || 100));
-      return [-far, far];
+  // A number in the unit of the file, as people write it; an Error says what would be right.
+  function readValue(name, text) {
+    const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
+    const plain = text.trim().replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
+    if (/^[-+]?\d{1,3},\d{3}(?!\d)/.test(plain)) throw new Error(`${name}: "${text}" can mean two numbers; write it without a comma`);
+    const [, sign, figure, top, bottom, word] =
+      plain.replace(",", ".").match(/^([-+]?)(\d*\.?\d*(?:e[-+]?\d+)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
+    const value = (sign === "-" ? -1 : 1) * (Number(figure || 0) + (top ? top / bottom : 0));
+    if (!/\d/.test(figure + (top || "")) || !Number.isFinite(value)) {
+      throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
     }
-    if (!value) return [0, { mm: 100, kg: 5, "g mm": 100000 }[unit] || 1];
-    return [value / 2, 2 * value];
+    const factors = own(book.units, unit) || {}, factor = word === "" || word === unit ? 1 : own(factors, word);
+    if (factor === undefined) {
+      const known = Object.keys(factors).join(", ");
+      throw new Error(`${name}: the unit "${word.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
+    }
+    const found = value * factor;
+    if (whole && (!Number.isInteger(found) || !found)) throw new Error(`${name}: give a whole number other than 0`);
+    if (above !== undefined && found <= above) throw new Error(`${name}: ${found} is not above ${above}`);
+    if (least !== undefined && found < least) throw new Error(`${name}: ${found} is below ${least}`);
+    if (most !== undefined && found > most) throw new Error(`${name}: ${found} is above ${most}`);
+    return found;
+  }
+
+  // Ends of a slider, which contain both the file's value and the present one.
+  function rangeOf(name) {
+    const { unit, above, least } = find(name), value = original[name] ?? numbers[name];
+    let ends = [Math.min(value / 2, 2 * value), Math.max(value / 2, 2 * value)];
+    if (name === "layout.bank_angle") ends = [0, 180];
+    else if (unit === "deg") ends = [0, 360];
+    else if (/\.(at\.[12]|position|offset|positions\.\d+|piston_offset)$|stagger$/.test(name)) {
+      const far = Math.max(2 * Math.abs(value), /offset|stagger/.test(name) ? 50 : 4 * (numbers["crank.stroke"] || 100));
+      ends = [-far, far];
+    } else if (!value) ends = [0, { mm: 100, kg: 5, "g mm": 100000 }[unit] || 1];
+    ends = [Math.min(ends[0], numbers[name]), Math.max(ends[1], numbers[name])];
+    return above !== undefined || least !== undefined ? [Math.max(ends[0], above ?? least), ends[1]] : ends;
   }
 
   // ------------------------------------------------------------------ state and address
-  function changes() {
-    const found = Object.entries(numbers).filter(([name, value]) => value !== original[name]);
-    const gone = Object.keys(original).filter((name) => !(name in numbers)).map(tableOf);
-    return [...found.map(([name, value]) => [name, short(value)]), ...[...new Set(gone)].map((table) => [table, "none"])];
+  // Names and values that differ from the file; "none" for a device or key that is gone.
+  function listChanges() {
+    const there = new Set(Object.keys(numbers).map(tableOf));
+    const gone = Object.keys(original).filter((name) => !(name in numbers)).map((name) => there.has(tableOf(name)) ? name : tableOf(name));
+    const changed = Object.entries(numbers).filter(([name, value]) => value !== original[name]);
+    return [...[...new Set(gone)].map((name) => [name, "none"]), ...changed.map(([name, value]) => [name, String(value)])];
   }
   function writeAddress() {
-    const parts = changes().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
+    const parts = listChanges().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
     if (book.choice) parts.unshift(`engine=${data.key}`);
-    try {
-      history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname + location.search);
-    } catch { /* a frame of a notebook has no address */ }
+    return parts.length ? `#${parts.join("&")}` : "";
   }
-  // Numbers of the address; what it says wrongly is told, the rest applies.
-  function readAddress() {
-    const wrong = [], next = { ...original };
-    const parts = location.hash.slice(1).split("&").filter(Boolean).map((part) => {
-      const [name, ...value] = part.split("=");
-      try { return [name, decodeURIComponent(value.join("="))]; } catch { return [name, value.join("=")]; }
-    });
-    for (const [name, value] of parts) {
-      if (name === "engine" && book.choice) continue;
-      if (value === "none" && isDevice(name)) remove(next, name);
-      else if (unitOf(name) === undefined) wrong.push(`${name.slice(0, 60)}: there is no such number`);
-      else try { next[name] = readValue(name, value); } catch (error) { wrong.push(error.message); }
+  let due;
+  function keepAddress() {                                    // browsers refuse more than a few a second
+    clearTimeout(due);
+    due = setTimeout(() => {
+      try { history.replaceState(null, "", writeAddress() || location.pathname + location.search); } catch { /* a frame of a notebook */ }
+    }, 150);
+  }
+  // Numbers of an address; what is wrong in it is named, the rest applies.
+  function readAddress(hash) {
+    const wrong = [];
+    let next = { ...original, ...(hash.includes("=") ? {} : data.start) };
+    for (const part of hash.slice(1).split("&").filter((each) => each.includes("="))) {
+      const [name, ...rest] = part.split("=");
+      let text = rest.join("=");
+      try { text = decodeURIComponent(text); } catch { /* as it stands */ }
+      if (name === "engine" && book.choice) {
+        if (!own(book.engines, text)) wrong.push(`engine: there is no example ${text.slice(0, 40)}`);
+        continue;
+      }
+      try {
+        const changed = text === "none" ? without(next, name) : withValue(next, name, text);
+        Kernel.assemble(data, changed);
+        next = changed;
+      } catch (error) { wrong.push(error.message); }
     }
     return { next, wrong };
   }
-  function remove(from, table) {
-    for (const name of Object.keys(from)) if (tableOf(name) === table) delete from[name];
+  function without(state, name) {
+    const next = Object.fromEntries(Object.entries(state).filter(([key]) => key !== name && tableOf(key) !== name));
+    if (Object.keys(next).length === Object.keys(state).length) throw new Error(`${name.slice(0, 60)}: is not there`);
+    return next;
+  }
+  // The state with a number; a new device has all its keys, and one size.
+  function withValue(state, name, text) {
+    const [, kind, , key] = name.match(DEVICE) || [];
+    if (!find(name)) throw new Error(`${name.slice(0, 60)}: there is no such number to change`);
+    const next = { ...state }, table = tableOf(name);
+    if (kind && !Object.keys(state).some((each) => tableOf(each) === table)) {
+      for (const [each, { usual }] of Object.entries(book.devices[kind])) next[`${table}.${each}`] = usual;
+    }
+    if (key === "unbalance") for (const each of ["mass", "radius"]) delete next[`${table}.${each}`];
+    next[name] = readValue(name, text);
+    return next;
   }
 
   // ------------------------------------------------------------------ change, undo, redo
-  // Shows these numbers if they make an engine; the last good one stays otherwise.
+  // Shows these numbers if they make an engine; otherwise the last good ones stay.
   function apply(next, { remember = true, wrong = [], rebuild = false } = {}) {
-    let found;
+    let made, steps;
     try {
-      const made = Kernel.assemble(data, next);
-      found = { made, ladder: Kernel.findLadder(made) };
+      made = Kernel.assemble(data, next);
+      steps = Kernel.findLadder(made, book.small);
     } catch (error) {
-      tell([error.message, ...wrong]);
+      complain([error.message, ...wrong]);
       return false;
     }
     const tables = (state) => [...new Set(Object.keys(state).map(tableOf))].join();
     rebuild ||= tables(next) !== tables(numbers);
     if (remember) { past.push(numbers); future = []; }
-    numbers = next;
-    [engine, ladder] = [found.made, found.ladder];
-    writeAddress();
-    tell(wrong);
+    [numbers, engine, ladder] = [next, made, steps];
+    keepAddress();
+    complain(wrong);
     if (rebuild) buildControls();
     show();
     return true;
   }
   const change = (name, value, how) => apply({ ...numbers, [name]: value }, how);
-  function step(from, to) {
+  function travel(from, to) {
     if (!from.length) return;
     to.push(numbers);
     apply(from.pop(), { remember: false, rebuild: true });
   }
-  const tell = (messages) => { byId("live-wrong").textContent = messages.join(" · "); };
+  const complain = (messages) => { byId("live-wrong").textContent = messages.join(" · "); };
 
   // ------------------------------------------------------------------ what the page shows
   let waiting = false;
   function show() {
-    const figures = Kernel.describe(engine, ladder), changed = changes().length > 0;
+    const figures = Kernel.describe(engine, ladder), changed = listChanges().length > 0;
     byId("figures").textContent = JSON.stringify(figures);
-    byId("live-still").hidden = !changed;
-    byId("live-verdict").textContent = tellVerdict(figures);
+    byId("live-changed").hidden = !changed;
+    byId("live-verdict").textContent = writeVerdict(figures);
     showOrders(figures);
     showLadder(figures);
+    byId("live-undo").disabled = !past.length;
+    byId("live-redo").disabled = !future.length;
+    byId("live-reset").disabled = !changed;
     for (const input of byId("live-numbers").querySelectorAll("input")) {
-      if (input !== document.activeElement || input.type === "range") input.value = short(numbers[input.name] ?? 0);
+      const [least, most] = rangeOf(input.name);
+      if (input.type === "range") Object.assign(input, { min: least, max: most, value: numbers[input.name] });
+      else if (input !== document.activeElement) input.value = String(numbers[input.name]);
     }
-    if (!waiting) {
-      waiting = true;
-      requestAnimationFrame(() => { waiting = false; Page.draw(makeScene()); });
-    }
-  }
-  const NAMES = ["Mean", "First", "Second", "Third", "Fourth"];
-  function tellVerdict(figures) {
-    const { force_N: F, moment_Nm: M } = figures.ladder.scale;
-    const told = figures.orders.flatMap(({ order, force_N: f, moment_Nm: m }) => {
-      const large = [];
-      if (f.major >= 0.05 * F && f.major) large.push(`force of ${shown(f.major)} N`);
-      if (M && m.major >= 0.05 * M) large.push(`moment of ${shown(m.major)} N·m`);
-      return large.length ? [`${NAMES[order] || `${order}th`} order: ${large.join(" and ")}.`] : [];
+    if (waiting || (!changed && !drawn && byId("scene"))) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      drawn = listChanges().length > 0;
+      Page.draw(drawn || !byId("scene") ? makeScene() : JSON.parse(byId("scene").textContent));
     });
-    return told.join(" ") || "No order is large compared with one cylinder.";
+  }
+  const quantity = (kind, value) => value / book.show[kind].size;
+  const unitName = (kind) => book.show[kind].name;
+  const NAMES = ["Mean", "First", "Second", "Third", "Fourth"];
+  function writeVerdict({ orders, ladder: { scale } }) {
+    const large = (kind, value, most) => value && value >= book.small * most ? [`${kind} of ${shown(quantity(kind, value))} ${unitName(kind)}`] : [];
+    const sentences = orders.flatMap(({ order, force_N: f, moment_Nm: m }) => {
+      const parts = [...large("force", f.major, scale.force_N), ...(data.known ? large("moment", m.major, scale.moment_Nm) : [])];
+      return parts.length ? [`${NAMES[order] || `${order}th`} order: ${parts.join(" and ")}.`] : [];
+    });
+    return sentences.join(" ") || "No order is large compared with one cylinder.";
   }
   function fill(id, heads, rows) {
-    const cells = (tag, row) => make("tr", {}, ...row.map((cell) => make(tag, {}, cell)));
-    byId(id).replaceChildren(make("thead", {}, cells("th", heads)), make("tbody", {}, ...rows.map((row) => cells("td", row))));
+    const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
+    const body = rows.map(([first, ...rest]) => make("tr", {}, make("th", { scope: "row" }, first), ...rest.map((cell) => make("td", {}, cell))));
+    byId(id).replaceChildren(make("thead", {}, head), make("tbody", {}, ...body));
   }
-  function showOrders(figures) {
-    const least = { N: 1e-6 * figures.ladder.scale.force_N, m: 1e-6 * (figures.ladder.scale.moment_Nm || 0) };
-    const size = (value, small) => value <= small ? "balanced" : shown(value);
-    const seen = figures.orders.filter(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) =>
-      order === 1 || order === 2 || [f.major > least.N, m.major > least.m, roll.amplitude > least.m].some(Boolean));
+  const cell = (kind, value, least = 0) => value <= least ? "balanced" : shown(quantity(kind, value));
+  function showOrders({ orders, peak, ladder: { scale } }) {
+    const [least, small] = [1e-6 * scale.force_N, 1e-6 * (scale.moment_Nm || 0)], size = (v) => Math.hypot(...v);
+    const seen = orders.filter(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) =>
+      order === 1 || order === 2 || f.major > least || m.major > small || roll.amplitude > small);
     const rows = seen.map(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) => [
-      String(order), size(f.major, least.N), ...[f.forward, f.backward].map((v) => size(Math.hypot(...v), least.N)),
-      ...(data.known ? [m.major, ...[m.forward, m.backward].map((v) => Math.hypot(...v))].map((v) => size(v, least.m)) : ["–", "–", "–"]),
-      size(roll.amplitude, least.m),
+      String(order), cell("force", f.major, least), cell("force", size(f.forward), least), cell("force", size(f.backward), least),
+      ...[m.major, size(m.forward), size(m.backward)].map((v) => data.known ? cell("moment", v, small) : "–"),
+      cell("moment", roll.amplitude, small),
     ]);
-    const peak = figures.peak;
-    rows.push(["all", shown(peak.force_N), "", "", data.known ? shown(peak.moment_Nm) : "–", "", "", ""]);
-    fill("live-orders", ["order", "force, N", "with crank", "against", "moment, N·m", "with crank", "against", "roll, N·m"], rows);
+    const [f, m] = ["force", "moment"].map(unitName);
+    rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", ""]);
+    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `roll, ${m}`], rows);
   }
-  function showLadder(figures) {
-    const rows = figures.ladder.steps.map((one, k) => [
-      `${k} ${one.step}`, shown(one.peak_force_N), data.known ? shown(one.peak_moment_Nm) : "–", String(one.counterweights || "–"),
-      String(one.shafts || "–"), one.mass_kg ? shown(one.mass_kg, 3) : "–", k ? button("Fit", () => fit(k)) : "",
+  function showLadder({ ladder: { steps, scale } }) {
+    const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
+    const rows = steps.map((each, k) => [
+      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
+      String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
+      k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
     ]);
-    fill("live-ladder", ["step", "force, N", "moment, N·m", "weights", "shafts", "kg", ""], rows);
+    fill("live-ladder", ["step", `force, ${unitName("force")}`, `moment, ${unitName("moment")}`, "weights", "shafts", "kg", ""], rows);
   }
   // Adds the devices of a step of the ladder to the numbers.
   function fit(k) {
@@ -190,25 +231,24 @@
       if (d.kind === "shaft") Object.assign(next, { [`${table}.ratio`]: d.ratio, [`${table}.at.1`]: 0, [`${table}.at.2`]: 0 });
     }
     apply(next, { rebuild: true });
+    byId("live-undo").focus();
   }
-  function freeTable(state, kind) {
-    let n = 1;
-    while (Object.keys(state).some((name) => tableOf(name) === `${kind}.${n}`)) n++;
-    return `${kind}.${n}`;
+  function freeTable(state, kind) {                           // above those of the file, gone ones included
+    const taken = [...Object.keys(state), ...Object.keys(original)].map((name) => name.match(DEVICE)).filter((match) => match?.[1] === kind);
+    return `${kind}.${Math.max(0, ...taken.map((match) => Number(match[2]))) + 1}`;
   }
 
   // ------------------------------------------------------------------ pictures
-  const ASSUMED_BORE = 0.95;
-  function describeVariant(label, made, found) {
-    const turn = Math.PI / 180 * (made.up || 0), [c, s] = [Math.cos(turn), -Math.sin(turn)];
+  const ASSUMED_BORE = 0.95, boreOf = (made) => made.bore || ASSUMED_BORE * 2 * made.r, rad = (deg) => deg * Math.PI / 180;
+  function describeVariant(label, made, { kinds }) {
+    const [c, s] = [Math.cos(rad(made.up || 0)), -Math.sin(rad(made.up || 0))], levels = {};
     const turned = ([x, y]) => [x * c - y * s, x * s + y * c];
-    const rows = (kind) => found.kinds[kind].slice(0, 13).map(([a, b], n) => [n, ...[...turned(a), ...turned(b)].map((v) => v / book.show[kind].size)]);
-    const beside = {};
+    const rows = (kind) => kinds[kind].slice(0, 13).map((pair, n) => [n, ...pair.flatMap(turned).map((v) => quantity(kind, v))]);
     return {
       label, force: rows("force"), moment: made.known ? rows("moment") : [],
       devices: made.devices.map((d) => {
-        const hidden = d.kind === "shaft" && Math.hypot(...d.at) < made.r, side = d.ratio > 0 ? 1 : -1;
-        const level = beside[side] ??= new Map();
+        const hidden = d.kind === "shaft" && Math.hypot(...d.at) < made.r, side = Math.sign(d.ratio);
+        const level = levels[side] ??= new Map();
         if (hidden && !level.has(d.order)) level.set(d.order, level.size);
         const place = hidden ? [-1.6 * made.r * level.get(d.order), side * (widthOf(made) + made.r)] : turned(d.at);
         return {
@@ -218,27 +258,24 @@
       }),
     };
   }
-  const boreOf = (made) => made.bore || ASSUMED_BORE * 2 * made.r;
   function widthOf(made) {                                    // of the engine, to one side of the crank axis
     return Math.max(1.5 * made.r, ...made.cylinders.map((c) => {
-      const across = Math.abs(Math.sin(c.axis - Math.PI / 180 * (made.up || 0)));
+      const across = Math.abs(Math.sin(c.axis - rad(made.up || 0)));
       return across * (c.r + c.l + boreOf(made)) + (1 - across) * boreOf(made);
     }));
   }
   function makeScene() {
-    const now = ladder.steps[0].found, old = before.found;
-    const deg = (angle) => angle * 180 / Math.PI, changed = changes().length > 0;
-    const variants = [describeVariant("before", before.made, old)];
-    if (changed) variants.push(describeVariant("now", engine, now));
-    const { force: F, moment: M } = ladder.scale;
-    const unit = (kind, scale) => ({ ...book.show[kind], least: 1e-3 * (scale || 1) / book.show[kind].size });
-    const counts = (n) => [now, old].some(({ kinds }) => ["force", "moment"].some((kind) => kinds[kind][n].some((v) => Math.hypot(...v))));
+    const now = ladder.steps[0], deg = (angle) => angle * 180 / Math.PI;
+    const variants = [describeVariant("before", before.made, before)];
+    if (listChanges().length) variants.push(describeVariant("now", engine, now));
+    const unit = (kind) => ({ ...book.show[kind], least: quantity(kind, 1e-3 * (ladder.scale[kind] || 1)) });
+    const counts = (n) => [now, before].some(({ kinds }) => ["force", "moment"].some((kind) => kinds[kind][n].some((v) => Math.hypot(...v))));
     return {
       stroke: 2e3 * engine.r, bore: 1e3 * boreOf(engine), rotary: false, axes: data.axes,
       cylinders: engine.cylinders.map((c) => ({
         number: c.number, axis: deg(c.axis) - (engine.up || 0), phase: deg(c.psi), z: 1e3 * c.z, rod: 1e3 * c.l, offset: 1e3 * c.e,
       })),
-      variants, shown: variants.length - 1, units: { force: unit("force", F), moment: unit("moment", M) },
+      variants, shown: variants.length - 1, units: { force: unit("force"), moment: unit("moment") },
       orders: Array.from({ length: 13 }, (_, n) => n).filter(counts),
     };
   }
@@ -249,90 +286,84 @@
     for (const name of Object.keys(numbers)) groups.set(tableOf(name), [...(groups.get(tableOf(name)) || []), name]);
     const sets = [...groups].map(([table, names]) => {
       const title = TITLES[table] || table.replace(".", " ").replace(/^./, (c) => c.toUpperCase());
-      const rows = names.map((name) => control(name, table));
-      if (isDevice(table)) rows.push(button(`Remove ${title.toLowerCase()}`, () => removeDevice(table)));
+      const rows = names.map((name) => makeControl(name, table));
+      if (DEVICE.test(table)) rows.push(button(`Remove ${title.toLowerCase()}`, () => removeDevice(table)));
       return make("fieldset", { className: "numbers" }, make("legend", {}, title), ...rows);
     });
     byId("live-numbers").replaceChildren(...sets);
   }
-  function control(name, table) {
-    const value = numbers[name], [least, most] = rangeOf(name, value), unit = unitOf(name), label = name.slice(table.length + 1);
-    const whole = /\.(ratio|order)$/.test(name) && isDevice(name);
-    const slider = make("input", { type: "range", name, min: least, max: most, step: "any", value });
-    const field = make("input", { type: "text", name, value: short(value), inputMode: "decimal", id: `n-${name}` });
+  function makeControl(name, table) {
+    const [least, most] = rangeOf(name), { unit, whole } = find(name), label = name.slice(table.length + 1);
+    const slider = make("input", { type: "range", name, min: least, max: most, step: "any", value: numbers[name] });
+    const field = make("input", { type: "text", name, value: String(numbers[name]), inputMode: "decimal", id: `n-${name}` });
     slider.setAttribute("aria-label", `${name}${unit ? `, ${unit}` : ""}`);
     let started = false;                                      // one undo for one drag
     slider.addEventListener("input", () => {
       if (change(name, Number(Number(slider.value).toPrecision(5)), { remember: !started })) started = true;
+      else slider.value = numbers[name];
     });
     slider.addEventListener("change", () => { started = false; });
     field.addEventListener("change", () => {
-      try {
-        const wanted = readValue(name, field.value);
-        if (whole && (!Number.isInteger(wanted) || !wanted)) throw new Error(`${name}: give a whole number other than 0`);
-        if (!change(name, wanted)) field.value = short(numbers[name]);
-        else if (wanted < slider.min || wanted > slider.max) [slider.min, slider.max] = rangeOf(name, wanted);
-        slider.value = numbers[name];
-      } catch (error) { tell([error.message]); field.value = short(numbers[name]); }
+      try { apply(withValue(numbers, name, field.value)); } catch (error) { complain([error.message]); }
+      field.value = String(numbers[name]);
     });
     const head = make("label", { htmlFor: field.id }, label.replace(/^throws\./, "throw ").replaceAll("_", " "));
-    return make("div", { className: "number" }, head, whole ? "" : slider, field, make("span", {}, unit || ""));
+    return make("div", { className: "number" }, head, field, make("span", {}, unit || ""), whole ? "" : slider);
   }
   function removeDevice(table) {
-    const next = { ...numbers };
-    remove(next, table);
-    apply(next, { rebuild: true });
-    byId("live-add-weight").focus();
+    apply(without(numbers, table), { rebuild: true });
+    byId("live-add").focus();
   }
-  function addDevice(kind, ratio) {
-    const table = freeTable(numbers, kind), next = { ...numbers };
-    for (const key of Object.keys(FIELDS[kind])) next[`${table}.${key}`] = key === "ratio" ? ratio : key === "unbalance" ? 10000 : 0;
-    apply(next, { rebuild: true });
-    byId(`n-${table}.unbalance`)?.focus();
+  function addDevice(kind) {
+    const table = freeTable(numbers, kind);
+    apply(withValue(numbers, `${table}.unbalance`, "10000"), { rebuild: true });
+    byId(`n-${table}.unbalance`).focus();
   }
 
   // ------------------------------------------------------------------ files
-  // The text of the file with the numbers of the page; comments stay where a line only changes its number.
+  // The text of the file with the numbers of the page: a line changes its number and keeps its comment.
   function writeFile() {
-    const lines = data.text.replaceAll("\r\n", "\n").split("\n"), added = [];
-    const header = /^\s*\[{1,2}\s*([\w.-]+)\s*\]{1,2}/, lists = {};
-    const sections = [];                                      // name of the table of each line, and where it begins
+    const lines = data.text.split(/\r?\n/), sections = [], lists = {}, added = [], fresh = {};
     lines.forEach((line, k) => {
-      const name = line.match(header)?.[1];
-      if (name) sections.push({ name: line.includes("[[") ? `${name}.${lists[name] = (lists[name] || 0) + 1}` : name, from: k });
+      const [, open, name] = line.match(/^\s*(\[{1,2})\s*([\w.-]+)\s*\]{1,2}/) || [];
+      if (name) sections.push({ name: open === "[[" ? `${name}.${lists[name] = (lists[name] || 0) + 1}` : name, from: k });
     });
     const sectionOf = (table) => {
       const at = sections.findIndex(({ name }) => name === table);
       return at < 0 ? null : { from: sections[at].from, to: sections[at + 1]?.from ?? lines.length };
     };
-    const values = Object.fromEntries(changes()), fresh = {};
-    for (const [name, value] of Object.entries(values)) {
-      const table = tableOf(name), key = name.slice(table.length + 1), found = sectionOf(table);
-      if (value === "none") {
-        if (found) for (let k = found.from; k < found.to; k++) lines[k] = null;
-        continue;
-      }
-      if (!found) { (fresh[table] ??= {})[key] = value; continue; }
-      const [, outer, member] = key.match(/^(\w+)(?:\.(\d+))?$/), start = new RegExp(`^(\\s*${outer}\\s*=\\s*)`);
-      const row = lines.findIndex((line, k) => k > found.from && k < found.to && line !== null && start.test(line));
-      if (row < 0) {
-        added.push({ after: found.from, text: `${outer} = ${member ? listOf(table, outer) : value}` });
-      } else if (member) {
-        let k = 0;
-        lines[row] = lines[row].replace(/\[.*\]/, (list) => list.replace(/"[^"]*"|[^\s,[\]]+/g, (item) => ++k === Number(member) ? value : item));
-      } else {
-        lines[row] = lines[row].replace(start, "$1\u0000").replace(/\u0000("[^"]*"|'[^']*'|[^\s#]+)/, value);
-      }
+    const rowOf = ({ from, to }, key) => lines.findIndex((line, k) => k > from && k < to && line !== null && new RegExp(`^\\s*${key}\\s*=`).test(line));
+    const put = (table, key, value) => {
+      const section = sectionOf(table), row = section ? rowOf(section, key) : -1;
+      if (value === "none" && row < 0) return;
+      if (!section) (fresh[table] ??= []).push(`${key} = ${value}`);
+      else if (row < 0) added.push({ after: section.from, text: `${key} = ${value}` });
+      else if (value === "none") lines[row] = null;
+      else lines[row] = lines[row].replace(/^(\s*\w+\s*=\s*)(?:"[^"]*"|'[^']*'|\[[^\]]*\]|[^\s#]+)/, (_, start) => start + value);
+    };
+    const changes = listChanges();
+    for (const [name, value] of changes) {
+      const table = tableOf(name), [key, member] = name.slice(table.length + 1).split("."), section = sectionOf(table);
+      if (name === table) {                                   // a device that is gone
+        for (let k = section.from + 1, ended = false; k < section.to; k++) {
+          ended ||= /^\s*(#|$)/.test(lines[k]) && !lines.slice(k, section.to).some((line) => /^\s*\w/.test(line || ""));
+          if (!ended) lines[k] = null;                        // comments before the next table stay
+        }
+        lines[section.from] = null;
+      } else put(table, key, member ? listOf(`${table}.${key}`) : value);
+    }
+    if (changes.some(([name]) => GEOMETRY.test(name)) && data.frees) {
+      for (const [key, value] of Object.entries(data.frees)) put("layout", key, value);
     }
     for (const { after, text } of added.sort((a, b) => b.after - a.after)) lines.splice(after + 1, 0, text);
-    const blocks = Object.entries(fresh).map(([table, keys]) => {
-      const at = "at.1" in keys ? [`at = [${keys["at.1"]}, ${keys["at.2"]}]`] : [];
-      const plain = Object.entries(keys).filter(([key]) => !key.startsWith("at.")).map(([key, value]) => `${key} = ${value}`);
-      return ["", isDevice(table) ? `[[${table.split(".")[0]}]]` : `[${table}]`, ...plain, ...at].join("\n");
+    const blocks = Object.entries(fresh).map(([table, rows]) => {
+      const head = DEVICE.test(table) ? `[[${table.split(".")[0]}]]` : `[${table}]`;
+      return ["", head, ...new Set(rows)].join("\n");
     });
-    return [...lines.filter((line) => line !== null), ...blocks].join("\n").replace(/\n*$/, "\n");
+    const text = [...lines.filter((line) => line !== null), ...blocks].join("\n").replace(/\n*$/, "\n");
+    return data.text.includes("\r\n") ? text.replaceAll("\n", "\r\n") : text;
   }
-  const listOf = (table, key) => `[${Object.keys(numbers).filter((name) => name.startsWith(`${table}.${key}.`)).map((name) => short(numbers[name])).join(", ")}]`;
+  const listOf = (path) => `[${Object.keys(numbers).filter((name) => name.startsWith(`${path}.`)).map((name) => numbers[name]).join(", ")}]`;
   const fileName = () => `${(data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine"}.toml`;
   function download() {
     const link = make("a", { href: URL.createObjectURL(new Blob([writeFile()], { type: "application/toml" })), download: fileName() });
@@ -351,44 +382,40 @@
   }
 
   // ------------------------------------------------------------------ start
-  function open(key) {
+  function open(hash) {
+    const asked = hash.match(/[#&]engine=([^&]+)/)?.[1], keys = Object.keys(book.engines);
+    const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : keys[0];
     data = { ...book.engines[key], key: book.choice ? key : book.file };
     original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
-    [numbers, past, future] = [{ ...original }, [], []];
+    [numbers, past, future] = [original, [], []];
     const made = Kernel.assemble(data, original);
-    before = { made, found: Kernel.compute(made) };
-    const { next, wrong } = readAddress();
-    if (!apply(next, { remember: false, wrong, rebuild: true })) {
-      const told = byId("live-wrong").textContent;
-      apply({ ...original }, { remember: false, wrong: [told], rebuild: true });
-    }
+    before = { made, ...Kernel.compute(made) };
+    if (book.choice) byId("live-engine").value = key;
+    const { next, wrong } = readAddress(hash);
+    apply(next, { remember: false, wrong, rebuild: true });
   }
   function start() {
-    const actions = [
-      button("Undo", () => step(past, future)), button("Redo", () => step(future, past)),
-      button("Reset", () => apply({ ...original }, { rebuild: true })),
-      Object.assign(button("Add a counterweight", () => addDevice("counterweight")), { id: "live-add-weight" }),
-      button("Add a shaft at −1", () => addDevice("shaft", -1)),
-      button("Copy link", () => copy(location.href)),
-      ...(book.engines[Object.keys(book.engines)[0]].text ? [button("Download TOML", download), button("Copy command", () => copy(`balcli analyze ${fileName()}`))] : []),
-    ];
-    byId("live-actions").append(...actions);
-    const keys = Object.keys(book.engines), fromAddress = () => {
-      const asked = location.hash.match(/[#&]engine=([^&]+)/)?.[1];
-      return keys.includes(asked) ? asked : book.choice || keys[0];
-    };
+    byId("live-actions").append(
+      button("Undo", () => travel(past, future), "live-undo"), button("Redo", () => travel(future, past), "live-redo"),
+      button("Reset", () => apply(original, { rebuild: true }), "live-reset"),
+      button("Add a counterweight", () => addDevice("counterweight"), "live-add"),
+      button("Add a shaft", () => addDevice("shaft")),
+      ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
+      button("Download TOML", download), button("Copy command", () => copy(`balcli analyze ${fileName()}`)),
+    );
     if (book.choice) {
       const select = byId("live-engine");
-      select.append(...keys.map((key) => make("option", { value: key }, `${key}: ${book.engines[key].name}`)));
-      select.value = fromAddress();
-      select.addEventListener("change", () => { history.replaceState(null, "", `#engine=${select.value}`); open(select.value); });
+      select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
+      select.addEventListener("change", () => open(`#engine=${select.value}`));
     }
-    window.addEventListener("hashchange", () => open(fromAddress()));
-    window.Live = { change, apply, writeFile, get numbers() { return numbers; } };
-    open(fromAddress());
+    window.addEventListener("hashchange", () => { if (location.hash.includes("=")) open(location.hash); });
+    window.Live = { change, apply, writeFile, writeAddress, get numbers() { return numbers; } };
+    document.body.classList.add("changing");
+    open(location.hash);
   }
   const panel = byId("change");
-  if (book.choice || location.hash.length > 1) { panel.open = true; start(); } else {
+  if (book.choice || location.hash.includes("=")) { panel.open = true; start(); } else {
     panel.addEventListener("toggle", start, { once: true });
   }
+  panel.addEventListener("toggle", () => document.body.classList.toggle("changing", panel.open));
 })();
