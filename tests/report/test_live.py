@@ -55,10 +55,16 @@ def show(browser, tmp_path):
         browser.open(tmp_path / "page.html", **how)
         browser.run("change.open = true")
         if address:
-            browser.run(f"location.hash = {json.dumps(address)}; new Promise(done => setTimeout(done, 100))")
+            go(browser, address)
         return browser
 
     return opened
+
+
+def go(page, address):
+    """Follow an address within the page."""
+    listen = "addEventListener('hashchange', () => setTimeout(done, 0), { once: true })"
+    page.run(f"new Promise(done => {{ {listen}; location.hash = {json.dumps(address)}; }})")
 
 
 def figures(page):
@@ -174,7 +180,7 @@ def test_the_site_page_is_small():
 @live
 def test_a_right_angle_makes_a_circle_of_a_v_twin(browser, play):
     browser.open(play)
-    browser.run("location.hash = '#engine=vtwin45&layout.bank_angle=90'; new Promise(done => setTimeout(done, 100))")
+    go(browser, "#engine=vtwin45&layout.bank_angle=90")
     first = figures(browser)["orders"][1]["force_N"]
     assert first["backward"] == [0, 0]
     assert first["major"] == first["minor"] > 5e4
@@ -296,9 +302,7 @@ def test_another_bank_angle_or_throw_makes_a_file_that_is_read(browser, play, tm
     browser.open(play)
     known = values(describe(name)[2])
     changed = "layout.bank_angle" if "layout.bank_angle" in known else "crank.throws.2"
-    browser.run(
-        f"location.hash = '#engine={name}&{changed}={known[changed] + 7}'; new Promise(done => setTimeout(done, 100))"
-    )
+    go(browser, f"#engine={name}&{changed}={known[changed] + 7}")
     file = write(tmp_path / "new.toml", browser.run("Live.writeFile()"))
     wanted = ask_json("-q", "analyze", file, "--orders", "0-12", "--only", ",".join(WANTED))
     assert not list(differences(wanted, figures(browser)))
