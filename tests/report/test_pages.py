@@ -221,14 +221,16 @@ def test_locus_has_x_upwards(ax):
 
 
 @pytest.mark.parametrize(("share", "marked"), [(0.5, True), (0.1, False), (0.01, False)])
-def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
-    """Marks would lie on one another."""
+def test_a_small_locus_has_a_picture_of_its_own_instead_of_crank_angles(ax, share, marked):
+    """Marks would lie on one another; the picture in the corner has a scale that shows the locus."""
     before = Phasors.of(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
     after = replace(before, vectors=share * before.vectors)
     draw_locus(ax, after, FORCE.name_components(None), SI.force, before)
     texts = [text.get_text() for text in ax.texts]
     assert ("60°" in texts) == marked
-    assert (f"at most {100 * share:g} N" in texts) != marked
+    assert len(ax.child_axes) == 1 - marked
+    for inset in ax.child_axes:
+        assert inset.get_xlim()[1] == pytest.approx(1.25 * 100 * share)
     widths = [max(x) - min(x) for x in (line.get_xdata() for line in ax.lines) if len(x) > 20]
     drawn = any(width == pytest.approx(200 * share) for width in widths)
     assert drawn
