@@ -44,6 +44,8 @@ GROUPS = {
         "effect of a given torque curve.",
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
+        "piston": "Motion of the pistons: strokes, dead centres, speeds and accelerations, exact "
+        "and by two terms.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
         "report": "Write one self-contained page: the engine in motion, its free forces and "
@@ -95,6 +97,7 @@ MODULES = {
     "layouts": "books.command",
     "torque": "torque.command",
     "curves": "analysis.command",
+    "piston": "analysis.command",
     "plot": "report.command",
     "report": "report.command",
     "balance": "balancing.command",
