@@ -44,6 +44,8 @@ GROUPS = {
         "effect of a given torque curve.",
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
+        "piston": "Motion of the pistons: strokes, dead centres, speeds and accelerations, exact "
+        "and by two terms.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
         "report": "Write one self-contained page: the engine in motion, its free forces and "
@@ -89,7 +91,7 @@ COMMANDS = {name: text for group in GROUPS.values() for name, text in group.item
 
 # The commands of each module; their functions are called like them.
 _COMMANDS_OF = {
-    "analysis.command": ("analyze", "compare", "sum", "curves"),
+    "analysis.command": ("analyze", "compare", "sum", "curves", "piston"),
     "balancing.command": ("balance",),
     "books.command": ("layouts", "tables"),
     "commands": ("new", "engines", "schema", "check", "bench"),
