@@ -263,11 +263,11 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     The lowest acceleration of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` where that is
     an angle, at 180 deg otherwise.
     """
-    fastest, scale = fastest_two_term(lam), radius * omega**2
+    (psi, value), scale = fastest_two_term(lam), radius * omega**2
     two = lam > _TWO_TERM_LIMIT
     return TwoTerm(
-        velocity_max_m_per_s=radius * omega * float(fastest.value),
-        velocity_max_own_deg=math.degrees(float(fastest.psi)),
+        velocity_max_m_per_s=radius * omega * float(value),
+        velocity_max_own_deg=math.degrees(float(psi)),
         acceleration_max_m_per_s2=scale * (1 + lam),
         acceleration_min_m_per_s2=-scale * (lam + 1 / (8 * lam) if two else 1 - lam),
         acceleration_min_own_deg=math.degrees(math.acos(-1 / (4 * lam))) if two else 180.0,

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Annotated, ClassVar
 
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
+from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
@@ -186,9 +186,21 @@ class Bearing(FileTable):
 
     pin_diameter: Size | None = None
     """Of the crank pins. Example: 48"""
+    pin_bore: Distance = 0.0
+    """Inner diameter of hollow crank pins. Example: 20"""
     pin_width: Size | None = None
     """Of each rod's bearing. Example: 20"""
     main_diameter: Size | None = None
     """Of the main journals. Example: 60"""
+    main_bore: Distance = 0.0
+    """Inner diameter of hollow main journals. Example: 20"""
     main_width: Size | None = None
     """Of each main bearing. Example: 22"""
+
+    def _check_bores(self) -> Iterator[str]:
+        """A hollow journal has a diameter, above that of its bore."""
+        for kind in ("pin", "main"):
+            bore, diameter = getattr(self, f"{kind}_bore"), getattr(self, f"{kind}_diameter")
+            if bore and (diameter is None or bore >= diameter):
+                wanted = "" if diameter is None else f" = {diameter:g} mm"
+                yield f"{kind}_bore = {bore:g} mm: has to be below {kind}_diameter{wanted}"

@@ -24,7 +24,8 @@ from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
-WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, "inner", "guide", *PARTS)
+CLOSER = ("inner", "guide", "journals", "masses")  # computed only when they are named
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
 EnginePath = Annotated[
@@ -99,8 +100,8 @@ OnlyParts = Annotated[
     optional(
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
-        "bearing loads along crankshaft and block), guide (H- and X-type); or xy, textbook, "
-        "verdict.",
+        "bearing loads along crankshaft and block), guide (H- and X-type), "
+        "journals (torque along the crankshaft), masses; or xy, textbook, verdict.",
         "--only",
     ),
 ]
