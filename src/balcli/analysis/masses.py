@@ -39,6 +39,7 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
         one = Masses(
             cylinders=(),
             piston_kg=float(weighed.piston),
+            crosshead_kg=float(weighed.crosshead),
             reciprocating_kg=float(weighed.reciprocating),
             rotating_kg=float(weighed.rotating),
             throw_kg=float(weighed.share),
@@ -62,6 +63,7 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
 # ------------------------------------------------------------------ how it is shown
 _LABELS = {
     "piston_kg": ("piston, g", 1e3),
+    "crosshead_kg": ("crosshead, g", 1e3),
     "rod_kg": ("rod, g", 1e3),
     "rod_small_end_kg": ("rod at the small end, g", 1e3),
     "rod_big_end_kg": ("rod at the big end, g", 1e3),
@@ -81,7 +83,7 @@ def grid(masses: Sequence[Masses]) -> Grid:
     rows = []
     for key, (label, factor) in _LABELS.items():
         values = [getattr(one, key) for one in masses]
-        if any(value is not None for value in values):
+        if any(values):
             cells = ("–" if value is None else number(factor * value) for value in values)
             rows.append((label, *cells))
     return Grid("Masses", tuple(heads), tuple(rows))

@@ -423,7 +423,8 @@ class Masses(NamedTuple):
     Attributes:
         cylinders: Numbers of the cylinders.
         piston_kg: Piston with pin, rings and locks.
-        reciprocating_kg: Piston and small end.
+        crosshead_kg: Crosshead with piston rod and pin.
+        reciprocating_kg: Piston, crosshead and small end.
         rotating_kg: Big end with bearing shells and oil, without the throw.
         throw_kg: Share of the throw at the pin.
         rod_kg: Rod; left out, like all that follows from it, where the file gives no mass.
@@ -437,6 +438,7 @@ class Masses(NamedTuple):
 
     cylinders: tuple[int, ...]
     piston_kg: float
+    crosshead_kg: float
     reciprocating_kg: float
     rotating_kg: float
     throw_kg: float

@@ -149,6 +149,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
     piston, weighed = tuple(parts.find_piston_masses().items()), {}
     leads = parts.pins.leads_deg
+    crosshead = take("crosshead.mass", parts.model.crosshead.mass)
     for cell in parts.plan.cells:
         number, hung = cell.number, cell.number in parts.masters
         gear, own = parts.gears[number], parts.override(number, "piston_mass")
@@ -167,6 +168,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
             share=share,
             rod_bearing=0.0 if hung else rod_bearing,
             oil=0.0 if hung else or_zero(oil) + shared,
+            crosshead=value_or(parts.override(number, "crosshead_mass"), crosshead),
         )
     return weighed
 

@@ -54,6 +54,7 @@ class CylinderMasses(NamedTuple):
         piston: Piston with pin, rings and locks.
         piston_parts: Parts of the piston by the keys of [piston]: `mass` alone, or piston, pin,
             rings and locks as far as they are given.
+        crosshead: Crosshead with piston rod and pin.
         small_end, big_end: Ends of the rod, without bearing shells.
         share: Share of the throw's unbalanced mass for this cylinder's pin.
         rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin as well.
@@ -67,11 +68,12 @@ class CylinderMasses(NamedTuple):
     share: Figure
     rod_bearing: Figure
     oil: Figure
+    crosshead: Figure = 0.0
 
     @property
     def reciprocating(self) -> Figure:
         """Reciprocating mass of the cylinder, kg."""
-        return self.piston + self.small_end
+        return self.piston + self.crosshead + self.small_end
 
     @property
     def rotating(self) -> Figure:

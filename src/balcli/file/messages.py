@@ -24,6 +24,7 @@ TABLES: dict[str, type[FileTable]] = {
     "crank": model.Crank,
     "rod": model.Rod,
     "piston": model.Piston,
+    "crosshead": model.Crosshead,
     "layout": model.Layout,
     "bobweight": model.Bobweight,
     "operation": model.Operation,

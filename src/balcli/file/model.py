@@ -140,6 +140,13 @@ class Piston(FileTable):
     Example: -1.6"""
 
 
+class Crosshead(FileTable):
+    """Crosshead between the piston rod and the connecting rod of large engines."""
+
+    mass: Mass = 0.0
+    """Of each cylinder, with piston rod and pin; it moves with the piston. Example: 2400"""
+
+
 class Layout(FileTable):
     """Banks, rods on a throw, and firing."""
 
@@ -275,6 +282,8 @@ class Override(FileTable):
 
     piston_mass: Mass | None = None
     """As piston.mass. Example: 0.502"""
+    crosshead_mass: Mass | None = None
+    """As crosshead.mass. Example: 2450"""
     piston_offset: Length | None = None
     """As piston.offset. Example: 0.8"""
     rod_length: Size | None = None
@@ -381,6 +390,7 @@ class EngineFile(FileTable):
     crank: Crank
     rod: Rod
     piston: Piston
+    crosshead: Crosshead = Crosshead.model_construct()
     layout: Layout = Layout.model_construct()
     bobweight: Bobweight = Bobweight.model_construct()
     operation: Operation = Operation.model_construct()

@@ -46,7 +46,15 @@ from ..show.figures import clean
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
-_TABLES = ("crank", "rod", "piston", "layout", "operation", "cylinder")  # with numbers to change
+_TABLES = (
+    "crank",
+    "rod",
+    "piston",
+    "crosshead",
+    "layout",
+    "operation",
+    "cylinder",
+)  # with numbers to change
 _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
@@ -398,7 +406,7 @@ def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
         pistons = [f"cylinder.{number}.piston_mass"]
     place = parts.find_rod(number)
     return {
-        "piston": pistons,
+        "piston": [*pistons, name("crosshead_mass", "crosshead.mass")],
         "offset": name("piston_offset", "piston.offset"),
         "share": 1 / parts.plan.rods_on_throw,
         "extra": float(weighed.rod_bearing + weighed.oil),
