@@ -243,11 +243,11 @@ def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
     """Return results that are seldom asked for; their modules are loaded for them alone."""
     if not {"journals", "masses"}.intersection(wanted):
         return {}
-    from . import journals, masses
+    from . import crank_drive
 
     return {
-        "journals": journals.find_journals(engine) if "journals" in wanted else None,
-        "masses": masses.list_masses(engine) if "masses" in wanted else None,
+        "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
+        "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
     }
 
 

@@ -90,18 +90,18 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield from sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom()[0].grids(result.journals, system)
+        yield from _import_seldom().lay_out_journals(result.journals, system)
     if result.masses is not None:
-        yield _import_seldom()[1].grid(result.masses)
+        yield _import_seldom().lay_out_masses(result.masses)
     if result.why is not None:
         yield from sections.lay_out_symmetry(result.why)
 
 
-def _import_seldom() -> tuple[ModuleType, ModuleType]:
-    """Return the modules of parts that are seldom asked for: journals and masses."""
-    from . import journals, masses
+def _import_seldom() -> ModuleType:
+    """Return the module of parts that are seldom asked for: journals and masses."""
+    from . import crank_drive
 
-    return journals, masses
+    return crank_drive
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -240,9 +240,9 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.guide is not None:
         yield from sections.list_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom()[0].list_rows(result.journals)
+        yield from _import_seldom().list_journal_rows(result.journals)
     if result.masses is not None:
-        yield from _import_seldom()[1].list_rows(result.masses)
+        yield from _import_seldom().list_mass_rows(result.masses)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

@@ -1,10 +1,16 @@
-"""Torque in every main journal and crank pin: `analyze --only journals`.
+"""Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
+`--only masses`).
 
 The crankshaft is rigid, turns at the steady mean speed and gives its torque off at the flywheel
 end. With T_i the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque
 of all throws before it, `M_j = sum T_i, i < j`, and the pin of throw i `M_i + T_i/2`: the bearing
 before the throw takes half of the tangential force, at the arm r from the pin. The nominal shear
 stress of a hollow journal is `16 T D/(pi (D^4 - d^4))`.
+
+With l the length of the rod, a the distance of its centre of mass from the piston pin and b from
+the crank pin, its two masses are m b/l at the small and m a/l at the big end. They have the moment
+of inertia m a b about the centre of mass, the rod has J; H = m a b - J. A rod that swings about the
+piston pin has the reduced length (J + m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations
@@ -24,12 +30,13 @@ from ..core.records import list_figures, to_document
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from ..errors import BalcliError
+from ..file.fields import join_words
 from ..forces.crankshaft import place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Grid, degrees, number
 from ..show.units import System
-from .records import Journal, JournalTorque, ShearStress
+from .records import Journal, JournalTorque, Masses, ShearStress
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
 _ROUNDING = 1e-12  # of the sum of all cylinders' amplitudes: less is no torque
@@ -140,7 +147,7 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
 
 
 # ------------------------------------------------------------------ how it is shown
-def grids(journals: Sequence[Journal], system: System) -> Iterator[Grid]:
+def lay_out_journals(journals: Sequence[Journal], system: System) -> Iterator[Grid]:
     """Yield a table of the torques in journals and pins, and with gas one of inertia alone.
 
     Args:
@@ -181,8 +188,83 @@ def _grid(
     return Grid(title, tuple(heads), tuple(rows), f"The range is largest in {widest.place}.")
 
 
-def list_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
+def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
     """Yield every figure of the journals, SI."""
     for each in journals:
         for name, value, unit in list_figures(to_document(each), ("place",)):
             yield FigureRow(0, each.place, None, name, value, unit)
+
+
+# ------------------------------------------------------------------ masses
+def list_masses(engine: Engine) -> tuple[Masses, ...]:
+    """Return the masses of each distinct set of parts, in the order of the lowest cylinder.
+
+    Args:
+        engine: Engine without trailing axes.
+    """
+    c, count = engine.cylinders, len(engine.numbers)
+    lengths = np.broadcast_to(np.ravel(c.radius / c.lam), count)
+    couples = np.broadcast_to(np.ravel(c.couple), count)
+    found: dict[Masses, list[int]] = {}
+    for number_, weighed, length, couple in sorted(
+        zip(engine.numbers, engine.weighed, lengths.tolist(), couples.tolist(), strict=True),
+        key=lambda row: row[0],
+    ):
+        small, big = float(weighed.small_end), float(weighed.big_end)
+        one = Masses(
+            cylinders=(),
+            piston_kg=float(weighed.piston),
+            crosshead_kg=float(weighed.crosshead),
+            reciprocating_kg=float(weighed.reciprocating),
+            rotating_kg=float(weighed.rotating),
+            throw_kg=float(weighed.share),
+        )
+        if (mass := small + big) > 0:
+            a, b = length * big / mass, length * small / mass
+            inertia = mass * a * b - couple
+            one = one._replace(
+                rod_kg=mass,
+                rod_small_end_kg=small,
+                rod_big_end_kg=big,
+                rod_inertia_kg_m2=inertia,
+                radius_of_gyration_m=math.sqrt(max(inertia, 0.0) / mass),
+                couple_constant_kg_m2=couple,
+                reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
+            )
+        found.setdefault(one, []).append(number_)
+    return tuple(one._replace(cylinders=tuple(numbers)) for one, numbers in found.items())
+
+
+_LABELS = {
+    "piston_kg": ("piston, g", 1e3),
+    "crosshead_kg": ("crosshead, g", 1e3),
+    "rod_kg": ("rod, g", 1e3),
+    "rod_small_end_kg": ("rod at the small end, g", 1e3),
+    "rod_big_end_kg": ("rod at the big end, g", 1e3),
+    "reciprocating_kg": ("reciprocating, g", 1e3),
+    "rotating_kg": ("rotating without throw, g", 1e3),
+    "throw_kg": ("share of the throw, g", 1e3),
+    "rod_inertia_kg_m2": ("inertia of the rod, kg·mm²", 1e6),
+    "radius_of_gyration_m": ("its radius of gyration, mm", 1e3),
+    "couple_constant_kg_m2": ("H, kg·mm²", 1e6),
+    "reduced_length_m": ("reduced length, mm", 1e3),
+}
+
+
+def lay_out_masses(masses: Sequence[Masses]) -> Grid:
+    """Return a table: a figure a row, cylinders with equal parts a column."""
+    heads = ["", *(f"cylinder {join_words([str(n) for n in one.cylinders])}" for one in masses)]
+    rows = []
+    for key, (label, factor) in _LABELS.items():
+        values = [getattr(one, key) for one in masses]
+        if any(values):
+            cells = ("–" if value is None else number(factor * value) for value in values)
+            rows.append((label, *cells))
+    return Grid("Masses", tuple(heads), tuple(rows))
+
+
+def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
+    """Yield every figure of the masses, SI, by the lowest cylinder of each set."""
+    for one in masses:
+        for name, value, unit in list_figures(to_document(one), ("cylinders",)):
+            yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)

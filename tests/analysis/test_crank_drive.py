@@ -10,8 +10,7 @@ from support.commands import ask, ask_json, refusal
 from support.engines import GOOD, build_text, changed
 
 from balcli import analyze, analyze_torque, curves, load_example
-from balcli.analysis.journals import find_journals
-from balcli.analysis.masses import list_masses
+from balcli.analysis.crank_drive import find_journals, list_masses
 
 BEARING = "[bearing]\nmain_diameter = 60\nmain_width = 20\npin_diameter = 50\npin_width = 20\npin_bore = 30\n"
 
