@@ -176,7 +176,7 @@ def test_an_unknown_quantity_is_refused_with_those_there_are():
         analyze(inline_engine([0]), only=["bending"])
     assert str(caught.value) == (
         "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
-        "sizing, ladder, gas, inner, guide"
+        "sizing, ladder, gas, inner, guide, journals, masses"
     )
 
 
