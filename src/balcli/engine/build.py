@@ -33,6 +33,7 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
+from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES
@@ -170,9 +171,11 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
         f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its "
         "angle in crank.throws"
     )
-    for number in parts.model.cylinder:
-        if number not in parts.plan.numbers:
-            yield Problem(f"cylinder.{number}", f"there is no cylinder {number}: {made}")
+    strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
+    if strangers:
+        there = join_words([str(number) for number in strangers])
+        none = "are no cylinders" if len(strangers) > 1 else "is no cylinder"
+        yield Problem(f"cylinder.{strangers[0]}", f"there {none} {there}: {made}")
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:

@@ -29,6 +29,7 @@ SMALL_END = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
 # little.
 INERTIA = 0.02, 0.4
+TWO_MASSES = 1.6  # rod inertia / that of two masses at its ends: engines have 0.6 to 1.35
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
 SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9.55
 # Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
@@ -206,6 +207,9 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
     if mass and rod.inertia is not None:
         least, most = (share * mass * length**2 for share in INERTIA)
         about = "it is taken about the centre of mass, in kg mm^2"
+        if rod.cg is not None and 0 < rod.cg < length:
+            most = min(most, TWO_MASSES * mass * rod.cg * (length - rod.cg))
+            about += ", and belongs to this mass, cg and length"
         yield Figure("rod.inertia is", rod.inertia, least, most, " kg mm^2", about)
 
 

@@ -145,8 +145,10 @@ def template(kind: str) -> str:
         BalcliError: No such kind; the error lists all of them and the nearest.
     """
     if kind not in KINDS:
-        near = nearest(kind, KINDS)
+        near, like = nearest(kind, KINDS), [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
+        if like:
+            hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
         raise BalcliError(
             f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
         )
