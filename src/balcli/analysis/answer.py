@@ -210,16 +210,19 @@ def analyze(
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
     of_gas = () if engine.gas is None else list_gas_orders(engine)
-    # near its lock an engine has tens of thousands: peaks need all of them, tables a few
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
-    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = compute_spectra(engine, few, shown)
-    if asked is None:
-        visible = visible.select_orders(choose_orders(visible, of_gas))
-    peak = None
-    if "peak" in wanted:
-        peak = find_peaks(compute_spectra(engine, every, [kind.name for kind in VECTORS]))
+    computed = every if asked is None or "peak" in wanted else asked
+    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
+        everything = compute_spectra(engine, computed, shown | peaked)
+        visible = everything.only(shown)
+    else:  # near its lock an engine has tens of thousands: peaks need them, gas and tables do not
+        few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+        visible = compute_spectra(engine, few, shown)
+        everything = compute_spectra(engine, computed, peaked) if peaked else visible
+    visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
+    peak = find_peaks(everything) if peaked else None
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
