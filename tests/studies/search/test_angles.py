@@ -21,7 +21,7 @@ from balcli.forces.symmetry import explain_symmetry
 from balcli.show.units import SYSTEMS
 from balcli.studies.search.answer import search_arrangements
 from balcli.studies.search.command import rows
-from balcli.studies.search.designs import Objective, fires_evenly, parse_objective, write_design
+from balcli.studies.search.designs import BROKEN, Objective, fires_evenly, parse_objective, write_design
 
 pytestmark = pytest.mark.slow
 
@@ -63,8 +63,8 @@ def sweep(file: EngineFile, over: str, wanted: Objective, x: Array) -> Array:
     engine = build(file, {PATHS[over]: x})
     figures = evaluate_quantities(engine, wanted.quantities)
     figures = [np.broadcast_to(figure, x.shape) for figure in figures]
-    merit = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
-    return np.where(merit.excess > 0, np.inf, merit.cost)
+    costs = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
+    return np.where(costs < BROKEN, costs, np.inf)
 
 
 def found_by(file: EngineFile, over: str, wanted: Objective) -> tuple[Array, Array]:
@@ -277,8 +277,8 @@ def test_no_permutation_of_throws_is_better(seed: int) -> None:
     def values(wanted: Objective) -> Array:
         figures = evaluate_quantities(engine, wanted.quantities)
         figures = [np.broadcast_to(figure, len(every)) for figure in figures]
-        merit = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
-        return np.where(merit.excess > 0, np.inf, merit.cost)
+        costs = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
+        return np.where(costs < BROKEN, costs, np.inf)
 
     goal, limited = random.permutation(["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"])[
         :2

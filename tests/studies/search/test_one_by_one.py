@@ -17,7 +17,7 @@ import balcli
 from balcli.engine.parse import parse
 from balcli.process import tell_nobody
 from balcli.studies.search import designs as evaluate
-from balcli.studies.search.designs import Merit, parse_objective
+from balcli.studies.search.designs import BROKEN, parse_objective
 from balcli.studies.search.local import Box, Effort, find_local_optima
 
 pytestmark = pytest.mark.slow
@@ -38,7 +38,7 @@ def find_merits(judge, *ranges, points=32, ring=False):
 
     def judge_all(rows):
         judged = np.array([judge(*row) for row in rows], float).reshape(-1, 2)
-        return Merit(judged[:, 0], judged[:, 1])
+        return np.where(judged[:, 0] > 0, BROKEN * judged[:, 0], judged[:, 1])
 
     return find_local_optima(judge_all, box, Effort(points, 8, 1e-12)).places
 

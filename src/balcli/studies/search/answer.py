@@ -296,16 +296,16 @@ def _search_numbers(
     spans = ends[:, 1] - ends[:, 0]
     angles = np.array([one.number.unit == "deg" for one in ranges])
     box = Box(ends[:, 0], ends[:, 1], angles & (spans == TURN))
-    total = 1.0
-    paths = [one.number.path for one in ranges]
-    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
-    effort = _choose_effort(box, objective, judge.alone)
+    alone = not objective.is_sum_over_cylinders
+    effort = _choose_effort(box, objective, alone)
     if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
+    paths = [one.number.path for one in ranges]
+    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
     optima = find_local_optima(judge, box, effort)
     refused = judge.refused
-    if not np.isfinite(optima.merits.excess).any() and refused is not None:
+    if refused is not None and not np.isfinite(optima.costs).any():
         raise InputError(refused.problems)
     designs, lines = (
         [dict(zip((one.key for one in ranges), place, strict=True)) for place in places.tolist()]
@@ -314,10 +314,9 @@ def _search_numbers(
     found: Iterator[Found] = iter(())
     if designs:
         found = rank_designs(designs, judge.evaluate(optima.places), objective, lines)
-    costs = optima.merits.cost
-    same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
+    same = np.ptp(optima.costs) <= _ROUNDING * np.abs(optima.costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
-    return found, bool(same and spans.all() and not why), why
+    return found, bool(not why and same and spans.all()), why
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
@@ -378,7 +377,7 @@ def search(
     bounds = {} if limits is None else limits
     check_type("search", bounds, Mapping, 'give a dict, such as {"moment.2.major": 100}')
     check_type("even_firing", even_firing, bool, "give True or False")
-    kept = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
+    kept = [f"{name}<{bound}" for name, bound in bounds.items()]
     objective = parse_objective(
         _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
     )
@@ -390,10 +389,5 @@ def search(
 def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
     """Return quantities with their weights as the command line has them; None as it is."""
     if isinstance(goal, Mapping):
-        return ",".join(f"{name}={weight!r}" for name, weight in _as_floats(goal).items())
+        return ",".join(f"{name}={weight}" for name, weight in goal.items())
     return join_names("search", goal)
-
-
-def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:
-    """Return numpy's numbers as Python's, which print as plain digits."""
-    return {name: float(v) if hasattr(v, "dtype") else v for name, v in figures.items()}

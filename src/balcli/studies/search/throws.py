@@ -30,7 +30,7 @@ from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
 from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import Found, Objective, fires_evenly, name_throws, rank_throws, refuse_many
+from .designs import BROKEN, Found, Objective, fires_evenly, name_throws, rank_throws, refuse_many
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]
@@ -284,7 +284,7 @@ class _BranchAndBound:
         throws = len(model.crank.throws or ())
         self._fixed = _find_first_throw(model)
         self._free = [throw for throw in range(throws) if throw != self._fixed]
-        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), math.inf
+        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
 
     def grow(self, angles: AngleSet) -> Iterator[int]:
         """Try all arrangements of some angles, and yield how many more have been decided."""
@@ -336,8 +336,10 @@ class _BranchAndBound:
         whole = np.repeat(sums[..., None], len(ends), axis=2)
         for throw, levels in zip(self._free[len(prefix) :], ends.T, strict=True):
             whole += self._table.throws[:, :, throw, levels]
-        merit = self._objective.judge({q: self._table.read(q, whole) for q in self._quantities})
-        costs = np.where(merit.excess > 0, np.inf, ranked(merit.cost))
+        figures: dict[AnyQuantity, Array] = {
+            q: self._table.read(q, whole) for q in self._quantities
+        }
+        costs = ranked(self._objective.judge(figures))
         good = np.flatnonzero(costs < self._worst)
         rows = np.concatenate([np.tile(prefix, (len(good), 1)), ends[good]], axis=1).astype(int)
         angles, costs = np.insert(self._levels[rows], self._fixed, 0.0, axis=1), costs[good]
