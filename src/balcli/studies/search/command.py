@@ -91,9 +91,12 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    angles = [one for one in result.ranges if "." not in one.key]  # whose range nobody gave
-    if angles:
-        ends = (f"{_in_words(a.key)} {a.ends[0]:g} to {a.ends[1]:g} deg" for a in angles)
+    ends = [
+        f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
+        for key, number in result.ranges.items()
+        if "." not in key  # whose range nobody gave
+    ]
+    if ends:
         yield f"Searched: {', '.join(ends)}."
     if result.refused:
         yield f"Some of these values make no engine, such as {result.refused}."

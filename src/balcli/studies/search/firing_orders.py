@@ -23,7 +23,8 @@ from ...engine.numbering import find_fitting_splay
 from ...errors import BalcliError
 from ...file.model import EngineFile
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
-from .designs import Found, Objective, drop_firing_order, rank_throws
+from ...process import Tell
+from .designs import Found, Objective, drop_firing_order, rank_one_by_one, rank_throws
 from .throws import count_from
 
 
@@ -159,9 +160,17 @@ def _tell_that_none_is_even(model: EngineFile) -> str:
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
 
 
-def search_firing_order(model: EngineFile, objective: Objective) -> Iterator[Found]:
+def search_firing_order(model: EngineFile, objective: Objective, tell: Tell) -> Iterator[Found]:
     """Yield the even firing orders with their cranks, best first."""
     slots, cranks = find_slots(model)
-    for one in rank_throws(drop_firing_order(model), cranks, objective):
-        for order in slots.find_orders(one.design["throws"]):
-            yield replace(one, design={"firing_order": [*order], **one.design})
+    if objective.is_sum_over_cylinders:
+        for one in rank_throws(drop_firing_order(model), cranks, objective):
+            for order in slots.find_orders(one.design["throws"]):
+                yield replace(one, design={"firing_order": [*order], **one.design})
+        return
+    designs = (
+        {"firing_order": [*order], "throws": throws}
+        for throws in cranks.tolist()
+        for order in slots.find_orders(throws)
+    )
+    yield from rank_one_by_one(model, designs, objective, tell)

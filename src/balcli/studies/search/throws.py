@@ -30,7 +30,17 @@ from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
 from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import BROKEN, Found, Objective, fires_evenly, name_throws, rank_throws, refuse_many
+from .designs import (
+    BROKEN,
+    Found,
+    Objective,
+    drop_firing_order,
+    fires_evenly,
+    name_throws,
+    rank_one_by_one,
+    rank_throws,
+    refuse_many,
+)
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]
@@ -44,21 +54,27 @@ ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
 def search_throws(
     model: EngineFile, objective: Objective, wanted: int, even_firing: bool, tell: Tell
 ) -> Iterator[Found]:
-    """Yield at least `wanted` arrangements of the throws of a file, best first, if there are so
-    many; its quantities are sums over the cylinders.
+    """Return at least `wanted` arrangements of the throws of a file, best first, if there are so
+    many.
 
     Raises:
         BalcliError: There is nothing to arrange, or a peak is asked for.
     """
+    model = drop_firing_order(give_throws(model))
+
+    def can_fire(throws: Array) -> NDArray[np.bool_]:
+        return fires_evenly(build(model, name_throws(throws)), model)
+
+    if not objective.is_sum_over_cylinders:
+        throws = list_throws(model)
+        throws = throws[can_fire(throws)] if even_firing else throws
+        designs = ({"throws": row} for row in throws.tolist())
+        return rank_one_by_one(model, designs, objective, tell)
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(
             f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
             "such as force.1.major"
         )
-
-    def can_fire(throws: Array) -> NDArray[np.bool_]:
-        return fires_evenly(build(model, name_throws(throws)), model)
-
     allowed = can_fire if even_firing else None
     throws = find_best_throws(model, objective, IMAGES * wanted, allowed, tell)
     return rank_throws(model, count_from(throws[:, :1], throws), objective)
