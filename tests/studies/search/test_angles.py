@@ -135,15 +135,6 @@ def test_a_limit_met_by_hand(file: EngineFile, over: str, goal: str, limit: str,
     assert len(angles)
 
 
-def test_a_turn_is_listed_once_and_no_maximum() -> None:
-    for goal in ("force.1.major", "force.1.forward", "force.2.major"):
-        angles, values = found_by(vee(), "splay", parse_objective(goal))
-        x = np.linspace(-180, 180, 3601)
-        dense = sweep(vee(), "splay", parse_objective(goal), x)
-        assert values.max() <= np.median(dense)
-        assert len(np.unique(np.mod(angles, 360))) == len(angles)
-
-
 # ------------------------------------------------------------------ even firing
 @pytest.mark.parametrize("pairs", range(2, 15))
 @pytest.mark.parametrize("over", ["bank_angle", "splay"])

@@ -312,16 +312,6 @@ def test_a_firing_order_of_no_account_leaves_room_for_a_bank_angle():
     assert found[0]["layout.bank_angle"] == pytest.approx(90, abs=1e-4)
 
 
-@pytest.mark.parametrize("over", ["bank_angle", "layout.bank_angle=0:180"])
-def test_so_it_does_by_the_angles_own_name(over):
-    """No worse than all of a sweep, in which the firing order counts for nothing, either."""
-    path, quantity = ENGINES / "v12_60.toml", "guide.3.X"
-    swept = ask_csv("sweep", path, "--vary", "layout.bank_angle=0:180:5", "-q", quantity)
-    values = [float(row[quantity]) for row in swept]
-    found = search(path, "--over", over, "--minimise", quantity)
-    assert found[0]["objective"] <= min(values) + 1e-9 * max(values)
-
-
 def test_ends_of_a_turn_are_one_angle():
     """Guides of a V6 feel nothing of order 3 at splays of -60, which it has, 60 and 180."""
     found = search(ENGINES / "v6_60.toml", "--over", "splay", "--minimise", "guide.3.X")
