@@ -26,28 +26,6 @@ def engine(tmp_path: Path) -> str:
 SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
 
 
-def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
-    target = tmp_path / "x.csv"
-    printed, written = (
-        run_command("sweep", engine, *SWEEP),
-        run_command("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
-    )
-    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (0, 0, "", "")
-    assert printed.stdout == target.read_text()
-    assert printed.stdout.startswith("rod.ratio,force.2.major\n0.2,")
-
-
-def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
-    target = write(tmp_path / "x.csv", "old\n")
-    done = run_command(
-        "sweep", engine, "--vary", "crank.stroke=80:400:10", "--quantity", "force.2.major", "-o", str(target)
-    )
-    assert done.returncode == 2
-    assert "the crank cannot turn" in done.stderr
-    assert target.read_text() == "old\n"
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv"]
-
-
 def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
     """One between the corners of the grid, the ripple's angle; the first such is named."""
     file = write(

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import io
 import sys
-import tomllib
 import tracemalloc
 
 import numpy as np
@@ -140,41 +139,7 @@ def test_engines_side_by_side_have_names():
         balcli.compare(V8, FOUR, names=["one"])
 
 
-def test_tables_with_other_ranges():
-    table = balcli.tables("tsinghua-1-2", ratios="0.25,1/3", angles="0:90:45")
-    assert [row["alpha_deg"] for row in table.rows()] == [0, 45, 90]
-    assert table.rows()[2]["1/3"] == pytest.approx(1 + 3 * (1 - np.sqrt(1 - 1 / 9)))
-    assert balcli.tables("series", power=4).rows()
-    assert balcli.tables("tsinghua-1-2").errata
-
-
-def test_curves_of_an_engine_and_of_a_piston():
-    found = balcli.curves(FOUR, 5)
-    assert len(found.rows()) == 72
-    spectra = balcli.analyze(FOUR, range(1, 33), only="force").spectra
-    wanted = spectra.force.values(np.radians(found.crank_deg)).real
-    assert found.curves["force_x_N"] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
-    piston = balcli.curves(FOUR, 90, cylinder=2)
-    assert piston.curves["travel_m"].max() == pytest.approx(2 * FOUR.cylinders.radius)
-    assert "travel_m" in piston.to_pandas()
-    assert len(balcli.curves(balcli.load_example("i4_wiebe"), 90).rows()) == 8
-    with pytest.raises(balcli.BalcliError, match=r"in-line four, 2 litres has the cylinders 1, 2, 3, 4$"):
-        balcli.curves(FOUR, cylinder=9)
-
-
 # ------------------------------------------------------------------ chapters
-CHAIN = """\
-[[node]]
-name = "motor"
-inertia = 2e6
-[[node]]
-name = "pump"
-inertia = 1e6
-[[shaft]]
-from = "motor"
-to = "pump"
-stiffness = 8000
-"""
 
 
 def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
@@ -182,16 +147,6 @@ def test_an_engine_with_torsion_is_read_once_from_standard_input(monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(text)))
     found = balcli.analyze_torsion("-")
     assert found.modes[0].frequency_Hz == balcli.analyze_torsion(DIESEL).modes[0].frequency_Hz
-
-
-def test_a_chain_is_a_path_a_text_or_a_dict(tmp_path):
-    (tmp_path / "chain.toml").write_text(CHAIN)
-    found = [
-        balcli.analyze_torsion(source).modes[0].frequency_Hz
-        for source in (tmp_path / "chain.toml", str(tmp_path / "chain.toml"), CHAIN, tomllib.loads(CHAIN))
-    ]
-    wanted = np.sqrt(8000 * (1 / 2 + 1 / 1)) / (2 * np.pi)
-    assert found == pytest.approx([wanted] * 4, rel=1e-9)
 
 
 def test_torsion_of_an_engine_is_that_of_its_file(tmp_path):

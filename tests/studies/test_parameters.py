@@ -86,15 +86,6 @@ def test_firing_intervals_vary_together_or_not_at_all() -> None:
         parse_parameter("layout.firing_intervals.1=170,180", load(text))
 
 
-def test_names_that_begin_as_an_unknown_one_are_told():
-    """A vee's `bank` is its bank angle rather than that of one cylinder."""
-    with pytest.raises(BalcliError) as caught:
-        parse_parameter("bank=30,60", load((ENGINES / "vtwin45.toml").read_text()))
-    assert str(caught.value) == (
-        "bank: unknown parameter; did you mean layout.bank_angle or cylinder.1.bank or cylinder.2.bank?"
-    )
-
-
 def test_a_figure_that_stands_for_all_axes_of_a_mount_varies_as_one():
     text = (ENGINES / "i4_mounts.toml").read_text()
     left = text.replace("stiffness = [190, 90, 90]", "stiffness = 140", 1)

@@ -139,15 +139,6 @@ def test_boxes_are_the_smaller_the_more_each_variant_needs(engine: str, vary: st
     assert count_at_once(asked(engine, vary, of=of)) <= most
 
 
-def test_a_part_of_a_grid_is_a_sweep_of_its_own() -> None:
-    sweep = asked(VEE, "layout.bank_angle=0:180:45", "rod.ratio=0.2,0.3,0.31", of="moment.1.major")
-    box = (slice(1, 3), slice(2, 3))
-    part = sweep.cut(box)
-    assert part.shape == (2, 1)
-    (whole,) = join_chunks(sweep, evaluate_chunks(sweep))
-    assert np.array_equal(evaluate_sweep(part)[0], whole[box].ravel())
-
-
 def test_chunks_do_not_change_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     sweep = asked(VEE, "layout.bank_angle=0:179:1", "rod.ratio=0.2:0.399:0.001", of="force.2.major,moment.1.backward")
     whole = join_chunks(sweep, evaluate_chunks(sweep))

@@ -48,18 +48,20 @@ def test_in_line_four() -> None:
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = (engine(throws, layout), parse_objective("moment.1.major=1,moment.2.backward=2,force.1.major=0.5"))
-    every = np.array(
-        sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
-    )
-    sample = every if len(every) < 1000 else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
-    whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)})
-    values = dict(zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True))
-    tried = wanted.judge(values).min()
-    first = search_arrangements(file, "throws", wanted, 1).results[0].objective
-    if len(sample) == len(every):
-        assert first == pytest.approx(tried, rel=1e-12, abs=1e-8)
-    assert first <= tried + 1e-8
+    """Without a limit, and with one that two fifths of the cranks keep."""
+    file, goal = engine(throws, layout), "moment.1.major=1,moment.2.backward=2,force.1.major=0.5"
+    every = sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
+    chosen = np.random.default_rng(1).permutation(len(every))[:1000]
+    whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(np.array(every)[chosen].T)})
+    quantities = parse_objective(goal).quantities
+    values = dict(zip(quantities, evaluate_quantities(whole, quantities), strict=True))
+    bound = float(np.quantile(values[quantities[2]], 0.4)) * 1.001 + 1e-3
+    for wanted in (parse_objective(goal), parse_objective(goal, [f"force.1.major<{bound!r}"])):
+        tried = wanted.judge(values).min()
+        first = search_arrangements(file, "throws", wanted, 1).results[0].objective
+        if len(chosen) == len(every):
+            assert first == pytest.approx(tried, rel=1e-12, abs=1e-8)
+        assert first <= tried + 1e-8
 
 
 def test_every_arrangement_of_a_five_once() -> None:
@@ -215,30 +217,6 @@ def test_millions_of_firing_orders_are_no_hindrance() -> None:
     assert [one.objective for one in found] == [0, 0, 0]
     for one in found:
         assert fires_evenly(build(load(write_design(text.encode(), one.design))), load(text)).all()
-
-
-def test_ninety_degree_twin() -> None:
-    file = engine([0], "bank_angle = 50")
-    (found, *_) = search_least(file, "bank_angle", "force.1.backward").results
-    assert (found.design, found.objective) == ({"bank_angle": 90}, 0)
-
-
-def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
-    file = engine([0, 240, 120], "bank_angle = 90")
-    found = search_least(file, "splay", "moment.1.major", even_firing=True).results
-    assert sorted(r.design["splay"] for r in found) == [-150, -30, 90]
-
-
-def test_even_firing() -> None:
-    for throws, layout, even in (
-        ([0, 180, 180, 0], "", True),
-        ([0, 90, 270, 180], "", False),
-        ([0, 0], "strokes = 4", True),
-        ([0, 180], "strokes = 4", False),
-        ([0, 180], "strokes = 2", True),
-    ):
-        file = engine(throws, layout)
-        assert bool(fires_evenly(build(file), file)) is even
 
 
 CHOICES = (
