@@ -97,10 +97,6 @@ class Search(Result):
             if abs(best[key] - end) <= NEAR_AN_END * np.ptp(number.values)
         )
 
-    def find_unit(self, key: str) -> str:
-        """Return the unit of a number that was searched over; empty for anything else."""
-        return self.ranges[key].unit if key in self.ranges else ""
-
     @property
     def summary(self) -> str:
         """Searched keys, and the number of results."""

@@ -42,7 +42,7 @@ def columns(result: Search) -> Columns:
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.quantities[name] for one in result.results] for name in first.quantities}
     units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
+    set_in = {key: number.unit for key, number in result.ranges.items() if number.unit}
     return Columns(found, units | set_in)
 
 
