@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from support.browser import CHROMIUM, Browser
 from support.commands import ask
-from support.engines import GOOD, build_text, changed
+from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
 from support.pictures import without_pictures
 
@@ -24,27 +24,7 @@ from balcli.show.units import IMPERIAL, SI
 pytestmark = pytest.mark.slow
 
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
-RADIAL = """\
-name = "radial with a master rod"
-[crank]
-stroke = 120
-throw_mass = 3
-[rod]
-length = 230
-mass = 2.5
-cg = 60
-[piston]
-mass = 1.6
-offset = 2
-[layout]
-radial = 5
-[operation]
-speed = 2000
-[articulation]
-knuckle_radius = 55
-rod = { length = 175, mass = 0.9, cg = 80 }
-"""
-ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5\nrotary = true")
+ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 7", "radial = 7\nrotary = true")
 
 
 @cache

@@ -220,10 +220,7 @@ def test_a_cluster_of_our_own_and_one_by_address(monkeypatch):
     monkeypatch.setitem(
         sys.modules,
         "distributed",
-        dask(
-            LocalCluster=lambda **options: nullcontext("own"),
-            Client=lambda at, **options: nullcontext(f"client of {at}"),
-        ),
+        dask(Client=lambda address="own", **options: nullcontext(f"client of {address}")),
     )
     for address, found in (("local", "client of own"), ("tcp://host:1", "client of tcp://host:1")):
         with cluster.connect_cluster(address) as share:

@@ -5,9 +5,11 @@ mounts (mm, rad), torque and pressure over the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -36,7 +38,7 @@ from ..mounts.rigid_body import PROJECTION, find_corners
 from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
-from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text
+from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
 from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
 from ..torsion import plot as twisting, show as torsion
@@ -51,7 +53,6 @@ from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
     from jinja2 import Template
-    from markupsafe import Markup
 
 
 _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
@@ -183,16 +184,10 @@ def _shakes(result: Analysis, order: float) -> bool:
 
 FOLDER = Path(__file__).with_name("assets")
 _PICTURES = (
-    ("polar", "force"),
-    ("polar", "moment"),
-    ("spectrum", "force"),
-    ("spectrum", "moment"),
-    ("curves", "force"),
-    ("curves", "moment"),
-    ("spectrum", "about"),
-    ("curves", "about"),
+    *product(("polar", "spectrum", "curves"), ("force", "moment")),
+    *product(("spectrum", "curves"), ("about",)),
 )
-_COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
+_COMPARED = tuple(product(("polar", "spectrum"), ("force", "moment")))
 
 
 class Answers(NamedTuple):
@@ -228,33 +223,25 @@ def find_answers(
     """
     result = analyze(engine, orders)
     balanced = balance_engine(engine, scheme, options, orders)
-    mounted = None
+    mounted = twisted = None
     if model.body:
         fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
-        mounted = _put_on_mounts(model, engine, fitted, options, name)
-    twisted = _twist(model, engine, name) if model.torsion else None
+        with _warning("mounts"):
+            mounted = report_mounts(model, engine, scheme=fitted, name=name, options=options)
+    if model.torsion:
+        with _warning("torsion"):
+            question = TorsionQuestion(choose_torsion_speeds(engine))
+            twisted = answer_question(make_source(model, engine, name), question)
     return Answers(result, balanced, mounted, twisted, None if engine.gas is None else engine)
 
 
-def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
-    """Return the torsional vibration; None, with a warning, if it cannot be computed."""
+@contextmanager
+def _warning(chapter: str) -> Iterator[None]:
+    """Turn the error of a chapter that cannot be computed into a warning."""
     try:
-        source = make_source(model, engine, name)
-        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
+        yield
     except BalcliError as error:
-        warn(f"the page does not show the torsion: {error}")
-        return None
-
-
-def _put_on_mounts(
-    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
-) -> MountReport | None:
-    """Return the vibration on mounts; None, with a warning, if it cannot be computed."""
-    try:
-        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
-    except BalcliError as error:
-        warn(f"the page does not show the mounts: {error}")
-        return None
+        warn(f"the page does not show the {chapter}: {error}")
 
 
 def page(
@@ -273,8 +260,6 @@ def page(
     of forces and moments that is drawn; `live` has the numbers to change on the page
     (`live.make_book`).
     """
-    from markupsafe import Markup
-
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     fitted = bool(balanced.remedy.reasons)
@@ -285,12 +270,11 @@ def page(
     beside = _choose_panels(after, compared, told)
     pictures = []
     for panel in (*alone, *beside):
-        pictures.append(Markup(draw_panel(*panel)))
+        pictures.append(draw_panel(*panel))
         tell(len(pictures) / (len(alone) + len(beside)))
     return _template().render(
         whole=True,
         live=live,
-        live_script=_read_live() if live else None,
         still=explain_still(result.engine),
         title=own.title,
         version=__version__,
@@ -302,9 +286,11 @@ def page(
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
         compared=pictures[len(alone) :],
-        style=_read("report.css"),
-        script=_read("report.js"),
-        **_gather_chapters(mounted, twisted, turning, system),
+        running=None if turning is None else running(turning, system),
+        mounts=None if mounted is None else mounts.sheet(mounted, system),
+        rocking=None if mounted is None else rocking(mounted),
+        torsion=None if twisted is None else torsion.sheet(twisted, system),
+        twists=() if twisted is None else _draw_torsion(twisted, system),
     )
 
 
@@ -343,21 +329,13 @@ def make_play_page() -> str:
     return _template().render(
         whole=False,
         live=make_examples(),
-        live_script=_read_live(),
         still="",
         title="Change an engine and see its balance",
         version=__version__,
         verdict=None,
         scene=None,
-        style=_read("report.css"),
-        script=_read("report.js"),
         **dict.fromkeys(("mounts", "torsion", "running")),
     )
-
-
-def _read_live() -> Markup:
-    """Return the scripts of the panel: the kernel, and the controls."""
-    return _read("engine.js") + _read("live.js")
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
@@ -373,41 +351,11 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     return shown
 
 
-def _gather_chapters(
-    mounted: MountReport | None,
-    twisted: TorsionAnalysis | None,
-    turning: Engine | None,
-    system: System,
-) -> Node:
-    """Return the data of mounts, torsion and gas for the template; None for a missing chapter."""
-    from markupsafe import Markup
-
-    chapters: Node = {"mounts": None, "torsion": None, "running": None}
-    if turning is not None:
-        chapters |= {
-            "running": running(turning, system),
-            "running_script": _read("running.js"),
-        }
-    if mounted is not None:
-        chapters |= {
-            "mounts": mounts.sheet(mounted, system),
-            "rocking": rocking(mounted),
-            "rocking_script": _read("rocking.js"),
-        }
-    if twisted is not None:
-        chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
-        for what in OF_TORSION:
-            figure = twisting.make_torsion(twisted, what, system, titled=False)
-            svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
-            chapters["twists"].append(Markup(svg))
-    return chapters
-
-
-def _read(name: str) -> Markup:
-    """Return a script or style of the page, unchanged."""
-    from markupsafe import Markup
-
-    return Markup((FOLDER / name).read_text(encoding="utf-8"))
+def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
+    """Yield the pictures of the torsion as SVG."""
+    for what in OF_TORSION:
+        figure = twisting.make_torsion(twisted, what, system, titled=False)
+        yield inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
 
 
 def _choose_panels(
@@ -422,11 +370,6 @@ def _choose_panels(
     return chosen
 
 
-def kind(part: Grid | Facts | Text) -> str:
-    """Return the macro of the template that shows a part."""
-    return type(part).__name__.lower()
-
-
 def _template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -438,7 +381,6 @@ def _template() -> Template:
         lstrip_blocks=True,
     )
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
-    environment.filters["kind"] = kind
     return environment.get_template("report.html")
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,15 +47,36 @@ def tell_variant(figures: Mapping[str, float]) -> str:
 
 
 # ------------------------------------------------------------------ which numbers there are
+class Place(NamedTuple):
+    """The place of a number in an engine file.
+
+    Attributes:
+        reader: Type of the figure.
+        table: Table in which it stands.
+        key: Key in this table.
+        value: Value in the file; None: not given.
+    """
+
+    reader: Number
+    table: type[FileTable]
+    key: str
+    value: object
+
+
 def find_numbers(model: EngineFile) -> dict[str, Number]:
-    """Return the reader of each number that an engine file has or might have, by dotted name;
+    """Return the reader of each number that an engine file has or might have, by dotted name."""
+    return {path: place.reader for path, place in find_places(model).items()}
+
+
+def find_places(model: EngineFile) -> dict[str, Place]:
+    """Return the place of each number that an engine file has or might have, by dotted name;
     members of lists count from 1.
     """
     plan = plan_cylinders(model)
     tables = dict(model.tables())
     for number in plan.numbers:
         tables.setdefault(f"cylinder.{number}", Override.model_construct())
-    numbers: dict[str, Number] = {}
+    numbers: dict[str, Place] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
     for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up names results alone
@@ -87,31 +108,24 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     return [path for path in numbers if path in heats or path.removeprefix("gas.") in idle]
 
 
-def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
-    """Return the numbers of a table; lists and inner tables only as far as the file has them."""
+def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
+    """Yield the numbers of a table; lists and inner tables only as far as the file has them."""
+    kind = type(table)
     for key, value in table:
-        number = _number_of(type(table), key)
+        path, reader, field = f"{start}.{key}", _number_of(kind, key), kind.model_fields[key]
         if isinstance(value, FileTable):
-            yield from _numbers_of(f"{path}.{key}", value)
+            yield from _numbers_of(path, value)
         elif isinstance(value, tuple):
-            marks = type(table).model_fields[key].metadata
-            if (
-                number is not None
-                and len(set(value)) == 1
-                and any(isinstance(mark, AlikeOrEach) for mark in marks)
-            ):
-                yield f"{path}.{key}", number  # all of them together
             for k, item in enumerate(value, 1):
                 if isinstance(item, FileTable):
-                    yield from _numbers_of(f"{path}.{key}.{k}", item)
-                elif number is not None:
-                    yield f"{path}.{key}.{k}", number
-        elif number is not None and not _is_list(type(table), key):
-            yield f"{path}.{key}", number
-
-
-def _is_list(table: type[FileTable], key: str) -> bool:
-    return "tuple" in str(table.model_fields[key].annotation)
+                    yield from _numbers_of(f"{path}.{k}", item)
+                elif reader is not None:
+                    alike = any(isinstance(mark, AlikeOrEach) for mark in field.metadata)
+                    if k == 1 and alike and len(set(value)) == 1:
+                        yield path, Place(reader, kind, key, item)  # all of them together
+                    yield f"{path}.{k}", Place(reader, kind, key, item)
+        elif reader is not None and "tuple" not in str(field.annotation):
+            yield path, Place(reader, kind, key, value)
 
 
 @cache

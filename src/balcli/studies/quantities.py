@@ -16,9 +16,9 @@ from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError
 from ..file.fields import RIGID, suggest_nearest
-from ..file.model import EngineFile, Override
+from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed
-from ..file.table import FileTable, document_keys
+from ..file.table import document_keys
 from ..forces.kinds import GAS_KINDS
 from ..forces.quantity import (
     Quantity,
@@ -27,7 +27,7 @@ from ..forces.quantity import (
     refuse_unknown as refuse_unknown_of_engine,
 )
 from ..names import QUANTITIES, import_name
-from .parameters import find_numbers
+from .parameters import Place, find_places
 from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, TORSION, Form, join_patterns
 
 
@@ -237,35 +237,17 @@ class NamedNumbers:
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
     """Return the numbers that `sweep` can vary of a file, and the file's quantities."""
-    tables = dict(model.tables())
     return NamedNumbers(
         engine=NamedEngine(model.name),
-        numbers=tuple(
-            _describe(path, number.dimension.unit, tables)
-            for path, number in find_numbers(model).items()
-        ),
+        numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),
         quantities=tuple(
             NamedQuantity(form.pattern, form.unit, form.words) for form in list_quantities(model)
         ),
     )
 
 
-def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
-    """Return a number by its path: first the table of that name, then keys and places."""
-    parts = path.split(".")
-    heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
-    head = next((name for name in heads if name in tables), "")
-    if not head:  # of a cylinder that does not differ from the others
-        return FileNumber(path, None, unit, document_keys(Override)[parts[-1]].description)
-    found: object = tables[head]
-    meaning = ""
-    for part in parts[head.count(".") + 1 :]:
-        if isinstance(found, FileTable):
-            meaning = document_keys(type(found))[part].description
-            found = getattr(found, part)
-        elif isinstance(found, tuple):
-            found = found[int(part) - 1]
-    if isinstance(found, tuple) and len(set(found)) == 1:
-        found = found[0]  # one number for all
-    value = float(found) if isinstance(found, int | float) else None
+def _describe(path: str, place: Place) -> FileNumber:
+    value = float(place.value) if isinstance(place.value, int | float) else None
+    meaning = document_keys(place.table)[place.key].description
+    unit = place.reader.dimension.unit
     return FileNumber(path, RIGID if value == math.inf else value, unit, meaning)

@@ -15,7 +15,7 @@ import logging
 import re
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
@@ -262,19 +262,17 @@ def connect_cluster(address: str) -> Iterator[Share]:
     except ImportError:
         raise BalcliError("--dask needs dask: install balcli[scale]") from None
     dask: Any = distributed
-    with ExitStack() as ends:
-        try:
-            if address == "local":
-                # Its workers, when it ends, complain of the scheduler's absence.
-                cluster = dask.LocalCluster(
-                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                )
-                client = ends.enter_context(dask.Client(ends.enter_context(cluster)))
-            else:
-                client = ends.enter_context(dask.Client(address, timeout=10))
-        except (OSError, ValueError, RuntimeError) as error:
-            raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
-        yield partial(run_on_cluster, client)
+    options: dict[str, Any] = {"address": address, "timeout": 10}
+    if address == "local":
+        # Its workers, when it ends, complain of the scheduler's absence.
+        quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL}
+        options = {"threads_per_worker": 1, **quiet}
+    try:
+        client = dask.Client(**options)
+    except (OSError, ValueError, RuntimeError) as error:
+        raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+    with client as cluster:
+        yield partial(run_on_cluster, cluster)
 
 
 def run_on_cluster(

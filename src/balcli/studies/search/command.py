@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -25,9 +25,8 @@ from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
 
 if TYPE_CHECKING:
-    from ...show.units import ShownUnit, System
+    from ...show.units import System
     from .answer import Search
-    from .designs import Found
 
 
 _EQUAL = 1e-9  # relative difference of objectives that are equal
@@ -43,7 +42,7 @@ def columns(result: Search) -> Columns:
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.quantities[name] for one in result.results] for name in first.quantities}
     units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
+    set_in = {key: number.unit for key, number in result.ranges.items() if number.unit}
     return Columns(found, units | set_in)
 
 
@@ -57,22 +56,24 @@ def sheet(result: Search, _system: System) -> Sheet:
     """Return the best arrangements, a row each, with each figure in the unit that fits it. One
     quantity alone is its own objective.
     """
-    first = result.results[0]
-    units = {
-        q.name: unit_of_name(q.unit).fit(max(one.quantities[q.name] for one in result.results))
-        for q in result.objective.quantities
-    }
-    heads = [
-        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
-        *(["objective"] if _is_sum(result) else []),
-        *(name_with_unit(name, units[name].name) for name in first.quantities),
-    ]
+    design, found = result.results[0].design, columns(result)
+    heads: list[str] = []
+    cells: list[list[str]] = []
+    for name, column in found.values.items():
+        unit = found.units.get(name, "")
+        if name in design:
+            heads.append(name_with_unit(_in_words(name), unit))
+            cells.append([_setting(one.design[name]) for one in result.results])
+        elif name != "objective" or [*result.objective.weights.values()] != [1.0]:
+            fit = unit_of_name(unit).fit(max(column))
+            heads.append(name_with_unit(name, fit.name))
+            cells.append([number(value / fit.size) for value in column])
     grid = Grid(
         _title(result),
         tuple(heads),
-        tuple(_cells(result, one, units) for one in result.results),
+        tuple(zip(*cells, strict=True)),
         note=" ".join(_notes(result)),
-        words=tuple(range(len(first.design))),
+        words=tuple(range(len(design))),
     )
     return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
@@ -91,9 +92,12 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    angles = [one for one in result.ranges if "." not in one.key]  # whose range nobody gave
-    if angles:
-        ends = (f"{_in_words(a.key)} {a.ends[0]:g} to {a.ends[1]:g} deg" for a in angles)
+    ends = [
+        f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
+        for key, number in result.ranges.items()
+        if "." not in key  # whose range nobody gave
+    ]
+    if ends:
         yield f"Searched: {', '.join(ends)}."
     if result.refused:
         yield f"Some of these values make no engine, such as {result.refused}."
@@ -109,20 +113,6 @@ def _notes(result: Search) -> Iterator[str]:
     names, rpm = (q.name for q in result.objective.quantities), result.model.operation.speed
     if speeds := tell_speeds(names, rpm, result.over.split(", ")):
         yield speeds
-
-
-def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[str, ...]:
-    return (
-        *map(_setting, one.design.values()),
-        *([number(one.objective)] if _is_sum(result) else []),
-        *(number(value / units[name].size) for name, value in one.quantities.items()),
-    )
-
-
-def _is_sum(result: Search) -> bool:
-    """Return whether the objective is more than one of the figures."""
-    weights = list(result.objective.weights.values())
-    return weights != [1.0]
 
 
 def _setting(value: float | list[float]) -> str:

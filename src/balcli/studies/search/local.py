@@ -19,9 +19,9 @@ import numpy as np
 
 from ...core.phasors import Array
 from ...engine.figures import ranked
-from .designs import Merit
+from .designs import BROKEN
 
-Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
+Judge = Callable[[Array], Array]  # the costs of points, shape (points, numbers)
 _DIGITS = 12  # of numbers
 _LEVEL, _ROUNDING = 1e-9, 1e-12  # relative difference of costs that are equal; of the largest
 
@@ -102,68 +102,65 @@ class LocalOptima(NamedTuple):
             roundest point that is as good.
         lines: for each, another end of a line of equally good points, or itself, shape (optima,
             numbers).
-        merits: merits of the points that were spread over the box.
+        costs: costs of the points that were spread over the box.
     """
 
     places: Array
     lines: Array
-    merits: Merit
+    costs: Array
 
 
 def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     """Return every local optimum in a box that is found from `effort.starts` starts, once."""
     points = box.spread(effort.points)
-    merits = judge(points)
-    starts = _find_starts(points, merits, box)[: effort.starts]
+    costs = judge(points)
+    starts = points[_find_starts(points, costs, box)[: effort.starts]]
     step = effort.points ** (-1 / box.size)  # between neighbours, as a share of the box
     if box.size == 1:
-        found = _descend(judge, box, points[starts], step * box.span, effort.exact * box.span)
+        found = _descend(judge, box, starts, step * box.span, effort.exact * box.span)
     else:
-        found = _adapt(judge, box, points[starts], 0.5 * step, effort)
-    ends = judge(found)
-    kept = np.flatnonzero((ends.excess == 0) & np.isfinite(ends.cost))
-    slack = effort.as_good * np.abs(ends.cost)
-    rounded = [_round_off(judge, box, found[k], slack[k]) for k in kept]
-    found = np.array(rounded).reshape(-1, box.size)
-    costs = merits.cost[np.isfinite(merits.cost)]
-    noise = _ROUNDING * np.abs(costs).max(initial=0)
-    places, lines = _separate(judge, box, found, effort, noise)
-    return LocalOptima(places, lines, merits)
+        found = _adapt(judge, box, starts, 0.5 * step, effort)
+    rounded = [
+        _round_off(judge, box, point, cost + effort.as_good * abs(cost))
+        for point, cost in zip(found, judge(found), strict=True)
+        if cost < BROKEN
+    ]
+    noise = _ROUNDING * np.abs(costs[costs < BROKEN]).max(initial=0)
+    best, lines = _separate(judge, box, rounded, effort, noise)
+    order = np.argsort(ranked(judge(best)), kind="stable")
+    return LocalOptima(best[order], lines[order], costs)
 
 
 def _separate(
-    judge: Judge, box: Box, found: Array, effort: Effort, noise: float
+    judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float
 ) -> tuple[Array, Array]:
-    """Return the optima from which none of the others can be reached without going uphill, best
-    first; and the ends of lines of equally good points, as of `LocalOptima`.
+    """Return the optima from which none of the others can be reached without going uphill; and the
+    ends of lines of equally good points, as of `LocalOptima`.
 
     A search that stops on a line, such as one on which limits are kept, reaches a better point of
     the line without going uphill.
     """
     best: list[Array] = []
     lines: list[Array] = []
-    ends = judge(found)
-    for k in Merit(ends.excess, ranked(ends.cost)).rank():
+    points = np.reshape(found, (-1, box.size))
+    for point in points[np.argsort(ranked(judge(points)), kind="stable")]:
         for n, other in enumerate(best):
-            way = box.subtract(found[k], other)
+            way = box.subtract(point, other)
             if np.abs(way).max() <= effort.same:
                 break
             line = other + np.linspace(0, 1, effort.steps + 2)[:, None] * way * box.span
             along = judge(box.bring_inside(line))
-            level = along.cost[-1] + _LEVEL * abs(along.cost[-1]) + noise
-            if not along.excess.any() and along.cost.max() <= level:
-                if along.cost[0] >= 2 * along.cost[-1] - level:
-                    lines[n] = found[k]
+            level = along[-1] + _LEVEL * abs(along[-1]) + noise
+            if along.max() <= level:
+                if along[0] >= 2 * along[-1] - level:
+                    lines[n] = point
                 else:
                     best[n] = lines[n] = _slide(judge, box, other, way, effort)
                 break
         else:
-            best.append(found[k])
-            lines.append(found[k])
-    places = np.array(best).reshape(-1, box.size)
-    ends = judge(places)
-    order = Merit(ends.excess, ranked(ends.cost)).rank()
-    return places[order], np.array(lines).reshape(-1, box.size)[order]
+            best.append(point)
+            lines.append(point)
+    return np.reshape(best, (-1, box.size)), np.reshape(lines, (-1, box.size))
 
 
 def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> Array:
@@ -179,21 +176,20 @@ def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> 
     return find(places[0]) if len(places) else point
 
 
-def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
+def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
     """Return the indices of the points that are better than their neighbours, best first; of equal
     ones the first.
     """
-    merits = Merit(merits.excess, ranked(merits.cost))
-    place = np.empty(len(points), int)
-    place[merits.rank()] = np.arange(len(points))
+    order = np.argsort(ranked(costs), kind="stable")
+    place = np.argsort(order)
     starts = []
-    for k in np.flatnonzero(np.isfinite(merits.excess)):
+    for k in order[np.isfinite(costs[order])]:
         distance = (box.subtract(points, points[k]) ** 2).sum(axis=1)
         distance[k] = np.inf
         near = np.argsort(distance, kind="stable")[: 2 * box.size]
         if not any(place[near] < place[k]):
-            starts.append(k)
-    return np.array(sorted(starts, key=lambda k: int(place[k])), int)
+            starts.append(int(k))
+    return starts
 
 
 def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
@@ -205,10 +201,10 @@ def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> 
         stays = np.full(len(best), True)
         for side in (-1, 1):
             points = box.bring_inside(best + side * steps)
-            merits = judge(points)
-            better = ~reached.is_at_most(merits)
+            costs = judge(points)
+            better = costs < reached
             best = np.where(better[:, None], points, best)
-            reached = Merit(*np.where(better, merits, reached))
+            reached = np.where(better, costs, reached)
             stays &= ~better
         steps[stays] /= 2
     return best
@@ -239,13 +235,12 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
         z = random.standard_normal((len(live), drawn, k))
         moves = np.einsum("sij,slj->sli", axes[live], z * widths[live, None])
         points = box.bring_inside(mean[live, None] + sizes[..., None] * moves * box.span)
-        merits = Merit(*(each.reshape(sizes.shape) for each in judge(points.reshape(-1, k))))
-        rows, order = np.arange(len(live))[:, None], merits.rank()[:, :half]
-        first = merits.take((rows[:, 0], order[:, 0]))
-        better = ~reached.take(live).is_at_most(first)
+        costs = judge(points.reshape(-1, k)).reshape(sizes.shape)
+        rows, order = np.arange(len(live))[:, None], np.argsort(costs, axis=1)[:, :half]
+        first = costs.min(axis=1)
+        better = first < reached[live]
         best[live[better]] = points[rows[:, 0], order[:, 0]][better]
-        for whole, part in zip(reached, first, strict=True):
-            whole[live[better]] = part[better]
+        reached[live[better]] = first[better]
         steps = box.subtract(points, mean[live, None])[rows, order]
         mean[live] = box.bring_inside(mean[live] + steps.mean(axis=1) * box.span)
         chosen = steps / sizes[rows, order][..., None]
@@ -255,19 +250,17 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
     return best
 
 
-def _round_off(judge: Judge, box: Box, point: Array, slack: float) -> Array:
-    """Return a point with each number as round as it can be and still as good but for the slack."""
+def _round_off(judge: Judge, box: Box, point: Array, enough: float) -> Array:
+    """Return a point with each number as round as it can be without a cost above `enough`."""
     for n, span in enumerate(box.span):
         coarsest = -math.floor(math.log10(span))
         x = float(point[n])
         rounded = [round(x, coarsest + more) + 0.0 for more in range(_DIGITS)]
         turns = 360.0 * float(Fraction(x / 360.0).limit_denominator(1000))  # 360/7 is round, too
         near = [y for y in [*rounded[:7], turns, *rounded[7:]] if box.low[n] <= y <= box.high[n]]
-        tried = np.tile(point, (len(near) + 1, 1))
-        tried[1:, n] = near
-        merits = judge(tried)
-        enough = Merit(merits.excess[:1], merits.cost[:1] + slack)
-        good = np.flatnonzero(merits.is_at_most(enough)[1:])
+        tried = np.tile(point, (len(near), 1))
+        tried[:, n] = near
+        good = np.flatnonzero(judge(tried) <= enough)
         if len(good):
-            point = tried[1 + good[0]]
+            point = tried[good[0]]
     return point

@@ -30,7 +30,17 @@ from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
 from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import Found, Objective, fires_evenly, name_throws, rank_throws, refuse_many
+from .designs import (
+    BROKEN,
+    Found,
+    Objective,
+    drop_firing_order,
+    fires_evenly,
+    name_throws,
+    rank_one_by_one,
+    rank_throws,
+    refuse_many,
+)
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]
@@ -44,21 +54,27 @@ ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
 def search_throws(
     model: EngineFile, objective: Objective, wanted: int, even_firing: bool, tell: Tell
 ) -> Iterator[Found]:
-    """Yield at least `wanted` arrangements of the throws of a file, best first, if there are so
-    many; its quantities are sums over the cylinders.
+    """Return at least `wanted` arrangements of the throws of a file, best first, if there are so
+    many.
 
     Raises:
         BalcliError: There is nothing to arrange, or a peak is asked for.
     """
+    model = drop_firing_order(give_throws(model))
+
+    def can_fire(throws: Array) -> NDArray[np.bool_]:
+        return fires_evenly(build(model, name_throws(throws)), model)
+
+    if not objective.is_sum_over_cylinders:
+        throws = list_throws(model)
+        throws = throws[can_fire(throws)] if even_firing else throws
+        designs = ({"throws": row} for row in throws.tolist())
+        return rank_one_by_one(model, designs, objective, tell)
     if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
         raise BalcliError(
             f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
             "such as force.1.major"
         )
-
-    def can_fire(throws: Array) -> NDArray[np.bool_]:
-        return fires_evenly(build(model, name_throws(throws)), model)
-
     allowed = can_fire if even_firing else None
     throws = find_best_throws(model, objective, IMAGES * wanted, allowed, tell)
     return rank_throws(model, count_from(throws[:, :1], throws), objective)
@@ -284,7 +300,7 @@ class _BranchAndBound:
         throws = len(model.crank.throws or ())
         self._fixed = _find_first_throw(model)
         self._free = [throw for throw in range(throws) if throw != self._fixed]
-        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), math.inf
+        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
 
     def grow(self, angles: AngleSet) -> Iterator[int]:
         """Try all arrangements of some angles, and yield how many more have been decided."""
@@ -336,8 +352,10 @@ class _BranchAndBound:
         whole = np.repeat(sums[..., None], len(ends), axis=2)
         for throw, levels in zip(self._free[len(prefix) :], ends.T, strict=True):
             whole += self._table.throws[:, :, throw, levels]
-        merit = self._objective.judge({q: self._table.read(q, whole) for q in self._quantities})
-        costs = np.where(merit.excess > 0, np.inf, ranked(merit.cost))
+        figures: dict[AnyQuantity, Array] = {
+            q: self._table.read(q, whole) for q in self._quantities
+        }
+        costs = ranked(self._objective.judge(figures))
         good = np.flatnonzero(costs < self._worst)
         rows = np.concatenate([np.tile(prefix, (len(good), 1)), ends[good]], axis=1).astype(int)
         angles, costs = np.insert(self._levels[rows], self._fixed, 0.0, axis=1), costs[good]
