@@ -40,7 +40,6 @@ from .articulation import check_articulation, check_knuckles
 from .devices import build_devices
 from .engine import Bearings, Engine
 from .figures import FileFigures, divide
-from .gas import EngineGas
 from .layout import are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
@@ -48,6 +47,7 @@ from .rods import check_ends, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Flywheel
+    from .gas import EngineGas
 
 
 def build(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -17,8 +17,10 @@ from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .gas import EngineGas
 from .parse import parse, parse_dict, parse_tables
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 

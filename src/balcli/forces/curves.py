@@ -18,7 +18,6 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.cylinder_pressure import crank_torque
 from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
@@ -221,6 +220,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     Raises:
         BalcliError: The engine has no gas.
     """
+    from ..core.cylinder_pressure import crank_torque  # engines without gas do not load it
+
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
     once = crank_torque(cylinders, gas.cycle / times)

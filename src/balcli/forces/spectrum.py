@@ -20,6 +20,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,7 +33,6 @@ from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
-from ..engine.gas import CylinderGas, EngineGas
 from ..errors import NO_GAS, BalcliError, check_number, check_type, list_values
 from ..file.fields import shorten
 from ..limits import (
@@ -42,6 +42,9 @@ from ..limits import (
     MOST_LOADS_APART,
 )
 from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
+
+if TYPE_CHECKING:
+    from ..engine.gas import CylinderGas, EngineGas
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
