@@ -49,10 +49,6 @@ def test_si_values_of_a_whole_file():
     assert e.equal
 
 
-def test_without_a_bore_there_is_no_displacement():
-    assert math.isnan(float(engine().displacement_m3))
-
-
 def test_two_masses_have_no_couple():
     """H = 0 exactly, not a rounding error that would show as a couple."""
     assert only(engine(rod={"length": 171, "mass": 0.83, "cg": 47.3}).cylinders.couple) == 0
@@ -188,11 +184,6 @@ def test_devices():
     assert slider.backward == pytest.approx(0.004 * unit(30), rel=TIGHT)
     assert [d.place for d in e.devices] == pytest.approx([0, 0, -0.04 + 0.06j, 0, 0.001 + 0.002j], rel=TIGHT)
     assert [d.z for d in e.devices] == pytest.approx([-0.05, 0, 0.007, 0, 0.003], rel=TIGHT)
-
-
-def test_uneven_speed():
-    e = engine(operation={"speed_ripple": [{"order": 4, "amplitude": 0.01, "angle": "0.5 turn"}]})
-    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [(4, 0.01, pytest.approx(180))]
 
 
 # ------------------------------------------------------------------ what cannot be

@@ -189,7 +189,8 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    parts += [f"cylinder {n} is missing" for n in wanted if n not in times]
+    missing = [n for n in wanted if n not in times]
+    parts += [f"missing is {_join(missing)}"] * bool(missing)
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 
