@@ -33,7 +33,7 @@ from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
-from ..errors import NO_GAS, BalcliError, check_number, check_type, list_values
+from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -314,7 +314,8 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         TypeError: They are no numbers.
     """
     wanted = "give numbers, such as [1, 2, 4]"
-    check_type("orders", orders, Iterable, wanted)
+    if isinstance(orders, bytes) or not np.iterable(orders):
+        raise wrong_type("orders", orders, wanted)
     asked = sorted({check_number("orders", n, wanted) for n in list_values("orders", orders)})
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(shorten(n) for n in asked[:8]) or "none"
