@@ -59,7 +59,7 @@ def solve_statics(found, angles):
     """Bearing loads, shear and bending moment of the shaft just behind each section, one load at a
     time: in the span that it stands in, or by the two bearings that it hangs on, reactions hold it.
     """
-    loads = compute_forces_along(found, np.degrees(angles)).on_shaft
+    loads = compute_forces_along(found, np.degrees(angles))[0]
     weights = [d.z for d in found.devices if d.order == 1 and not d.place and not d.backward]
     z = np.array([*np.ravel(found.cylinders.z), *weights])
     span = place_bearings(found.throws_m)
@@ -156,10 +156,10 @@ def pick(along, z) -> Phasors:
 def test_beyond_the_ends_shaft_and_block_bear_the_free_force():
     found = draw(4)
     angles = np.arange(0.0, 720.0, 7.0)
-    forces = compute_forces_along(found, angles)
-    total = forces.on_shaft.sum(axis=0) + forces.on_block.sum(axis=0)
+    on_shaft, on_block = compute_forces_along(found, angles)
+    total = on_shaft.sum(axis=0) + on_block.sum(axis=0)
     curves = compute_engine_curves(found, angles).curves
-    size = np.abs(forces.on_shaft).max()
+    size = np.abs(on_shaft).max()
     assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
     assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import cast
 
 import numpy as np
 
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
-from ..core.phasors import Array, Figure
+from ..core.phasors import Array
 from ..errors import Problem
 from ..file.fields import counted
 from ..limits import NEAREST_TO_LOCK
@@ -26,8 +26,15 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
     if fault := _find_no_place(articulation.master, parts.plan):
         yield fault
         return
-    if (angles := parts.find_knuckle_angles()) is not None:
-        yield from _check_angles(angles, articulation.master - 1, parts.plan.banks)
+    angles, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
+    banks, master = parts.plan.banks, articulation.master
+    if angles is not None and len(angles) != banks:
+        told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
+        yield Problem(path, f"{told}: give one for each, the master's own is 0")
+    elif angles is not None and np.any(np.asarray(angles[master - 1]) != 0):
+        angle = max(np.ravel(angles[master - 1]), key=abs)
+        told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
+        yield Problem(path, told)
     if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
         yield Problem(
             "crank.splay",
@@ -46,35 +53,16 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 def _find_no_place(master: int, plan: Plan) -> Problem | None:
     """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
     banks = plan.banks
-    needs = "needs a throw that carries the rods of several banks; this engine has"
+    needs = f"needs a throw that carries the rods of several banks; this engine has {banks} bank"
     if banks < 2:
-        return Problem("articulation", f"{needs} 1 bank: give bank_angle, banks or radial")
+        return Problem("articulation", f"{needs}: give bank_angle, banks or radial")
     if plan.rods_on_throw < banks:
-        return Problem(
-            "articulation",
-            f'{needs} {banks} banks with rods = "alternating", one rod a throw: give rods = '
-            '"shared"',
-        )
+        told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
+        return Problem("articulation", told)
     if master > banks:
-        return Problem(
-            "articulation.master", f"there is no bank {master}; this engine has banks 1 to {banks}"
-        )
+        told = f"there is no bank {master}; this engine has banks 1 to {banks}"
+        return Problem("articulation.master", told)
     return None
-
-
-def _check_angles(angles_deg: Sequence[Figure], master: int, banks: int) -> Iterator[Problem]:
-    path = "articulation.knuckle_angles"
-    if len(angles_deg) != banks:
-        yield Problem(
-            path,
-            f"has {counted(len(angles_deg), 'angle')} for {counted(banks, 'bank')}: give one for "
-            "each, the master's own is 0",
-        )
-    elif np.any(np.asarray(angles_deg[master]) != 0):
-        angle = max(np.ravel(angles_deg[master]), key=abs)
-        yield Problem(
-            path, f"has {angle:g} for bank {master + 1}, which carries the master rod: its own is 0"
-        )
 
 
 def check_knuckles(parts: Parts) -> Iterator[Problem]:

@@ -264,15 +264,6 @@ class LoadsWithGas(NamedTuple):
     block_bending: AlongCrank
 
 
-class ForcesAlongCrank(NamedTuple):
-    """Forces on shaft and block, x + iy, N, each of shape (places, angles): of every cylinder in
-    the order of `engine.numbers`, then of the devices.
-    """
-
-    on_shaft: Complex
-    on_block: Complex
-
-
 class BearingsUnknownError(BalcliError):
     """The positions of the main bearings are not known, for a reason."""
 
@@ -293,10 +284,8 @@ def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None
     try:
         place_main_bearings(engine)
         compute_rod_forces(engine, np.zeros(1))
-    except BearingsUnknownError as error:
-        return inner._replace(obstacle=error.reason)
     except BalcliError as error:
-        return inner._replace(obstacle=str(error))
+        return inner._replace(obstacle=getattr(error, "reason", str(error)))
     return inner._replace(with_gas=compute_loads_with_gas(engine, orders))
 
 
@@ -402,12 +391,13 @@ def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
         crank_deg: Crank angles, deg, shape (angles,).
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
-    return np.asarray(shares @ compute_forces_along(engine, crank_deg).on_shaft)
+    return np.asarray(shares @ compute_forces_along(engine, crank_deg)[0])
 
 
-def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
-    """Return forces on shaft and block over the crank angle; articulated rods press on the shaft at
-    the positions of their own cylinders.
+def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Complex]:
+    """Return forces on shaft and on block over the crank angle, x + iy, N, each of shape (places,
+    angles): of every cylinder in the order of `engine.numbers`, then of the devices. Articulated
+    rods press on the shaft at the positions of their own cylinders.
 
     Args:
         engine: Engine without trailing axes.
@@ -424,10 +414,8 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
     devices = compute_device_forces(engine, crank_deg)
     on_crank = np.array([is_counterweight(device) for device in engine.devices], bool)
     on_walls = found.axis * (found.gas + 1j * found.thrust)
-    return ForcesAlongCrank(
-        np.concatenate([pressed + turning, devices[on_crank]]),
-        np.concatenate([on_walls, devices[~on_crank]]),
-    )
+    on_shaft = np.concatenate([pressed + turning, devices[on_crank]])
+    return on_shaft, np.concatenate([on_walls, devices[~on_crank]])
 
 
 def _place_forces(engine: Engine) -> tuple[Array, Array]:
