@@ -83,8 +83,8 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         bounds = {"too_short": ("at least", "min_length"), "too_long": ("at most", "max_length")}
         most, bound = bounds[kind]
         these = document.description.partition(";")[0]
-        message = f"{shown} has {counted(len(value), 'value')}; {most} {finding['ctx'][bound]} are "
-        message += f"wanted: {these}" if these else "wanted"
+        message = f"{shown} has {counted(len(value), 'value')}; give {most} {finding['ctx'][bound]}"
+        message += f": {these}" if these else ""
     elif kind == "tuple_type" and field and find_table(field.annotation):
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
