@@ -33,6 +33,7 @@ from ..core.mechanisms import harmonics
 from ..core.phasors import Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
+from ..file.fields import counted
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES
@@ -165,14 +166,11 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
     """Check that throws and banks make an engine which has all cylinders that tables name."""
-    count = len(parts.plan.cells)
-    made = (
-        f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its "
-        "angle in crank.throws"
-    )
+    made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     for number in parts.model.cylinder:
         if number not in parts.plan.numbers:
-            yield Problem(f"cylinder.{number}", f"there is no cylinder {number}: {made}")
+            told = f"there is no cylinder {number}: {made}; give every throw its angle"
+            yield Problem(f"cylinder.{number}", told)
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:
@@ -222,9 +220,8 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
             yield Problem(
                 "operation.speed_ripple",
                 f"the crank would {'turn back' if share else 'stop'}: at crank angle "
-                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean; it "
-                "must stay above 0: make the amplitudes smaller, they are shares of the mean speed "
-                "(0.01 is one per cent)",
+                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: make "
+                "the amplitudes smaller, they are shares of the mean speed",
             )
             return
 
@@ -240,9 +237,8 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
     if samples > MOST_SAMPLES:
         yield Problem(
             "cylinder",
-            f"the cylinders have {different} different mechanisms, some so near their lock that "
-            f"all of them need {samples} samples of a revolution; at most {MOST_SAMPLES} are "
-            "taken: make these rods longer, or more of them equal",
+            f"the {different} different mechanisms need {samples} samples of a revolution; at most "
+            f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal",
         )
 
 
