@@ -74,7 +74,8 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
     cylinders, numbers = parts.cylinders, parts.numbers
     linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
-    if np.all(hung.bound_lean(lam, eps) <= 1 - NEAREST_TO_LOCK):
+    # Knuckle pins are at most a crank and a knuckle radius away.
+    if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
         return
 
     def find_largest(motion: Motion) -> Array:

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.loads import bound_arms, find_ahead, find_arms, share_by_lever
+from ..core.loads import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_largest, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature
@@ -191,7 +191,8 @@ def compute_bending(loads: Phasors, z: Array) -> Phasors:
         z: Their positions, m, shape (loads,).
     """
     sections = list_places(z)
-    return 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
+    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # their rounding
+    return 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
 
 
 def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:

@@ -73,17 +73,6 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
     return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
-def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
-    """Return the moment of inertia of pistons, rods and rotating masses about the crank, kg m2,
-    shape (angles,).
-
-    Args:
-        engine: Engine without trailing axes.
-        crank_deg: Crank angles, deg, shape (angles,).
-    """
-    return _inertia_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
-
-
 def compute_piecemeal(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
 ) -> dict[str, NDArray[Number]]:
@@ -265,7 +254,9 @@ def find_moving_inertia(engine: Engine) -> Function:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
         engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
-    return _at_radians(engine, compute_moving_inertia)
+    return _at_radians(
+        engine, lambda e, deg: _inertia_of_cylinders(EngineMotion(e, deg)).sum(axis=0)
+    )
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
@@ -287,8 +278,9 @@ def silence(engine: Engine, number: int) -> Engine:
     Raises:
         BalcliError: The engine has no gas, or no such cylinder.
     """
-    share = take_gas(engine).without_share_of(find_row(engine, number, "--misfire"))
-    return replace(engine, gas=share, model=None)
+    gas, row = take_gas(engine), find_row(engine, number, "--misfire")
+    each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
+    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=None)
 
 
 def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:
