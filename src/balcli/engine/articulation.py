@@ -36,18 +36,12 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
         told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
         yield Problem(path, told)
     if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
-        yield Problem(
-            "crank.splay",
-            "articulated rods hang on the master rod and have no crank pins to split: "
-            "leave splay out, or [articulation]",
-        )
+        told = "articulated rods have no crank pins to split: leave splay out, or [articulation]"
+        yield Problem("crank.splay", told)
     for number in parts.masters:
         if parts.override(number, "throw") is not None:
-            yield Problem(
-                f"cylinder.{number}.throw",
-                f"cylinder {number} has an articulated rod, which hangs on the "
-                "master rod and not on a crank pin: leave this out",
-            )
+            told = "its articulated rod hangs on the master rod: leave this out"
+            yield Problem(f"cylinder.{number}.throw", told)
 
 
 def _find_no_place(master: int, plan: Plan) -> Problem | None:

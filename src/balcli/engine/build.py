@@ -197,10 +197,8 @@ def check_half_orders(parts: Parts) -> Iterator[Problem]:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
         if line.order % 1:
-            yield Problem(
-                f"operation.speed_ripple.{number}.order",
-                f"{line.order:g} is no whole number; half orders take four strokes and [gas]",
-            )
+            told = f"{line.order:g} is no whole number; half orders take four strokes and [gas]"
+            yield Problem(f"operation.speed_ripple.{number}.order", told)
 
 
 def check_speed(parts: Parts) -> Iterator[Problem]:
@@ -217,12 +215,10 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
-            yield Problem(
-                "operation.speed_ripple",
-                f"the crank would {'turn back' if share else 'stop'}: at crank angle "
-                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: make "
-                "the amplitudes smaller, they are shares of the mean speed",
-            )
+            told = f"the crank would {'turn back' if share else 'stop'}: at crank angle "
+            told += f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: "
+            told += "make the amplitudes smaller, they are shares of the mean speed"
+            yield Problem("operation.speed_ripple", told)
             return
 
 
@@ -235,11 +231,9 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         return
     different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
-        yield Problem(
-            "cylinder",
-            f"the {different} different mechanisms need {samples} samples of a revolution; at most "
-            f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal",
-        )
+        told = f"{different} different mechanisms need {samples} samples of a revolution; at most "
+        told += f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal"
+        yield Problem("cylinder", told)
 
 
 def check_gas(parts: Parts) -> Iterator[Problem]:
@@ -253,10 +247,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
             for key in ("gas", "heat", "indicator"):
                 dummy = key == "gas" and parts.order is not None and number not in parts.order
                 if getattr(own, key) is not None and not dummy:
-                    yield Problem(
-                        f"cylinder.{number}.{key}",
-                        "needs [gas], which says what the gas does in all cylinders",
-                    )
+                    told = "needs [gas], which says what the gas does in all cylinders"
+                    yield Problem(f"cylinder.{number}.{key}", told)
     elif parts.gas is None and not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
 

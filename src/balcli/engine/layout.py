@@ -79,13 +79,9 @@ def plan_cylinders(model: EngineFile) -> Plan:
         told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
         problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
-        problems.append(
-            Problem(
-                "layout.rods",
-                f'"alternating" gives every throw one rod, but there are {banks} banks and only '
-                f'{counted(throws, "throw")}: give more throws, or "shared"',
-            )
-        )
+        told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
+        told += f'{counted(throws, "throw")}: give more throws, or "shared"'
+        problems.append(Problem("layout.rods", told))
     problems += _check_firing_order(model, sorted(numbers), throws)
     if problems:
         raise InputError(problems)

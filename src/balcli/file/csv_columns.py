@@ -107,10 +107,7 @@ def locate_beside(folder: Path, name: str) -> Path:
     except ValueError as error:  # letters that names of files have not here: LC_ALL=C
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
-        raise BalcliError(
-            f"{shorten(name)} lies outside the folder of the engine file; put it next to that "
-            "file, or in a folder below it"
-        )
+        raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
     return folder / name
 
 
@@ -148,9 +145,7 @@ def _list_lines(text: str) -> dict[int, str]:
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
         if len(lines) > MOST_ROWS:  # besides the heading
-            raise ValueError(
-                f"has more than {MOST_ROWS} rows; keep every tenth row, or the mean of the cycles"
-            )
+            raise ValueError(f"has more than {MOST_ROWS} rows; keep the mean of the cycles")
         lines[number] = line.rstrip("\n")
     return lines
 

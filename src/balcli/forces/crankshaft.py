@@ -22,7 +22,7 @@ import numpy as np
 
 from ..core.cylinders import Device
 from ..core.loads import find_ahead, find_arms, share_by_lever
-from ..core.peaks import Peak, find_largest, find_peak
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature
 from ..core.vectors_over_cycle import Vectors, find_panels
@@ -69,6 +69,11 @@ class AlongCrank(NamedTuple):
     def largest(self) -> int:
         """Index of the place with the highest peak; of equal ones the first."""
         return int(find_first_largest([peak.value for peak in self.peaks]))
+
+    @property
+    def highest(self) -> tuple[float, float]:
+        """This peak, and its place, mm."""
+        return self.peaks[self.largest].value, 1e3 * float(self.z_m[self.largest])
 
 
 class InnerLoads(NamedTuple):
@@ -149,22 +154,12 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     if not engine.places_known or engine.rotary:
         return None
     try:
-        loads, z = compute_loads(engine, merge_orders(find_relevant_orders(engine), [1, 2]))
+        found = compute_inner_loads(engine)
     except BalcliError:
         return None
-    main_N = main_mm = None
-    if (bearings := place_bearings(engine.joined_throws_m)) is not None:
-        forces = compute_bearing_forces(loads, z, bearings)
-        main_N, main_mm = _find_largest_along(bearings, forces)
-    moment, inner_mm = _find_largest_along(list_places(z), compute_bending(loads, z))
+    main_N, main_mm = (None, None) if found.bearings is None else found.bearings.highest
+    moment, inner_mm = found.bending.highest
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
-
-
-def _find_largest_along(places: Array, phasors: Phasors) -> tuple[float, float]:
-    """Return the largest peak over a revolution, and its place, mm; of equal ones the first."""
-    peaks = find_largest(phasors)
-    most = int(find_first_largest(peaks))
-    return float(peaks[most]), 1e3 * float(places[most])
 
 
 def place_bearings(throws_m: Array) -> Array | None:
@@ -365,9 +360,7 @@ def place_main_bearings(engine: Engine) -> Array:
             crank stands still.
     """
     if engine.rotary:
-        raise BearingsUnknownError(
-            "the crank of turning cylinders stands still, clamped at its end"
-        )
+        raise BearingsUnknownError("the crank stands still, clamped at its end")
     if not engine.places_known:
         raise BearingsUnknownError("crank.spacing is missing, so that no bearing is known to stand")
     span = place_bearings(engine.joined_throws_m)

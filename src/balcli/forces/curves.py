@@ -44,10 +44,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
         BalcliError: The step is not from 0.001 to 360.
     """
     if not FINEST_STEP_DEG <= step <= 360:
-        raise BalcliError(
-            f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
-            "degrees"
-        )
+        raise BalcliError(f"--step {step:g}: give {FINEST_STEP_DEG:g} to 360 degrees")
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
     return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 

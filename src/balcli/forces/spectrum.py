@@ -322,11 +322,8 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        give = "" if any(engine.gas for engine in engines) else "give [gas], or "
-        raise BalcliError(
-            f"orders {halves}: half orders are those of gas pressure in four strokes; {give}ask "
-            "for whole orders"
-        )
+        told = "half orders take [gas] and four strokes; ask for whole orders"
+        raise BalcliError(f"orders {halves}: {told}")
     return np.array(asked, float)
 
 

@@ -68,8 +68,8 @@ def test_the_throws_of_two_rows_follow_from_the_firing_order():
 @pytest.mark.parametrize(
     ("layout", "message"),
     [
-        ("rotary = 1", "layout.rotary: 1 is neither true nor false; write one of these, without quotes"),
-        ('rotary = "yes"', 'layout.rotary: "yes" is neither true nor false; write one of these, without quotes'),
+        ("rotary = 1", "layout.rotary: 1 is neither true nor false: write one without quotes"),
+        ('rotary = "yes"', 'layout.rotary: "yes" is neither true nor false: write one without quotes'),
     ],
 )
 def test_true_or_false(layout, message):
