@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -27,8 +26,7 @@ VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
     For couple, torque and roll, and for force and moment along x or y, `cos` and `sin` are the
@@ -199,8 +197,7 @@ class Subject(NamedTuple):
     units: Mapping[str, str]
 
 
-@dataclass(frozen=True)
-class TargetQuantity:
+class TargetQuantity(NamedTuple):
     """One figure of a target: `kind.target.part`.
 
     Attributes:
@@ -213,7 +210,7 @@ class TargetQuantity:
     kind: str
     target: str
     part: str
-    unit: str = field(compare=False)
+    unit: str
 
     @property
     def name(self) -> str:
