@@ -141,5 +141,5 @@ def test_what_no_file_can_describe_says_so():
     variants = build(parse(GOOD), {"rod.length": np.array([150.0, 160.0])})
     for one in (oldham, variants, fit_devices(variants, balcli.balance(engine).remedy)):
         for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
-            with pytest.raises(balcli.BalcliError, match="no engine file can say what this engine is"):
+            with pytest.raises(balcli.BalcliError, match="no file describes this engine"):
                 ask()

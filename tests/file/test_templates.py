@@ -96,7 +96,7 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of file to start from; there are single, inline, vee, boxer, radial, '
+        '"boxxer" is no kind of file; there are single, inline, vee, boxer, radial, '
         "w, mounts, field, torsion. Did you mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):

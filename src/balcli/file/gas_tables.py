@@ -5,7 +5,7 @@ They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from .fields import Choice, FileName, Number, OneOf, join_words
 from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
@@ -28,7 +28,6 @@ class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
-    wiebe_keys: ClassVar[tuple[str, ...]] = WIEBE_KEYS
 
     indicator: Annotated[str, FileName()] | None = None
     """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
@@ -104,7 +103,7 @@ class Gas(FileTable):
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
-            idle.update(self.wiebe_keys)
+            idle.update(WIEBE_KEYS)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
         if not measured:
@@ -134,7 +133,7 @@ class Gas(FileTable):
         """Check that a computed cycle has its keys, and exactly one figure that sets the heat."""
         if self.cycle is None:
             return
-        wiebe = [key for key in self.wiebe_keys if key in self.model_fields_set]
+        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
         if wiebe and self.cycle != "wiebe":
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
         given = [key for key in self.goals if self.has(key)]

@@ -101,10 +101,8 @@ def parse_quantity(text: str) -> TargetQuantity:
     """
     found = parse_target_quantity(text, _SUBJECTS)
     if parse_order(found.target) is None:
-        raise BalcliError(
-            f"{text} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
-            "guide.6.H"
-        )
+        told = f"after guide comes an order up to {HIGHEST_ORDER}, as in guide.6.H"
+        raise BalcliError(f"{text} is no quantity: {told}")
     return found
 
 

@@ -95,14 +95,11 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
-        raise BalcliError(
-            f"{text} is no quantity: after {kind} comes an order up to {HIGHEST_ORDER}, as in "
-            f"{kind}.2.{allowed[0]}"
-        )
+        told = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if part not in allowed:
-        raise BalcliError(
-            f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
-        )
+        told = f"after the order comes one of {', '.join(allowed)}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)
