@@ -70,18 +70,16 @@ class NumberColumns(NamedTuple):
     """Columns of numbers in a file.
 
     Attributes:
-        heads: Heads as the file has them, in the wanted order.
-        rows: A number for each head.
+        rows: A number for each wanted head.
         lines: Line of each row in the file, from 1.
         units: Unit of each head, as the file has it; empty where the head has none.
         scales: Size of that unit in the unit of the column's dimension.
     """
 
-    heads: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
     lines: tuple[int, ...]
-    units: tuple[str, ...] = ()
-    scales: tuple[float, ...] = ()
+    units: tuple[str, ...]
+    scales: tuple[float, ...]
 
     def column(self, number: int) -> list[float]:
         """Return all numbers under one of the heads, counted from 0, in its quantity's unit."""
@@ -180,9 +178,8 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
     )
-    heads = tuple(heading[place] for place in places)
     _, units, scales = zip(*found, strict=True)
-    return NumberColumns(heads, figures, tuple(numbers), units, scales)
+    return NumberColumns(figures, tuple(numbers), units, scales)
 
 
 def _join_units(heading: list[str], below: list[str]) -> list[str]:
