@@ -176,18 +176,6 @@ def test_variants_stand_along_an_axis_of_their_own():
     assert variants.cylinders.pin_deg.shape == (4, 1)
 
 
-def test_the_model_stays_what_the_file_says():
-    model = parse(GOOD)
-    build(model, {"crank.throws.2": np.array([1.0, 2.0]), "cylinder.2.piston_mass": 0.7})
-    assert model == parse(GOOD)
-
-
-def test_half_of_an_alternative_is_refused():
-    message = r"^rod\.small_end: the file gives mass and cg instead; vary that, or give small_end"
-    with pytest.raises(BalcliError, match=message):
-        build(parse(GOOD), {"rod.small_end": 0.2})
-
-
 @pytest.mark.parametrize(
     ("first", "second"),
     [

@@ -9,7 +9,6 @@ from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.parse import parse
 from balcli.file import model
-from balcli.file.model import ArticulatedRod
 
 
 def test_defaults():
@@ -69,23 +68,6 @@ direction = 90
     assert (engine.shaft[0].unbalance, engine.shaft[0].at) == (9000.0, (-40.0, 60.0))
     assert (engine.shaft[1].unbalance, engine.shaft[1].at) == (-3.0, (0.0, 0.0))
     assert engine.slider[0].direction == 90.0
-
-
-def test_articulation():
-    engine = parse(
-        changed(
-            ("throws = [0, 180, 180, 0]", "throws = [0]"),
-            ("firing_order = [1, 3, 4, 2]", "radial = 5"),
-            more="""
-[articulation]
-knuckle_radius = 40
-rod = { length = 120, mass = 0.4, cg = 60 }
-""",
-        )
-    )
-    assert engine.articulation is not None
-    assert (engine.articulation.master, engine.articulation.knuckle_angles) == (1, None)
-    assert engine.articulation.rod == ArticulatedRod(length=120, mass=0.4, cg=60)
 
 
 @cases("file/model", "unusual_but_allowed")

@@ -90,7 +90,6 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     assert refusal("analyze", "i3.csv") == "i3.csv: no such file"
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
     assert "--only force,moment" in err
-    assert "among the examples: balcli engines i4" in run_here("new", "i4").err
     assert (
         "scheme auto has no --at; add --scheme with single-shaft or two-shaft"
         in run_here("balance", "ford.toml", "--at", "1,2").err

@@ -239,14 +239,3 @@ def find_arms(z: Array, sections: Array) -> Array:
         sections: Axial positions of the sections, m, shape (sections,).
     """
     return find_ahead(z, sections) * (z - sections[:, None])
-
-
-def bound_arms(z: Array, sections: Array) -> Array:
-    """Return the sizes that `find_arms` subtracts from one another, m, which bound the rounding of
-    arms, shape (sections, places).
-
-    Args:
-        z: Axial places, m, shape (places,).
-        sections: Axial positions of the sections, m, shape (sections,).
-    """
-    return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

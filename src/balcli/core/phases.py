@@ -89,9 +89,9 @@ class Phases:
         return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Sum of the cylinders' scalars about z."""
+        """Sum of the scalars about z, each bank's turned by `e^{i n (axis_1 - axis)}`."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
-        (total,) = self._add(self._scalar, series.c[None], None)
+        (total,) = self._add(unit(-self._turn[None]), series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
@@ -157,11 +157,6 @@ class Phases:
         turns = unit(np.array((self._axis - self._turn, self._axis + self._turn)))
         np.conjugate(turns[1], out=turns[1])
         return turns
-
-    @cached_property
-    def _scalar(self) -> Complex:
-        """Turns of each bank's scalars: `e^{i n (axis_1 - axis)}`, shape as of one side."""
-        return unit(-self._turn[None])
 
 
 class SeparatePhases(Phases):

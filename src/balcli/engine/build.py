@@ -25,30 +25,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..core.mechanisms import harmonics
-from ..core.phasors import Figure
+from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
+from ..core.mechanisms.motion import Motion
+from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
-from ..file.fields import join_words
+from ..file.fields import counted, join_words
 from ..file.model import EngineFile
 from ..file.read import Draft
-from ..limits import MOST_SAMPLES
-from .articulation import check_articulation, check_knuckles
+from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices
 from .engine import Bearings, Engine
 from .figures import FileFigures, divide
-from .gas import EngineGas
-from .layout import are_places_known
+from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
 from .rods import check_ends, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Flywheel
+    from .gas import EngineGas
 
 
 def build(
@@ -166,16 +167,13 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
     """Check that throws and banks make an engine which has all cylinders that tables name."""
-    count = len(parts.plan.cells)
-    made = (
-        f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its "
-        "angle in crank.throws"
-    )
+    made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
         there = join_words([str(number) for number in strangers])
         none = "are no cylinders" if len(strangers) > 1 else "is no cylinder"
-        yield Problem(f"cylinder.{strangers[0]}", f"there {none} {there}: {made}")
+        told = f"there {none} {there}: {made}; give every throw its angle"
+        yield Problem(f"cylinder.{strangers[0]}", told)
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:
@@ -196,16 +194,95 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
             yield from check_turning(place, gear, parts.radius)
 
 
+def check_articulation(parts: Parts) -> Iterator[Problem]:
+    """Check that articulated rods have a master rod on their throw, one knuckle angle for each
+    bank, and no crank pins of their own.
+    """
+    if (articulation := parts.model.articulation) is None:
+        return
+    if fault := _find_no_place(articulation.master, parts.plan):
+        yield fault
+        return
+    angles, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
+    banks, master = parts.plan.banks, articulation.master
+    if angles is not None and len(angles) != banks:
+        told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
+        yield Problem(path, f"{told}: give one for each, the master's own is 0")
+    elif angles is not None and np.any(np.asarray(angles[master - 1]) != 0):
+        angle = max(np.ravel(angles[master - 1]), key=abs)
+        told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
+        yield Problem(path, told)
+    if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
+        told = "articulated rods have no crank pins to split: leave splay out, or [articulation]"
+        yield Problem("crank.splay", told)
+    for number in parts.masters:
+        if parts.override(number, "throw") is not None:
+            told = "its articulated rod hangs on the master rod: leave this out"
+            yield Problem(f"cylinder.{number}.throw", told)
+
+
+def _find_no_place(master: int, plan: Plan) -> Problem | None:
+    """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
+    banks = plan.banks
+    needs = f"needs a throw that carries the rods of several banks; this engine has {banks} bank"
+    if banks < 2:
+        return Problem("articulation", f"{needs}: give bank_angle, banks or radial")
+    if plan.rods_on_throw < banks:
+        told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
+        return Problem("articulation", told)
+    if master > banks:
+        told = f"there is no bank {master}; this engine has banks 1 to {banks}"
+        return Problem("articulation.master", told)
+    return None
+
+
+def check_knuckles(parts: Parts) -> Iterator[Problem]:
+    """Check that every articulated rod can follow its knuckle pin through a revolution, for the
+    worst of all variants.
+    """
+    if parts.model.articulation is None:
+        return
+    cylinders, numbers = parts.cylinders, parts.numbers
+    linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
+    hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
+    # Knuckle pins are at most a crank and a knuckle radius away.
+    if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
+        return
+
+    def find_largest(motion: Motion) -> Array:
+        lean = np.abs(motion.lean)
+        return lean.reshape(len(numbers), -1, lean.shape[-1]).max(axis=1)
+
+    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+        leans = hung.sample(find_largest, revolution(STEPS), lam, eps)
+    turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
+    for row, number in enumerate(numbers):
+        worst = int(leans[row].argmax())
+        before, at, after = (leans[row, (worst + k) % STEPS] for k in (-1, 0, 1))
+        bend = 2 * at - before - after
+        # The top of the parabola through the sampled maximum and its neighbours
+        lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
+        if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
+            continue
+        own, crank_deg = parts.model.cylinder.get(number), (360 / STEPS * worst - turned[row]) % 360
+        general = own is None or (own.rod_length is None and own.rod_ratio is None)
+        yield Problem(
+            "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
+            f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of "
+            f"cylinder {number} stands {lean:.9g} rod lengths off the path of its piston pin; at "
+            f"most 1 - {NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the "
+            "knuckle radius smaller",
+        )
+
+
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
     """Check half orders of the speed: they need gas and four strokes, their only cause."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
         if line.order % 1:
-            yield Problem(
-                f"operation.speed_ripple.{number}.order",
-                f"{line.order:g} is no whole number; half orders take four strokes and [gas]",
-            )
+            told = f"{line.order:g} is no whole number; half orders take four strokes and [gas]"
+            yield Problem(f"operation.speed_ripple.{number}.order", told)
 
 
 def check_speed(parts: Parts) -> Iterator[Problem]:
@@ -222,13 +299,10 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
-            yield Problem(
-                "operation.speed_ripple",
-                f"the crank would {'turn back' if share else 'stop'}: at crank angle "
-                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean; it "
-                "must stay above 0: make the amplitudes smaller, they are shares of the mean speed "
-                "(0.01 is one per cent)",
-            )
+            told = f"the crank would {'turn back' if share else 'stop'}: at crank angle "
+            told += f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: "
+            told += "make the amplitudes smaller, they are shares of the mean speed"
+            yield Problem("operation.speed_ripple", told)
             return
 
 
@@ -241,12 +315,9 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         return
     different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
-        yield Problem(
-            "cylinder",
-            f"the cylinders have {different} different mechanisms, some so near their lock that "
-            f"all of them need {samples} samples of a revolution; at most {MOST_SAMPLES} are "
-            "taken: make these rods longer, or more of them equal",
-        )
+        told = f"{different} different mechanisms need {samples} samples of a revolution; at most "
+        told += f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal"
+        yield Problem("cylinder", told)
 
 
 def check_gas(parts: Parts) -> Iterator[Problem]:
@@ -260,10 +331,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
             for key in ("gas", "heat", "indicator"):
                 dummy = key == "gas" and parts.order is not None and number not in parts.order
                 if getattr(own, key) is not None and not dummy:
-                    yield Problem(
-                        f"cylinder.{number}.{key}",
-                        "needs [gas], which says what the gas does in all cylinders",
-                    )
+                    told = "needs [gas], which says what the gas does in all cylinders"
+                    yield Problem(f"cylinder.{number}.{key}", told)
     elif parts.gas is None and not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
 

@@ -31,9 +31,9 @@ from .layout import find_first
 from .parts import Parts
 
 _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
-# Heat of fuel that burns all air, over pressure times volume of that air: 2.95 MJ/kg for petrol and
-# Diesel fuel alike, at 300 K; more than HEAT_MOST is doubted.
-HEAT_OF_AIR, HEAT_MOST = 34, 40.0
+# Heat of fuel over pressure times volume of the charge that is doubted: where all air burns it is
+# 34, from 2.95 MJ/kg for petrol and Diesel fuel alike, at 300 K.
+HEAT_MOST = 40.0
 
 
 class _Source(NamedTuple):
@@ -162,28 +162,19 @@ def _list_contradictions(
     if bore is None:
         yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
-        yield Problem.of_missing(
-            "layout.firing_order",
-            "a four-stroke cylinder fires in every second revolution, and only "
-            "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
-        )
+        told = "it says in which of two revolutions each cylinder fires, such as [1, 3, 4, 2]"
+        yield Problem.of_missing("layout.firing_order", told)
     for number, table in parts.model.cylinder.items():
         if gas.cycle is None and table.heat is not None:
-            yield Problem(
-                f"cylinder.{number}.heat",
-                "belongs to a computed cycle, and [gas] has none; give the cylinder a diagram of "
-                "its own (indicator)",
-            )
+            told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
+            yield Problem(f"cylinder.{number}.heat", told)
     measured = any(source.indicator is not None for source in sources)
     for key in () if measured else DIAGRAM_KEYS:
         if key in gas.model_fields_set:
             yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
-        yield Problem(
-            "gas.intake_closes",
-            "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-            "leave it out",
-        )
+        told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
+        yield Problem("gas.intake_closes", f"{told}: leave it out")
     if two_stroke and gas.zero == "gas-exchange":
         told = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
         yield Problem("gas.zero", told)
@@ -278,10 +269,9 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     if cycle.heat > HEAT_MOST * charge:
         path = _locate(GasError(_find_goal(gas, source).name, ""), gas, source).path
         yield (
-            f"{path} takes {cycle.heat:.4g} J of heat "
-            f"in each cycle, {cycle.heat / charge:.2g} times the pressure times the volume of its "
-            f"charge; fuel for all of that air gives some {HEAT_OF_AIR:g} times; is gas.intake = "
-            f"{gas.intake:.4g} bar right? It is absolute, and more where the engine is supercharged"
+            f"{path} takes {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
+            f"charge burns; is gas.intake = {gas.intake:.4g} bar right? It is absolute, and more "
+            "where the engine is supercharged"
         )
 
 

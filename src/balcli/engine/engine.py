@@ -371,10 +371,8 @@ def take_model(engine: Engine) -> EngineFile:
         BalcliError: No file describes this engine.
     """
     if engine.model is None:
-        raise BalcliError(
-            f"{engine.summary}: no engine file can say what this engine is (it has devices that "
-            "none describes, or is a variant); take the one from which it was made"
-        )
+        told = "no file describes this engine, which is a variant, or has devices of its own; take "
+        raise BalcliError(f"{engine.summary}: {told}the one from which it was made")
     return engine.model
 
 
@@ -390,8 +388,7 @@ def find_row(engine: Engine, number: int, option: str) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(
-            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
-        )
+        some = f"{engine.name or 'the engine'} has the cylinders "
+        some += ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(f"{option} {number}: {some}")
     return engine.numbers.index(number)

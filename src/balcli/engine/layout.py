@@ -23,7 +23,7 @@ from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
 from ..file.fields import counted
-from ..file.model import Crank, EngineFile, Layout
+from ..file.model import EngineFile, Layout
 from ..limits import MOST_PARTS
 from .figures import FileFigures
 
@@ -65,7 +65,12 @@ def plan_cylinders(model: EngineFile) -> Plan:
     crank, layout = model.crank, model.layout
     banks = count_banks(layout)
     shared = layout.rods == "shared" or banks == 1
-    throws = _count_throws(crank, layout, banks if shared else 1)
+    rods, cylinders = banks if shared else 1, len(layout.firing_order or ())
+    if crank.throws is None and cylinders % rods:
+        told = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
+        told += f"give crank.throws, or a multiple of {rods} cylinders"
+        raise InputError([Problem("layout.firing_order", told)])
+    throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
     if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # more than there is memory for
         told = (
             f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
@@ -79,18 +84,14 @@ def plan_cylinders(model: EngineFile) -> Plan:
         told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
         problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
-        problems.append(
-            Problem(
-                "layout.rods",
-                f'"alternating" gives every throw one rod, but there are {banks} banks and only '
-                f'{counted(throws, "throw")}: give more throws, or "shared"',
-            )
-        )
+        told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
+        told += f'{counted(throws, "throw")}: give more throws, or "shared"'
+        problems.append(Problem("layout.rods", told))
     problems += _check_firing_order(model, sorted(numbers), throws)
     if problems:
         raise InputError(problems)
     cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
-    return Plan(banks, throws, cells, banks if shared else 1)
+    return Plan(banks, throws, cells, rods)
 
 
 def count_banks(layout: Layout) -> int:
@@ -119,20 +120,6 @@ def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
 def cycle_deg(layout: Layout) -> float:
     """Return the crank angle from one firing of a cylinder to its next, deg."""
     return TURN * layout.strokes / 2
-
-
-def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
-    """Return the number of throws: as given, or for the firing order with `rods` on each."""
-    if crank.throws is not None:
-        return len(crank.throws)
-    cylinders = len(layout.firing_order or ())
-    if cylinders % rods:
-        message = (
-            f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
-            f"give crank.throws, or a multiple of {rods} cylinders"
-        )
-        raise InputError([Problem("layout.firing_order", message)])
-    return max(cylinders // rods, 1)
 
 
 def _number_cylinders(
@@ -189,7 +176,8 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    parts += [f"cylinder {n} is missing" for n in wanted if n not in times]
+    missing = [n for n in wanted if n not in times]
+    parts += [f"missing is {_join(missing)}"] * bool(missing)
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 

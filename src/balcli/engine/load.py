@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -17,8 +18,10 @@ from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .gas import EngineGas
 from .parse import parse, parse_dict, parse_tables
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
@@ -127,23 +130,17 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
         raise mistakes from None
 
 
-_WHOLE = frozenset({"gas", "layout", "articulation"})  # tables all of whose figures count
-_KEYS = {
-    "crank": frozenset({"stroke", "throws", "splay"}),
-    "rod": frozenset({"length", "ratio"}),
-    "piston": frozenset({"bore", "offset"}),
-}
-_OF_CYLINDER = frozenset(
-    {"piston_offset", "rod_length", "rod_ratio", "bank", "throw", "gas", "heat"}
+# Figures on which the gas torque of a cylinder depends, by their dotted names
+_OF_GAS = (
+    r"(gas|layout|articulation)\..*|crank\.(stroke|throws.*|splay)|rod\.(length|ratio)"
+    r"|piston\.(bore|offset)"
+    r"|cylinder\.\d+\.(piston_offset|rod_length|rod_ratio|bank|throw|gas|heat)"
 )
 
 
 def concerns_gas(path: str) -> bool:
     """Return whether the gas torque of a cylinder depends on a figure, by its dotted name."""
-    table, _, key = path.partition(".")
-    if table == "cylinder":
-        return key.partition(".")[2] in _OF_CYLINDER
-    return table in _WHOLE or key.partition(".")[0] in _KEYS.get(table, ())
+    return re.fullmatch(_OF_GAS, path) is not None
 
 
 Key = TypeVar("Key")

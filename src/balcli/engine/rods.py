@@ -169,10 +169,9 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
         worst = spin.argmin()
         shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-        told = (
-            f"period {period.flat[worst]:g} s is too quick: with the centre of mass "
-            f"{1e3 * arm.flat[worst]:g} mm from the pivot a full swing takes more than "
-            f"{shortest:.4g} s"
+        told = f"period {period.flat[worst]:g} s is too quick: a full swing takes more than "
+        told += (
+            f"{shortest:.4g} s with the centre of mass {1e3 * arm.flat[worst]:g} mm from the pivot"
         )
         yield Problem(place.path("pendulum"), told)
         return
@@ -182,12 +181,8 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
         path, what = place.path(*LENGTHS), f"{path} = "
-    yield Problem(
-        path,
-        f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends "
-        f"cannot stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} "
-        "mm, or the rod's inertia",
-    )
+    told = f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm: give a cg from 0 to "
+    yield Problem(path, f"{told}{length_mm:g} mm, or the rod's inertia")
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
@@ -202,16 +197,7 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
-    with_offset, or_offset = "", ""
-    if eps:
-        aside = np.max(np.abs(gear.offset)) * 1e3
-        with_offset = (
-            f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}"
-        )
-        or_offset = " or the offset smaller"
-    yield Problem(
-        place.path(*LENGTHS),
-        f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
-        f"{np.min(gear.length) * 1e3:g} mm is lambda = {lam:.9g}{with_offset}; at most 1 - "
-        f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer{or_offset}",
-    )
+    aside = f", with the piston offset over rod length {lam + eps:.9g}" if eps else ""
+    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{aside}; at most 1 - "
+    told += f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
+    yield Problem(place.path(*LENGTHS), told)

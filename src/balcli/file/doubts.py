@@ -137,15 +137,9 @@ def _round(value: float) -> str:
 def _find_missing(model: EngineFile) -> Iterator[str]:
     """Yield warnings for keys that are left out, and probably forgotten."""
     if _weigh_piston(model) == 0:
-        yield (
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
-            "and locks"
-        )
+        yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
-        yield (
-            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the "
-            "big-end centre"
-        )
+        yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)

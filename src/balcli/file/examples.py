@@ -105,10 +105,7 @@ def folder() -> Path:
     """
     place = next(filter(Path.is_dir, _PLACES), None)
     if place is None:
-        raise BalcliError(
-            f"the example engines are missing from this installation ({_PLACES[0]}): install "
-            "balcli again"
-        )
+        raise BalcliError(f"there is no folder of examples ({_PLACES[0]}): install balcli again")
     return place
 
 

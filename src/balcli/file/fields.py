@@ -257,7 +257,7 @@ class Flag(_Field):
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
             raise ValueError(
-                f"{shorten(value)} is neither true nor false; write one of these, without quotes"
+                f"{shorten(value)} is neither true nor false: write one without quotes"
             )
         return value
 

@@ -5,7 +5,7 @@ They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from .fields import Choice, FileName, Number, OneOf, join_words
 from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size
@@ -28,7 +28,6 @@ class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
-    wiebe_keys: ClassVar[tuple[str, ...]] = WIEBE_KEYS
 
     indicator: Annotated[str, FileName()] | None = None
     """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
@@ -104,7 +103,7 @@ class Gas(FileTable):
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
-            idle.update(self.wiebe_keys)
+            idle.update(WIEBE_KEYS)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
         if not measured:
@@ -130,34 +129,24 @@ class Gas(FileTable):
             what = "indicator" if self.indicator else "harmonics"
             yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
-    def _check_wiebe(self) -> Iterator[str]:
-        wiebe = [key for key in self.wiebe_keys if key in self.model_fields_set]
-        if wiebe and self.cycle not in (None, "wiebe"):
-            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
-
-    def _check_goals(self) -> Iterator[str]:
-        """Check that exactly one figure sets the heat."""
+    def _check_cycle(self) -> Iterator[str]:
+        """Check that a computed cycle has its keys, and exactly one figure that sets the heat."""
         if self.cycle is None:
             return
+        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
+        if wiebe and self.cycle != "wiebe":
+            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
         given = [key for key in self.goals if self.has(key)]
-        *front, last = self.goals
-        choice = f"give one of {', '.join(front)} and {last}"
+        choice = f"give one of {join_words(self.goals)}"
         if len(given) > 1:
             yield f"has {join_words(given)}; {choice}"
         elif not given:
             yield f"does not say how much is burnt; {choice}"
-
-    def _check_max_pressure(self) -> Iterator[str]:
         if self.cycle == "dual" and self.max_pressure is None:
             yield "needs max_pressure for a dual cycle, at which it burns on"
-
-    def _check_bmep(self) -> Iterator[str]:
-        computed = self.cycle is not None
-        if computed and self.bmep is not None and self.mechanical_efficiency is None:
+        if self.bmep is not None and self.mechanical_efficiency is None:
             yield "has bmep without mechanical_efficiency; give both, or imep"
-
-    def _check_compression_ratio(self) -> Iterator[str]:
-        if self.cycle is not None and self.compression_ratio is None:
+        if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
 
 

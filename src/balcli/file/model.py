@@ -8,7 +8,7 @@ file has.
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Self
@@ -175,11 +175,15 @@ class Layout(FileTable):
     numbering: NumbersOfBanks | None = None
     """Cylinder numbers of each bank, free end to flywheel end. Example: [[1, 3], [2, 4]]"""
 
-    def _check_firing_order(self) -> Iterator[str]:
-        yield from _refuse_repeated("firing_order", self.firing_order or ())
-
-    def _check_numbering(self) -> Iterator[str]:
-        yield from _refuse_repeated("numbering", chain(*self.numbering or ()))
+    def _check_numbers(self) -> Iterator[str]:
+        for key, numbers in (
+            ("firing_order", self.firing_order or ()),
+            ("numbering", chain(*self.numbering or ())),
+        ):
+            twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
+            if twice:
+                listed = join_words(twice[:5])
+                yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
     def _check_intervals(self) -> Iterator[str]:
         intervals, order, cycle = self.firing_intervals, self.firing_order, 180 * self.strokes
@@ -216,13 +220,6 @@ def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
     rises = min(gaps) > 0 and (first or angles[-1] == cycle) and len(angles) > 1
     fits = sum(angles) == cycle and max(gaps) > min(gaps) + INTERVAL_TOLERANCE_DEG
     return gaps if rises and not fits else []
-
-
-def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
-    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    if twice:
-        listed = join_words(twice[:5])
-        yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
 
 class Bobweight(FileTable):

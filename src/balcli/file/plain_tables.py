@@ -63,10 +63,8 @@ def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str
 def _key(key: object) -> str:
     if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
         return str(key)
-    raise TypeError(
-        f"the key {str(key)[:60]} ({type(key).__name__}) is no text; write it as a file has it, "
-        'such as "stroke"'
-    )
+    told = f"the key {str(key)[:60]} ({type(key).__name__}) is no text"
+    raise TypeError(f'{told}; write it as a file has it, such as "stroke"')
 
 
 def _plain(value: object) -> object:

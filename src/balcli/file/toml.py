@@ -104,7 +104,11 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
             decoded, message = "", _TOO_DEEP
         except ValueError:  # Python reads no more digits
             decoded, message = "", "has a number of thousands of digits"
-    raise InputError([Problem("", message if _looks_like_toml(decoded) else f"is {right}")], file)
+    # Text that was meant as TOML is empty, or has a key or a heading.
+    key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
+    if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
+        message = f"is {right}"
+    raise InputError([Problem("", message)], file)
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
@@ -129,12 +133,6 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
         most = f"{MOST_TOML_MARKS} keys, lists and values"
         return decoded, f"has more than {most}; no engine file needs that"
     return decoded, ""
-
-
-def _looks_like_toml(text: str) -> bool:
-    """Return whether a text was probably meant as TOML: it is empty, or has a key or a heading."""
-    found = re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))""", text, re.M)
-    return found is not None or not re.search(r"^[ \t]*[^\s#]", text, re.M)
 
 
 def _explain(text: str, error: str) -> str:

@@ -214,13 +214,6 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 )
 
 
-def _normalize(figure: str) -> str:
-    """Return a figure in one spelling: Latin units, a decimal point, no blanks in numbers."""
-    for pattern, new in _RESPELT:
-        figure = re.sub(pattern, new, figure)
-    return figure
-
-
 # Compiled when a string is met
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
@@ -266,8 +259,11 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
     """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+    figure = text
+    for pattern, new in _RESPELT:
+        figure = re.sub(pattern, new, figure)
     try:
-        exact = _measure(_normalize(text), dimension) / read_unit(dimension.unit, dimension).scale
+        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
         float(exact)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None

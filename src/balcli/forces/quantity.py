@@ -26,8 +26,7 @@ VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
     For couple, torque and roll, and for force and moment along x or y, `cos` and `sin` are the
@@ -96,14 +95,11 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
-        raise BalcliError(
-            f"{text} is no quantity: after {kind} comes an order up to {HIGHEST_ORDER}, as in "
-            f"{kind}.2.{allowed[0]}"
-        )
+        told = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if part not in allowed:
-        raise BalcliError(
-            f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
-        )
+        told = f"after the order comes one of {', '.join(allowed)}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)

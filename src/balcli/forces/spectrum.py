@@ -20,6 +20,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,8 +33,7 @@ from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
 from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
-from ..engine.gas import CylinderGas, EngineGas
-from ..errors import NO_GAS, BalcliError, check_number, check_type, list_values
+from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -42,6 +42,9 @@ from ..limits import (
     MOST_LOADS_APART,
 )
 from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
+
+if TYPE_CHECKING:
+    from ..engine.gas import CylinderGas, EngineGas
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -311,18 +314,16 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         TypeError: They are no numbers.
     """
     wanted = "give numbers, such as [1, 2, 4]"
-    check_type("orders", orders, Iterable, wanted)
+    if isinstance(orders, bytes) or not np.iterable(orders):
+        raise wrong_type("orders", orders, wanted)
     asked = sorted({check_number("orders", n, wanted) for n in list_values("orders", orders)})
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(shorten(n) for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        give = "" if any(engine.gas for engine in engines) else "give [gas], or "
-        raise BalcliError(
-            f"orders {halves}: half orders are those of gas pressure in four strokes; {give}ask "
-            "for whole orders"
-        )
+        told = "half orders take [gas] and four strokes; ask for whole orders"
+        raise BalcliError(f"orders {halves}: {told}")
     return np.array(asked, float)
 
 

@@ -296,21 +296,14 @@ def _find_reasons(
             if there and balanced[0]:
                 verdict = "symmetry" if all(balanced) else "chance"
             number = order_number(order)
-            rest = _compare_with_textbook(book, group if there else "", number, row)
-            yield Reason(number, group, verdict, 0.0 if balanced[0] else size, *rest)
-
-
-def _compare_with_textbook(
-    book: Textbook, group: str, order: float, row: int
-) -> tuple[float | None, float | None, str]:
-    """Return the remaining force or moment of the reciprocating masses, and of all masses, in the
-    textbook's unit, and this unit.
-    """
-    force = book.units.size(KINDS[group], order) if group in ("force", "moment") else np.nan
-    if np.isnan(force):
-        return None, None, ""
-    alone, built = (float(found[group].major[row] / force) for found in book[1:])
-    return alone, built, book.units.name(KINDS[group], order)
+            alone, built, unit = None, None, ""
+            if there and group in ("force", "moment"):
+                kind, force = KINDS[group], book.units.size(KINDS[group], number)
+                if not np.isnan(force):
+                    alone, built = (float(found[group].major[row] / force) for found in book[1:])
+                    unit = book.units.name(kind, number)
+            rest = 0.0 if balanced[0] else size
+            yield Reason(number, group, verdict, rest, alone, built, unit)
 
 
 def _draw(engine: Engine) -> Iterator[Engine]:

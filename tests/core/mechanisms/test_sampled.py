@@ -12,7 +12,6 @@ import pytest
 from balcli.core.mechanisms import harmonics as sampled
 from balcli.core.mechanisms.closed_form import SERIES
 from balcli.core.mechanisms.linkage import Rotary, hang
-from balcli.core.mechanisms.slidercrank import SliderCrank
 
 MANY = 4096  # samples: of nothing here an order is left beyond them
 FEW = 32
@@ -76,12 +75,3 @@ def test_a_mechanism_is_the_same_among_any_others(monkeypatch):
             values = together[0][name].c[:, k]
             assert np.array_equal(values, parted[0][name].c[:, k]), name
             assert np.array_equal(values, alone[0][name].c[:, 0]), name
-
-
-def test_only_what_is_wanted_and_there_is_sampled():
-    figures = [np.array([0.3]), np.array([0.01])]
-    found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]), 1)
-    assert found[0].keys() == {"piston", "rod", "kinetic", "rod_kinetic"}
-    first = np.full(len(random_rods()[0]), FEW)
-    found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first, 1)
-    assert found[0].keys() == {"along"}

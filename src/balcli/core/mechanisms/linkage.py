@@ -175,16 +175,6 @@ class Articulated(Linkage):
     def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         return hang(psi, *figures)
 
-    def bound_lean(self, lam: Array, eps: Array) -> Array:
-        """Return a bound of the sine of each rod's angle to the cylinder's axis, shape (cylinders,
-        *trailing): knuckle pins are at most a crank and a knuckle radius away.
-
-        Args:
-            lam: Crank radius / rod length, as in `Cylinders`.
-            eps: Offset / rod length, as in `Cylinders`.
-        """
-        return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
-
 
 def hang(
     psi: Array | Complex,
