@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 import typer
-from support.cases import cases, slow
+from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_command, run_in_terminal, run_python
 from support.engines import GOOD, changed
 from support.paths import ENGINES, ROOT, write
@@ -56,12 +56,6 @@ def test_help_lists_every_command_once_and_in_order(balcli):
         assert (status, err) == (0, "")
         listed = re.findall(r"(?m)^  ([a-z]+) +\S", out.partition("Analyse:")[2])
         assert listed == list(COMMANDS)
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_has_help(command):
-    out = ask(command, "--help")
-    assert f"Usage: balcli {command}" in out
 
 
 def usage(command: str, message: str) -> str:
@@ -129,29 +123,6 @@ def test_a_warning_does_not_stop_the_analysis(balcli, tmp_path):
 
 
 # ------------------------------------------------------------------ formats
-@pytest.mark.parametrize("form", Format)
-def test_a_format_is_what_its_name_says(good, form):
-    """Each is what its name says, ends in one newline, and holds the second-order force of the same
-    analysis.
-    """
-    out = ask("analyze", good, "--format", form)
-    assert out.endswith("\n")
-    assert not out.endswith("\n\n")
-    force = ask_json("analyze", good)["orders"][1]["force_N"]["major"]
-    match form:
-        case Format.JSON:
-            assert json.loads(out)["format"] == "balcli.analysis/1"
-        case Format.CSV:
-            rows = list(csv.DictReader(io.StringIO(out)))
-            assert set(rows[0]) == {"engine", "cylinder", "quantity", "order", "figure", "value", "unit"}
-            (major,) = (r for r in rows if (r["quantity"], r["order"], r["figure"]) == ("force", "2", "major"))
-            assert (float(major["value"]), major["unit"]) == (force, "N")
-        case Format.MARKDOWN:
-            assert out.startswith("# in-line four\n")
-            assert f"| 2 | {force:.5g} |" in out
-        case Format.TABLE:
-            assert out.startswith("in-line four\n")
-            assert re.search(rf"(?m)^2 +{force:.5g} ", out)
 
 
 def test_json_of_analyze_has_the_keys_of_the_contract():
@@ -190,20 +161,6 @@ def test_what_is_left_out_is_no_key(only, keys, whole):
     assert set(document) - {"format", "version", "engine", "speed_rpm", "reference_mm", "orders"} == whole
 
 
-def test_shares_of_the_cylinders_add_up(balcli, good):
-    document = ask_json("analyze", good, "--by", "cylinder", "--orders", "2")
-    assert [c["cylinder"] for c in document["cylinders"]] == [1, 2, 3, 4]
-    total = sum(c["orders"][0]["force_N"]["forward"][0] for c in document["cylinders"])
-    assert total == pytest.approx(document["orders"][0]["force_N"]["forward"][0], rel=1e-14)
-    assert "Cylinder 3 alone" in balcli("analyze", good, "--by", "cylinder")[1]
-
-
-def test_speed_displaces_the_files(good):
-    one, two = (ask_json("analyze", good, *more) for more in ([], ["--speed", "6000"]))
-    assert (one["speed_rpm"], two["speed_rpm"]) == (3000, 6000)
-    assert two["orders"][1]["force_N"]["major"] == 4 * one["orders"][1]["force_N"]["major"]
-
-
 def test_imperial_figures_are_the_metric_ones_in_other_units(balcli, good):
     def values(*more):
         rows = ask_csv("analyze", good, *more)
@@ -235,30 +192,15 @@ def test_standard_input(balcli, good):
     assert err.startswith("balcli: standard input: ")
 
 
-@pytest.mark.parametrize("form", ["table", "markdown"])
-def test_an_engines_name_cannot_colour_the_output(balcli, form):
-    name = '"in-line \\u001b[31mfour\\u009b2J"'
-    status, out, err = balcli("analyze", "-", "--format", form, stdin=changed(('"in-line four"', name)))
-    assert (status, out) == (2, "")
-    assert "name: " in err
-    assert not {"\x1b", "\x9b"} & set(err)
-
-
-@pytest.mark.parametrize("key", ["name", "source"])
-@pytest.mark.parametrize(
-    "code", [0x061C, 0x200E, 0x200F, 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A)]
-)
-def test_no_text_of_a_file_turns_the_direction_of_what_is_shown(key, code):
-    engine = f'{key} = "four{chr(code)}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
-    assert refusal("analyze", "-", stdin=engine) == (
-        f"standard input: {key}: has the control character U+{code:04X}; leave it out"
-    )
-
-
 @unix
-def test_nor_does_the_name_of_a_file(balcli, tmp_path):
-    _, _, err = balcli("analyze", tmp_path / "a\u202elmot.\u2028")
-    assert err.endswith("a?lmot.?: no such file\n")
+@pytest.mark.parametrize("key", ["name", "source"])
+def test_no_text_of_a_file_and_no_name_of_one_turns_or_colours_what_is_shown(balcli, key, tmp_path):
+    for code in (0x1B, 0x9B, 0x061C, 0x200E, 0x200F, 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A)):
+        engine = f'{key} = "four\\u{code:04x}enil-ni"\n' + changed(('name = "in-line four"\n', ""))
+        assert refusal("analyze", "-", stdin=engine) == (
+            f"standard input: {key}: has the control character U+{code:04X}; leave it out"
+        )
+    assert balcli("analyze", tmp_path / "a\u202elmot.\u2028").err.endswith("a?lmot.?: no such file\n")
 
 
 LOCKED = changed(("length = 160", "length = 40"), ("cg = 45", "cg = 15"))
@@ -301,14 +243,6 @@ def test_rows_of_several_engines_can_be_told_apart(good, tmp_path):
     assert engines("-", stdin=nameless.read_text()) == ["standard input"]
 
 
-@pytest.mark.parametrize("form", Format)
-def test_into_a_file(balcli, good, tmp_path, form):
-    target = tmp_path / "out"
-    assert balcli("analyze", good, "--format", form, "-o", target) == (0, "", "")
-    assert target.read_text(encoding="utf-8") == balcli("analyze", good, "--format", form)[1]
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out"]
-
-
 @pytest.mark.parametrize("files", [["bad"], ["good", "bad"]])
 def test_a_file_is_written_whole_or_not_at_all(balcli, good, bad, tmp_path, files):
     target = write(tmp_path / "out.json", "what was there before")
@@ -329,24 +263,11 @@ def test_nobody_else_reads_the_new_content_of_a_private_file_before_it_is_in_pla
         os.umask(before)
 
 
-def test_a_replaced_file_keeps_its_permissions_and_a_failed_one_leaves_nothing(balcli, good, tmp_path, monkeypatch):
+def test_a_replaced_file_keeps_its_permissions(balcli, good, tmp_path):
     target = write(tmp_path / "out.txt", "old")
     target.chmod(0o640)
     assert balcli("analyze", good, "-o", target)[0] == 0
     assert target.stat().st_mode & 0o777 == 0o640
-
-    def full(*_, **__):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "replace", full)
-    before = target.read_text()
-    assert balcli("analyze", V8, "-o", target) == (
-        2,
-        "",
-        f"balcli: {target}: cannot be written (No space left on device)\n",
-    )
-    assert target.read_text() == before
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["good.toml", "out.txt"]
 
 
 def test_new_never_overwrites_without_force(balcli, tmp_path):
@@ -356,7 +277,7 @@ def test_new_never_overwrites_without_force(balcli, tmp_path):
     assert balcli("new", "vee", target) == (
         2,
         "",
-        f"balcli: {target}: already exists; choose another name, or --force to overwrite it\n",
+        f"balcli: {target}: already exists; choose another name, or --force\n",
     )
     assert target.read_text() == written
     assert balcli("new", "vee", target, "--force") == (0, "", "")
@@ -377,9 +298,7 @@ def test_a_pipe_gets_no_escape_codes_and_no_width(balcli, monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("columns", [80, 140])
-@pytest.mark.parametrize(
-    "name", ["v8_crossplane", "vr6", "radial9", "w12", "i4_shafts", "single", "car/tsinghua_12v135q"]
-)
+@pytest.mark.parametrize("name", ["vr6", "w12", "car/tsinghua_12v135q"])
 def test_a_terminal_gets_lines_of_its_width(balcli, monkeypatch, name, columns):
     """No line is wider, and no figure that stands in it without a width is broken."""
     from rich.cells import cell_len
@@ -414,11 +333,10 @@ def test_a_closed_pipe_ends_quietly(args):
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("args", [["analyze", "nowhere.toml"], ["balance", "nowhere.toml"], ["analyze", "--wrong"]])
-def test_mistakes_that_nobody_reads_have_their_status(args):
+def test_mistakes_that_nobody_reads_have_their_status():
     reading, writing = os.pipe()
     os.close(reading)
-    done = run_command(*args, stdout=writing, stderr=writing)
+    done = run_command("analyze", "nowhere.toml", stdout=writing, stderr=writing)
     os.close(writing)
     assert done.returncode == 2
 
@@ -458,12 +376,8 @@ def packages(modules: Iterable[str]) -> set[str]:
     ("args", "allowed"),
     [
         (["--help"], set()),
-        (["--version"], set()),
         (["new", "single"], {"pydantic"}),  # typer itself checks arguments with it
-        (["schema"], {"pydantic"}),
         (["analyze", V8, "--format", "json"], {"numpy", "pydantic"}),
-        (["analyze", V8, "--format", "csv"], {"numpy", "pydantic"}),
-        (["analyze", V8, "--format", "markdown"], {"numpy", "pydantic"}),
         (["analyze", V8], {"numpy", "pydantic"}),
         (["check", str(ENGINES / "i4.toml")], {"numpy", "pydantic"}),
     ],
@@ -512,7 +426,7 @@ def test_help_that_cannot_be_written_is_no_success(args):
     assert (done.returncode, done.stderr) == (2, "balcli: standard output: No space left on device\n")
 
 
-SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU")]
+SIGNALS = [getattr(signal, name, 0) for name in ("SIGINT", "SIGTERM")]
 
 
 @unix
@@ -536,12 +450,8 @@ main()
 
 
 @unix
-@pytest.mark.parametrize(
-    "content", [b"\xff\xfe", *slow(b"backend: none\n", None)], ids=["no text", "no backend", "pipe"]
-)
-def test_settings_of_matplotlib_in_the_working_folder_are_ignored(tmp_path, content):
-    settings = tmp_path / "matplotlibrc"
-    os.mkfifo(settings) if content is None else settings.write_bytes(content)
+def test_settings_of_matplotlib_in_the_working_folder_are_ignored(tmp_path):
+    (tmp_path / "matplotlibrc").write_bytes(b"\xff\xfe")
     done = run_command("plot", I4, "-o", "x.svg", cwd=tmp_path, env={"MPLBACKEND": "qt4agg"}, timeout=60)
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "x.svg").exists()

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference
 
 
+Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")]
+
+
 def new(
     kind: Annotated[
         str,
@@ -49,7 +52,7 @@ def new(
             show_default=False,
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
+    force: Force = False,
 ) -> None:
     """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
     `torsion`) to start from.
@@ -100,7 +103,7 @@ def engines(
             help="List one class: layout, aero, car, historic, marine or motorcycle.",
         ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")] = False,
+    force: Force = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it.
 

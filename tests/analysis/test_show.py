@@ -12,13 +12,12 @@ from types import SimpleNamespace
 
 import pytest
 from support.cases import cases
-from support.engines import GOOD, RADIAL, build_text, inline_engine, rotary_engine
+from support.engines import GOOD, RADIAL, build_text, inline_engine
 from support.paths import ENGINES
 
 from balcli.analysis import show as analysis
 from balcli.analysis.answer import UNASKED, analyze
 from balcli.core.records import to_document
-from balcli.errors import BalcliError
 from balcli.shell.options import parse_parts
 from balcli.show.formats import Format, render
 from balcli.show.sheet import IN_BRIEF, Facts, Grid, View
@@ -57,23 +56,6 @@ def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place
     assert last["position_mm"] == pytest.approx(50)
     assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).peak.moment.value)
     assert analyze(about_middle).peak.moment.value == pytest.approx(0, abs=1e-6)
-
-
-def test_guide_as_json():
-    found = document(inline_engine([0, 180]), only=["guide"], orders=[1, 2])["guide"]
-    assert found["includes"] == "inertia, without gas"
-    assert found["height_m"] == pytest.approx([0.16, 0.16])
-    assert [entry["order"] for entry in found["orders"]] == [1, 2]
-    assert not found["orders"][0]["x_Nm"]["balanced"]
-    assert "x_Nm" not in document(inline_engine([0]), only=["guide"], orders=[1])["guide"]["orders"][0]
-
-
-def test_strokes_as_json():
-    found = document(build_text(RADIAL), only=["force"])["travel"]
-    assert [entry["cylinder"] for entry in found] == [1, 2, 3, 4, 5, 6, 7]
-    assert found[0]["stroke_m"] == pytest.approx(0.12)
-    assert found[2]["stroke_m"] > 0.1204
-    assert found[2]["top_deg"] == pytest.approx(-found[5]["top_deg"])
 
 
 def rows(subject, system="si", **options):
@@ -163,21 +145,6 @@ def test_only_picks_parts(words, titles):
     chosen, named = parse_parts(words)
     found = analysis.sheet(analyze(inline_engine([0, 180]), only=chosen), SYSTEMS["si"], View(parts=named))
     assert [p.title for p in found.parts if p.title or isinstance(p, Facts)] == titles
-
-
-def test_a_rotary_engine_from_end_to_end():
-    subject = rotary_engine("radial = 9")
-    assert document(subject, reasons=True)["orders"][0]["force_N"]["balanced"]
-    assert "balanced by symmetry of the layout" in shown(subject, reasons=True)
-
-
-def test_an_unknown_quantity_is_refused_with_those_there_are():
-    with pytest.raises(BalcliError) as caught:
-        analyze(inline_engine([0]), only=["bending"])
-    assert str(caught.value) == (
-        "there is no quantity bending: choose from force, moment, couple, torque, roll, peak, "
-        "sizing, ladder, gas, inner, guide, journals, masses"
-    )
 
 
 # ------------------------------------------------------------------ one throw, pins split, rods apart

@@ -51,10 +51,3 @@ def test_a_table_a_kind_a_row_a_speed():
 @cases("analysis/speeds", "what_does_not_go_together_is_refused", MOST_ANALYSED_SPEEDS=MOST_ANALYSED_SPEEDS)
 def test_what_does_not_go_together_is_refused(given, told):
     assert told in refusal("analyze", FIVE, *given)
-
-
-def test_an_order_that_is_asked_for_has_a_column_balanced_or_not(balcli):
-    out = balcli("analyze", ENGINES / "i4.toml", "--speed", "500,600", "--orders", "2,7")[1]
-    force = out.partition("Free force")[2].splitlines()
-    assert force[1].split() == ["rpm", "order", "2", "order", "7", "peak"]
-    assert force[3].split()[2] == "balanced"

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.cases import cases
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import refusal
 from support.engines import build_text
-from support.paths import ENGINES, write
+from support.paths import write
 
 from balcli.analysis.two_engines import Arrangement, combine_engines
 from balcli.forces import spectrum
@@ -160,13 +160,6 @@ def test_kinetic_energies_of_geared_engines_add(reverse, load):
         assert np.abs(values - curve).max() < 1e-9 * np.abs(curve).max(), name
 
 
-def test_equal_cranks_against_each_other_feel_twice_the_torque():
-    single = built()
-    both = combine_engines(single, single, Arrangement(reverse=True), ORDERS).spectra
-    alone = spectrum.compute_spectra(single, ORDERS).torque
-    assert np.allclose(both.torque.forward, 2 * alone.forward, rtol=1e-14)
-
-
 # ------------------------------------------------------------------ with gas
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 10\nimep = 9\n'
 HALVES = np.arange(0.0, 8.5, 0.5)
@@ -240,41 +233,6 @@ def file(tmp_path):
     return str(path)
 
 
-def run(*arguments):
-    return run_here("sum", *arguments)
-
-
-def test_the_json_says_how_the_second_engine_stands(file):
-    document = ask_json("sum", file, file, "--phase", "180", "--at", "0,0,100", "--orders", "1,2")
-    assert document["format"] == "balcli.sum/1"
-    assert document["arrangement"] == {
-        "phase_deg": 180.0,
-        "at_mm": [0.0, 0.0, 100.0],
-        "turn_deg": 0.0,
-        "reverse": False,
-        "load": "first",
-    }
-    assert [entry["order"] for entry in document["orders"]] == [1, 2]
-    assert document["orders"][0]["force_N"]["balanced"]
-    assert not document["orders"][0]["moment_Nm"]["balanced"]
-
-
-@pytest.mark.parametrize("form", ["table", "csv", "markdown"])
-def test_other_formats(file, form):
-    result = run(file, file, "--reverse", "--turn", "180", "--format", form)
-    assert result.status == 0
-    assert "roll" in result.out
-
-
 @cases("analysis/two_engines", "arrangements_that_cannot_be_are_refused")
 def test_arrangements_that_cannot_be_are_refused(file, options, message):
     assert refusal("sum", file, file, *options) == message
-
-
-def test_orders_that_are_asked_for_have_a_row_balanced_or_not():
-    """Two in-line fours have no odd order of force, moment or torque of inertia."""
-    four = str(ENGINES / "i4.toml")
-    table = ask("sum", four, four, "--orders", "3,4,7")
-    for order in ("3", "7"):
-        rows = [line.split() for line in table.splitlines() if line.startswith(f"{order} ")]
-        assert [set(row[1:]) for row in rows] == [{"balanced"}] * 3

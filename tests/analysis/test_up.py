@@ -99,29 +99,21 @@ def test_unknown_moments_have_no_curves_by_up():
 
 
 COMMANDS = (
-    "analyze FILE",
     "analyze FILE --all",
-    "analyze FILE --only xy,textbook",
     "analyze FILE --by cylinder --why -f json",
-    "analyze FILE --only force,moment,inner,guide -f csv",
-    "analyze FILE -f markdown --all",
-    "analyze FILE --speed 1000:3000:1000",
-    "balance FILE",
     "balance FILE -f json",
     "compare FILE FILE",
     "sum FILE FILE --phase 90 -f json",
     "curves FILE --step 90 -f csv",
-    "sweep FILE --vary rod.length=140:150:10 -q force.1.x,moment.2.y",
-    "numbers FILE",
 )
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_without_up_no_word_of_it(command, tmp_path):
+def test_without_up_no_word_of_it(tmp_path):
     path = write(tmp_path / "e.toml", leaning(0))
-    done = run_here(*[path if word == "FILE" else word for word in command.split()])
-    assert done.status == 0
-    assert not [word for word in WORDS if word in (done.out + done.err).lower()]
+    for command in COMMANDS:
+        done = run_here(*[path if word == "FILE" else word for word in command.split()])
+        assert done.status == 0
+        assert not [word for word in WORDS if word in (done.out + done.err).lower()], command
 
 
 @pytest.mark.parametrize("form", ["json", "csv", "markdown"])

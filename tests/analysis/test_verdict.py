@@ -20,14 +20,6 @@ def test_each_order_in_words(order: int, what: str, vectors: list[list[float]], 
     assert verdict(Spectra(orders, **{what: phasors}), SI) == (text,)
 
 
-def test_force_and_moment_of_one_order() -> None:
-    orders = np.array([1.0])
-    none, some = (Phasors.of(orders, *np.array(v, complex).reshape(2, 1), np.zeros(1)) for v in ((0, 0), (7, 0)))
-    assert verdict(Spectra(orders, force=none, moment=some), SI) == (
-        "First order: moment of 7 N·m turning with the crank; counterweights cancel it.",
-    )
-
-
 @cases("analysis/verdict", "what_is_small_beside_one_cylinder")
 def test_what_is_small_beside_one_cylinder(force: dict, moment: dict, told: list[str]) -> None:
     """A cylinder makes 1000 N and 2000 N m; vectors of equal size turn both ways."""

@@ -30,37 +30,11 @@ def test_equal_strokes():
     assert len(found.reasons) == 1
 
 
-@pytest.mark.parametrize("goal", ["dead-centres", "strokes"])
-def test_pins_that_are_even_stay(goal):
-    found = even_knuckles(even_knuckles(enginefile.parse(RADIAL), goal).model, goal)
-    assert found.reasons[0].startswith("knuckle pins stay where they are: ")
-
-
-def test_mirror_images_get_mirrored_angles():
-    angles = np.array(even_knuckles(enginefile.parse(RADIAL)).angles_deg)
-    assert np.allclose(angles[1:] + angles[:0:-1], 360, atol=1e-9)
-
-
 def test_two_rows_are_set_by_the_first():
     text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
     found = even_knuckles(enginefile.parse(text))
     assert len(found.angles_deg) == 7
     assert np.abs(found.after.top_deg).max() < 1e-9
-
-
-@pytest.mark.parametrize(
-    ("goal", "own", "uneven"),
-    [
-        ("dead-centres", "rod_length = 170", False),  # the pin is on the axis, however long the rod
-        ("strokes", "rod_length = 170", True),
-        ("dead-centres", "piston_offset = 4", True),
-    ],
-)
-def test_a_cylinder_of_the_second_row_that_is_not_as_the_first_is_named(goal, own, uneven):
-    text = RADIAL.replace("stroke = 120", "stroke = 120\nthrows = [0, 180]\nspacing = 160")
-    found = even_knuckles(enginefile.parse(f"{text}\n[cylinder.10]\n{own}\n"), goal)
-    told = "not cylinder 10: all knuckle pins of a bank get the angle that suits its first throw"
-    assert found.reasons[1:] == (told,) * uneven
 
 
 def test_where_the_knuckle_pin_goes_for_an_even_dead_centre():
@@ -86,10 +60,7 @@ def test_a_bank_that_no_angle_makes_even():
 def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
-    assert (
-        str(caught.value)
-        == "knuckles: this engine has no articulated rods; an engine file describes them in [articulation]"
-    )
+    assert str(caught.value) == "knuckles: this engine has no articulated rods whose crank turns"
 
 
 # ------------------------------------------------------------------ the command
@@ -119,9 +90,8 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     for state, path in (("before", file), ("after", out)):
         told = ask_json("analyze", path, "--orders", "1-4")
         rolls = {entry["order"]: entry["roll_total_Nm"] for entry in found[state]["orders"]}
-        assert [rolls[entry["order"]] for entry in told["orders"]] == [
-            entry["roll_total_Nm"] for entry in told["orders"]
-        ]
+        for entry in told["orders"]:
+            assert rolls[entry["order"]] == pytest.approx(entry["roll_total_Nm"], rel=1e-12)
     table = run(file).out
     assert "with gas," in table
     assert "stays as it is" not in table

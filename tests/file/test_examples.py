@@ -43,7 +43,7 @@ def test_a_copy_is_the_file(tmp_path):
     again = run_command("engines", "i4", target)
     assert (again.returncode, again.stderr) == (
         2,
-        f"balcli: {target}: already exists; choose another name, or --force to overwrite it\n",
+        f"balcli: {target}: already exists; choose another name, or --force\n",
     )
     assert run_command("engines", "i4", target, "--force").returncode == 0
     assert target.read_text(encoding="utf-8") == examples.text("i4")

@@ -115,13 +115,6 @@ def test_what_the_file_gives_is_not_assumed(file: str) -> None:
     assert not {"layout.strokes", "crank.throws", "gas.expansion_index", "torsion.rear.shear_modulus"} & {*keys}
 
 
-def test_what_varies_is_not_assumed(file: str) -> None:
-    options = ("-q", "torque.max", "--vary", "gas.compression_index=1.3,1.35")
-    assumed = ask("sweep", file, *options)["assumed"]
-    assert GAS[1] in assumed
-    assert GAS[0] not in assumed
-
-
 def test_two_engines_have_what_holds_for_one_after_its_name(file: str, tmp_path: Path) -> None:
     other = tmp_path / "other.toml"
     other.write_text(FILE.replace("[layout]", "[layout]\nstrokes = 4"), encoding="utf-8")

@@ -10,8 +10,6 @@ from balcli.cli import COMMANDS
 CASES = [
     ("", set(COMMANDS)),
     ("ana", {"analyze"}),
-    ("analyze --form", {"--format"}),
-    ("balance --scheme t", {"two-shaft"}),
     ("balance --scheme k", {"knuckles"}),
     ("tables liu-", {"liu-1", "liu-2", "liu-3"}),
     ("engines vtwin", {"vtwin45", "vtwin90"}),

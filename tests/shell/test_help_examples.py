@@ -26,12 +26,17 @@ def examples(command: str) -> list[str]:
     return [line.strip() for line in lines if line.strip().startswith("balcli ")]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_of_every_command_has_an_example(command: str) -> None:
-    text = run_here(command, "--help").out
-    assert "Example" in text
-    assert examples(command)
-    assert not {*"│╭─┃\x1b"} & {*text}, "help in a pipe is plain"
+def test_the_help_of_every_command() -> None:
+    """It has an example, can be quiet and verbose, and in a pipe is plain."""
+    for command in COMMANDS:
+        text = run_here(command, "--help").out
+        assert f"Usage: balcli {command}" in text
+        assert "Example" in text
+        assert examples(command)
+        words = text.split()
+        assert {"--quiet", "--verbose", "-v,"} <= {*words}
+        assert words.count("-q,") == 1, "of the program, or of the command"
+        assert not {*"│╭─┃\x1b"} & {*text}
 
 
 # `bench` takes seconds; what else is left out has tests of its own

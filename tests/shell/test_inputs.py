@@ -4,18 +4,6 @@ import pytest
 from support.cases import cases
 from support.commands import run_here
 
-from balcli.shell.inputs import name_engines
-
-
-def test_engines_of_one_name_and_nameless_ones_go_by_their_files():
-    assert name_engines(["i4", "V8", "i4", ""], ["a.toml", "b.toml", "c.toml", "d.toml"]) == [
-        "a.toml",
-        "V8",
-        "c.toml",
-        "d.toml",
-    ]
-
-
 HEAVY = """crank.stroke = 90
 rod.length = 160
 piston = { bore = 80, mass = 500 }

@@ -8,8 +8,6 @@ from pathlib import Path
 import pytest
 from support.commands import run_here
 
-from balcli.cli import COMMANDS
-
 LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
 WARNING = (
     "warning: standard input: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
@@ -40,11 +38,3 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
         f"note: {target}: written, {target.stat().st_size} bytes",
     ]
     assert re.fullmatch(r"note: \d+\.\d\d s of processor time, the start of Python included", took)
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_can_be_quiet_and_verbose(command):
-    words = run_here(command, "--help").out.split()
-    assert {"--quiet", "--verbose", "-v,"} <= {*words}
-    own = sum(word == "-q," for word in words)
-    assert own == 1

@@ -102,17 +102,6 @@ def test_an_interrupt_that_is_ignored_stays_so() -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def test_items_are_counted_until_ctrl_c(capsys: pytest.CaptureFixture[str]) -> None:
-    with progress.reporting_until_stopped("engines", 3) as tell:
-        seen = []
-        for item in progress.each_until_stopped("abc", tell):
-            seen.append((item, tell.done))
-            tell.stopped = item == "b"
-    assert seen == [("a", 0), ("b", 1)]
-    assert tell.cut_short
-    assert tell.describe() == "2 of 3 engines"
-
-
 @unix
 def test_the_last_word_of_what_cannot_end_early() -> None:
     code = """

@@ -63,14 +63,15 @@ COMMANDS = [
 
 # ------------------------------------------------------------------ onto what is read
 @unix
-@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize("target", ["good.toml", "./good.toml", "link.toml", "hard.toml"])
-def test_never_onto_the_engine_file(good, command, target):
-    before, option = contents(), command[-1] if command[-1].startswith("--") else "--output"
-    name, *rest = command if command[-1] != option else command[:-1]
-    assert refusal(name, good, *rest, option, target) == (
-        f"{option} {Path(target)}: this is a file that is read, which stays as it is; choose another name"
-    )
+def test_never_onto_the_engine_file(good, target):
+    before = contents()
+    for command in COMMANDS:
+        option = command[-1] if command[-1].startswith("--") else "--output"
+        name, *rest = command if command[-1] != option else command[:-1]
+        assert refusal(name, good, *rest, option, target) == (
+            f"{option} {Path(target)}: this is a file that is read, which stays as it is; choose another name"
+        )
     assert contents() == before
 
 
@@ -137,17 +138,6 @@ def test_a_target_that_the_system_refuses_is_never_taken_for_a_missing_one(balcl
 
 
 @unix
-def test_a_link_to_itself_is_refused(balcli, good):
-    Path("loop").symlink_to("loop")
-    assert balcli("analyze", good, "-o", "loop") == (
-        2,
-        "",
-        "balcli: loop: cannot be written (Too many levels of symbolic links)\n",
-    )
-    assert Path("loop").is_symlink()
-
-
-@unix
 def test_a_pipe_is_written_to_and_stays_a_pipe(balcli, good):
     """As /dev/null must, which whoever may do everything could replace by a file."""
     os.mkfifo("pipe")
@@ -188,16 +178,6 @@ def test_new_leaves_even_a_dangling_link_alone(balcli, good):
     assert good.read_text() == GOOD
 
 
-def test_a_folder_for_records_that_cannot_be_made(balcli, good):
-    Path("expected").write_text("a file")
-    assert balcli("check", good, "--update") == (
-        2,
-        "0 engines recorded\n",
-        "balcli: expected: cannot be made (File exists)\n",
-    )
-    assert Path("expected").read_text() == "a file"
-
-
 # ------------------------------------------------------------------ no room, no right
 def _partly(self: Path, data: bytes) -> int:
     with self.open("wb") as stream:
@@ -205,14 +185,7 @@ def _partly(self: Path, data: bytes) -> int:
     raise OSError(28, "No space left on device")
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        *(["analyze", "-o", "out.txt"], ["balance", "--write", "out.toml"]),
-        *(["curves", "-o", "out.csv"], ["report", "-o", "out.html"]),
-    ],
-    ids=" ".join,
-)
+@pytest.mark.parametrize("command", [["analyze", "-o", "out.txt"], ["balance", "--write", "out.toml"]], ids=" ".join)
 def test_a_disk_that_fills_up_midway(balcli, good, monkeypatch, command):
     name, option, target = command
     Path(target).write_text("old")
@@ -240,25 +213,8 @@ def test_a_disk_that_fills_up_during_a_sweep(balcli, good, monkeypatch):
     assert contents() == before
 
 
-def test_a_folder_in_which_nothing_may_be_made(balcli, good, monkeypatch):
-    def forbidden(*_: object, **__: object) -> None:
-        raise PermissionError(13, "Permission denied")
-
-    Path("out.txt").write_text("old")
-    before = contents()
-    with monkeypatch.context() as patched:
-        patched.setattr("os.open", forbidden)
-        outcome = balcli("analyze", good, "-o", "out.txt")
-    assert outcome == (2, "", "balcli: out.txt: cannot be written (Permission denied)\n")
-    assert contents() == before
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-@pytest.mark.parametrize(
-    "command",
-    [["analyze"], ["analyze", "--format", "json"], ["sweep", "--vary", "crank.stroke=1:90:0.01"], ["curves"]],
-    ids=" ".join,
-)
+@pytest.mark.parametrize("command", [["analyze"], ["sweep", "--vary", "crank.stroke=1:90:0.01"]], ids=" ".join)
 def test_standard_output_that_is_full(good, command):
     name, *rest = command
     with Path("/dev/full").open("wb") as full:
@@ -295,7 +251,7 @@ def test_an_interrupt_is_no_traceback():
 
 
 @unix
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1"])
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGUSR1"])
 def test_a_signal_leaves_the_older_file_and_nothing_beside_it(good, name):
     """It comes while the new file is being written: the sweep's text never ends."""
     Path("out.csv").write_text("old")

@@ -57,17 +57,6 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "moment" not in ladder
 
 
-def test_what_shafts_leave_of_the_roll_is_known_without_places(balcli, twin):
-    """Moments alone need them: the roll is about the crankshaft."""
-    told = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80")[1]
-    document = balcli("balance", twin, "--scheme", "two-shaft", "--at=-60,80", "--at=60,-80", "-f", "json")
-    details = json.loads(document[1])["details"]["order_2"]
-    assert re.search(r"^order 2 moment left +–$", told, re.MULTILINE)
-    for label in ("roll left", "roll before"):
-        value = details[f"{label.replace(' ', '_')}_Nm"]
-        assert re.search(rf"^order 2 {label} +{value:.5g} N·m$", told, re.MULTILINE)
-
-
 def test_json_keeps_the_figures_of_one_plane_and_says_so(balcli, twin, tmp_path):
     said = write(tmp_path / "said.toml", twin.read_text().replace("[rod]", "spacing = 0\n[rod]"))
     for command in ("analyze", "balance"):
@@ -91,15 +80,6 @@ def test_csv_has_no_moments(balcli, twin):
         rows = list(csv.DictReader(io.StringIO(balcli(command, twin, "--format", "csv")[1])))
         assert {"force", "roll"} <= {row["quantity"] for row in rows}
         assert "moment" not in {row["quantity"] for row in rows}
-
-
-def test_cylinders_with_places_and_a_single_throw_are_known(balcli, twin, tmp_path):
-    twin.write_text(twin.read_text() + "[cylinder.1]\nposition = -50\n[cylinder.2]\nposition = 50")
-    assert balcli("analyze", twin, "--only", "moment")[::2] == (0, "")
-    single = write(
-        tmp_path / "single.toml", changed(("throws = [0, 180, 180, 0]", "throws = [0]"), NO_ORDER, NO_SPACING)
-    )
-    assert balcli("analyze", single, "--only", "moment")[::2] == (0, "")
 
 
 @cases("shell/unknown_moments", "a_moment_by_name_is_an_error")
@@ -151,18 +131,6 @@ def test_curves_have_no_moments(balcli, twin):
     found = json.loads(balcli("curves", twin, "--format", "json")[1])
     assert "crank.spacing = 0" in found["assumed"]
     assert "moment_x_Nm" in found["curves"]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("what", ["all", "polar", "orders", "spectrum", "curves", "factor"])
-def test_pictures_draw_no_moments(balcli, twin, tmp_path, what):
-    picture = tmp_path / "picture.svg"
-    assert balcli("plot", twin, "--what", what, "-o", picture)[::2] == (0, warning(twin))
-    text = picture.read_text(encoding="utf-8")
-    drawn = len(re.findall("not known:", text))
-    assert drawn == {"factor": 0}.get(what, 1)
-    if what == "factor":
-        assert "moment (dashed grey)" not in text
 
 
 def test_rows_in_python_have_no_figure_of_a_moment(twin):

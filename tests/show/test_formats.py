@@ -14,10 +14,12 @@ from support.rotors import three_runs
 
 from balcli import bench
 from balcli.shell import output
-from balcli.show.formats import Format
+from balcli.show.formats import Format, render
+from balcli.show.units import SI
 
 V6, V8, SINGLE = (ENGINES / f"{name}.toml" for name in ("vr6", "v8_crossplane", "single"))
 RUNS = three_runs()
+ORDER = (Format.TABLE, Format.MARKDOWN, Format.CSV, Format.JSON)
 SHOWN = {  # by renderer
     "analyses": ("analyze", V6, V8, "--only", "force,roll,peak,inner,guide", "--why"),
     "balance": ("balance", SINGLE, "--scheme", "factor", "--factor", "0:1:0.25"),
@@ -40,71 +42,39 @@ SHOWN = {  # by renderer
 }
 
 
-@pytest.fixture
-def show(monkeypatch):
-    """Runs the command of a renderer, which has to call one."""
-    called = []
-    render = output.render
-
-    def recorded(results, renderer, *args, **options):
-        called.append(renderer)
-        return render(results, renderer, *args, **options)
-
-    rows = (bench.Row(task="task", method="way", seconds=1e-6, error=1e-3),)
-    measured = bench.Bench(rows=rows, ratios=(bench.Ratio(what="one to other", value=2.0),))
-    monkeypatch.setattr(output, "render", recorded)
-    monkeypatch.setattr(bench, "measure", lambda: measured)
-
-    def run(name: str, form: Format) -> str:
-        out = ask(*SHOWN[name], "--format", form, stdin=RUNS)
-        assert len(called) == 1
-        return out
-
-    return run
-
-
 def test_every_renderer_is_shown_here():
     texts = [file.read_text("utf-8") for file in PACKAGE.rglob("*.py")]
     assert sum(text.count("Renderer(sheet=") for text in texts) == len(SHOWN) + 1  # one analysis, in "analyses"
 
 
 @pytest.mark.parametrize("name", SHOWN)
-def test_a_table_is_text_without_blanks_at_the_ends_of_lines(show, name):
-    lines = show(name, Format.TABLE).splitlines()
-    assert lines[0]
-    assert [line for line in lines if line != line.rstrip()] == []
-
-
-@pytest.mark.parametrize("name", SHOWN)
-def test_markdown_has_a_title_and_tables_whose_rows_are_as_wide_as_their_headings(show, name):
-    text = show(name, Format.MARKDOWN)
-    assert text.startswith("# ")
-    tables = re.findall(r"(?:^\|.*\n)+", text, re.M)
-    assert tables
-    for table in tables:
-        assert len({len(re.findall(r"(?<!\\)\|", row)) for row in table.splitlines()}) == 1
-
-
-@pytest.mark.parametrize("name", SHOWN)
-def test_csv_has_one_header_and_rows_of_its_width(show, name):
-    header, *rows = csv.reader(io.StringIO(show(name, Format.CSV)))
+def test_every_result_in_every_format(name, monkeypatch):
+    """Text has no blanks at the ends of lines, tables of Markdown and rows of CSV are as wide as their heads, and JSON
+    has one document a line; the command computes once.
+    """
+    rows = (bench.Row(task="task", method="way", seconds=1e-6, error=1e-3),)
+    measured = bench.Bench(rows=rows, ratios=(bench.Ratio(what="one to other", value=2.0),))
+    monkeypatch.setattr(bench, "measure", lambda: measured)
+    calls = []
+    monkeypatch.setattr(output, "render", lambda *call, **_: calls.append(call) or "text")
+    ask(*SHOWN[name], stdin=RUNS)
+    ((results, renderer, *_),) = calls
+    text, marked, table, lines = (render(results, renderer, form, SI) for form in ORDER)
+    assert text.splitlines()[0]
+    assert [line for line in text.splitlines() if line != line.rstrip()] == []
+    assert marked.startswith("# ")
+    grids = re.findall(r"(?:^\|.*\n)+", marked, re.M)
+    assert grids
+    for grid in grids:
+        assert len({len(re.findall(r"(?<!\\)\|", row)) for row in grid.splitlines()}) == 1
+    header, *cells = csv.reader(io.StringIO(table))
     assert len(set(header)) == len(header)
-    assert rows
-    assert {len(row) for row in rows} == {len(header)}
-    assert header not in rows
-    assert not {"nan", "inf", "None", "True", "False"} & {cell for row in rows for cell in row}
-
-
-@pytest.mark.parametrize("name", SHOWN)
-def test_json_is_one_document_a_line_without_what_json_has_no_word_for(show, name):
-    def refuse(constant):
-        raise AssertionError(constant)
-
-    lines = show(name, Format.JSON).splitlines()
-    assert len(lines) == (2 if name in ("analyses", "marine", "speeds") else 1)
-    for line in lines:
-        document = json.loads(line, parse_constant=refuse)
-        assert isinstance(document, list) or document["format"].startswith("balcli.")
+    assert {len(row) for row in cells} == {len(header)}
+    assert header not in cells
+    assert not {"nan", "inf", "None", "True", "False"} & {cell for row in cells for cell in row}
+    documents = [json.loads(line, parse_constant=pytest.fail) for line in lines.splitlines()]
+    assert len(documents) == (2 if name in ("analyses", "marine", "speeds") else 1)
+    assert all(isinstance(one, list) or one["format"].startswith("balcli.") for one in documents)
 
 
 def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objective(balcli):
@@ -115,10 +85,3 @@ def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objec
     two = balcli(*throws, "moment.1.major,moment.2.major").out.splitlines()
     assert two[3].split()[:2] == ["throws", "objective"]
     assert max(map(len, two[:-2])) <= 80
-
-
-def test_the_list_of_tables_names_each_source_once(balcli):
-    titles, _, sources = balcli("tables").out.partition("Sources\n")
-    assert "tsinghua-1-6" in titles
-    assert sources.count("Automobile Engine Design") == 1
-    assert max(map(len, titles.splitlines())) <= 80

@@ -22,7 +22,7 @@ from balcli.names import DOCUMENTS
 FILES = sorted(path for path in ENGINES.rglob("*.toml"))
 I4, V8, SINGLE = ENGINES / "i4.toml", ENGINES / "v8_wiebe.toml", ENGINES / "single.toml"
 TWO_BANKS = ENGINES / "vtwin90.toml"
-SPEEDS = ("--speeds", "1000:1100:50")
+DIESEL, SPEEDS = ENGINES / "i6_diesel.toml", "--speeds 1000:1100:50"
 CURVE = "angle_deg,torque_Nm\n0,0\n180,900\n360,-100\n540,300\n720,0\n"
 
 
@@ -69,69 +69,41 @@ def test_the_analysis_and_the_balance_of_every_example(file: Path) -> None:
 
 
 RESULTS = {
-    "why": ("analyze", I4, "--why", "--by", "cylinder", "--orders", "0-4"),
-    "inner": ("analyze", I4, "--only", "inner,guide"),
-    "inner with gas": ("analyze", V8, "--only", "inner,guide,gas", "--orders", "1,1.5,2"),
-    "offsets": ("analyze", ENGINES / "vr6.toml"),
-    "speeds": ("analyze", I4, "--speed", "1000:3000:1000"),
-    "marine": ("analyze", ENGINES / "marine/marine6.toml", "--format", "marine", "-o", "m.json"),
-    "no places": ("analyze", "-"),
-    "factor": (
-        "balance",
-        TWO_BANKS,
-        "--factor",
-        "51%",
-        "--planes",
-        "ends",
-        "--drill",
-        "30",
-        "--slug",
-        "19.3",
-        "--width",
-        "300",
-        "--grade",
-        "6.3",
-        "--mass",
-        "12",
-    ),
-    "factors": ("balance", TWO_BANKS, "--factor", "50%:54%:1%", "--planes", "ends"),
-    "slider": ("balance", I4, "--scheme", "slider"),
-    "eccentric slider": ("balance", SINGLE, "--scheme", "eccentric-slider"),
-    "oldham": ("balance", SINGLE, "--scheme", "oldham"),
-    "compare": ("compare", I4, SINGLE, "--all"),
-    "sum": ("sum", I4, I4, "--phase", "90"),
-    "sum with gas": ("sum", V8, I4),
-    "layouts": ("layouts",),
-    "table": ("tables", "tsinghua-1-2"),
-    "series": ("tables", "series"),
-    "curves": ("curves", I4, "--step", "30"),
-    "curves of a cylinder": ("curves", V8, "--cylinder", "1", "--step", "30"),
-    "sweep": ("sweep", I4, "--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.axis"),
-    "throws": ("search", I4, "--over", "throws", "--minimise", "moment.1.major"),
-    "firing order": ("search", I4, "--over", "firing_order", "--minimise", "moment.1.major"),
-    "bank angle": ("search", TWO_BANKS, "--over", "bank_angle", "--minimise", "force.1.major"),
-    "a number": ("search", I4, "--over", "rod.ratio=0.2:0.3", "--minimise", "force.2.major"),
-    "numbers": ("numbers", V8),
-    "scatter": ("scatter", I4, "--samples", "50"),
-    "mounts": ("mounts", ENGINES / "i4_mounts.toml", I4, "--scheme", "auto", *SPEEDS),
-    "torsion": (
-        "torsion",
-        ENGINES / "i6_diesel.toml",
-        "--holzer",
-        "1",
-        "--holzer",
-        "12 Hz",
-        *SPEEDS,
-        "--damper",
-        "viscous",
-    ),
-    "rubber": ("torsion", ENGINES / "i6_diesel.toml", *SPEEDS, "--damper", "rubber"),
-    "pendulum": ("torsion", ENGINES / "i6_diesel.toml", *SPEEDS, "--damper", "pendulum"),
-    "torque": ("torque", V8, "--loads", "pin,main"),
-    "misfire": ("torque", V8, "--misfire", "1", "--fluctuation", "2%"),
-    "stall": ("torque", ENGINES / "i4_wiebe.toml", "--speed", "100", "--fluctuation", "2%"),
-    "bearings not known": ("torque", "-", "--loads", "pin,main"),
-    "given torque": ("torque", "--curve", "curve.csv", "--speed", "1000"),
+    "why": f"analyze {I4} --why --by cylinder --orders 0-4",
+    "inner": f"analyze {I4} --only inner,guide",
+    "inner with gas": f"analyze {V8} --only inner,guide,gas --orders 1,1.5,2",
+    "offsets": f"analyze {ENGINES / 'vr6.toml'}",
+    "speeds": f"analyze {I4} --speed 1000:3000:1000",
+    "marine": f"analyze {ENGINES / 'marine/marine6.toml'} --format marine -o m.json",
+    "no places": "analyze -",
+    "factor": f"balance {TWO_BANKS} --factor 51% --planes ends --drill 30 --slug 19.3 --width 300 --grade 6.3 --mass 12",
+    "factors": f"balance {TWO_BANKS} --factor 50%:54%:1% --planes ends",
+    "slider": f"balance {I4} --scheme slider",
+    "eccentric slider": f"balance {SINGLE} --scheme eccentric-slider",
+    "oldham": f"balance {SINGLE} --scheme oldham",
+    "compare": f"compare {I4} {SINGLE} --all",
+    "sum with gas": f"sum {V8} {I4}",
+    "layouts": "layouts",
+    "table": "tables tsinghua-1-2",
+    "series": "tables series",
+    "curves": f"curves {I4} --step 30",
+    "curves of a cylinder": f"curves {V8} --cylinder 1 --step 30",
+    "sweep": f"sweep {I4} --vary rod.ratio=0.2,0.3 --quantity force.2.axis",
+    "throws": f"search {I4} --over throws --minimise moment.1.major",
+    "firing order": f"search {I4} --over firing_order --minimise moment.1.major",
+    "bank angle": f"search {TWO_BANKS} --over bank_angle --minimise force.1.major",
+    "a number": f"search {I4} --over rod.ratio=0.2:0.3 --minimise force.2.major",
+    "numbers": f"numbers {V8}",
+    "scatter": f"scatter {I4} --samples 50",
+    "mounts": f"mounts {ENGINES / 'i4_mounts.toml'} {I4} --scheme auto {SPEEDS}",
+    "torsion": f"torsion {DIESEL} --holzer 1 --holzer 12Hz {SPEEDS} --damper viscous",
+    "rubber": f"torsion {DIESEL} {SPEEDS} --damper rubber",
+    "pendulum": f"torsion {DIESEL} {SPEEDS} --damper pendulum",
+    "torque": f"torque {V8} --loads pin,main",
+    "misfire": f"torque {V8} --misfire 1 --fluctuation 2%",
+    "stall": f"torque {ENGINES / 'i4_wiebe.toml'} --speed 100 --fluctuation 2%",
+    "bearings not known": "torque - --loads pin,main",
+    "given torque": "torque --curve curve.csv --speed 1000",
 }
 NO_UNIT = """\
 planes = ["fan"]
@@ -151,8 +123,9 @@ def test_what_every_command_prints_keeps_to_its_schema(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("curve.csv").write_text(CURVE)
-    form = () if "-o" in RESULTS[what] else ("-f", "json")
-    status, out, err = run_here(*RESULTS[what], *form, stdin=NO_PLACES)
+    command = RESULTS[what].split()
+    form = () if "-o" in command else ("-f", "json")
+    status, out, err = run_here(*command, *form, stdin=NO_PLACES)
     out = out or Path("m.json").read_text(encoding="utf-8")
     assert (status, out != "") == (0, True), err
     check(out)

@@ -6,19 +6,18 @@ from __future__ import annotations
 
 from io import StringIO
 
-import pytest
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text as Line
 from support.cases import cases
-from support.paths import ENGINE_FILES, ENGINES
+from support.paths import ENGINES
 
 from balcli import analyze, load
 from balcli.analysis import comparison, show as analysis
 from balcli.analysis.comparison import compare_engines
 from balcli.show.sheet import Facts, Grid, Sheet, Text, View
-from balcli.show.table import GAP, PROSE, WIDTH, column_texts, count_places, fold, plain_text
+from balcli.show.table import PROSE, WIDTH, count_places, fold, plain_text
 from balcli.show.units import SYSTEMS
 
 WIDE = 100_000
@@ -63,27 +62,6 @@ def grid_for_rich(grid: Grid) -> Table:
     for row in grid.rows:
         table.add_row(*map(Line, row))
     return table
-
-
-@pytest.mark.stress
-def test_analyses_are_as_rich_prints_them():
-    si = SYSTEMS["si"]
-    for file in ENGINE_FILES[::6]:  # some of every kind
-        result = analyze(load(file), by_cylinder=True, reasons=True)
-        sheets = [leave_out_wide(analysis.sheet(result, si, View(whole=whole))) for whole in (False, True)]
-        assert plain_text(sheets) == print_by_rich(sheets)
-
-
-def leave_out_wide(sheet: Sheet) -> Sheet:
-    """The sheet without tables of more than 80 columns, which rich does not narrow."""
-
-    def is_wide(part: Grid | Facts | Text) -> bool:
-        if not isinstance(part, Grid):
-            return False
-        widths = [max(map(count_places, column_texts(part, k))) for k in range(len(part.columns))]
-        return sum(widths) + GAP * (len(widths) - 1) > WIDTH
-
-    return sheet._replace(parts=tuple(part for part in sheet.parts if not is_wide(part)))
 
 
 def test_an_analysis_and_a_comparison_are_as_rich_prints_them():

@@ -6,8 +6,6 @@ import pytest
 from support.engines import build_text
 from support.remedies import fit_scheme, write_engine
 
-from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.remedy import Remedy, fit_devices
 from balcli.sizing.sizing import size, size_auto
 
 
@@ -26,12 +24,6 @@ def test_nothing_is_fitted_where_nothing_is_left():
     assert not size_auto(fit_scheme(engine)).devices
 
 
-def test_own_devices_count():
-    engine = build_text(write_engine(0, 180, 180, 0))
-    half = Remedy("", devices=size_auto(engine).shafts[:1])
-    assert [s.ratio for s in size_auto(fit_devices(engine, half)).shafts] == [-2]
-
-
 def test_devices_of_one_throw_stand_half_a_bore_to_either_side():
     text = write_engine(0, layout="bank_angle = 60\nstagger = 24")
     for bore, planes in (("", {-50.0, 50.0}), ("bore = 80\n", {-40.0, 40.0})):
@@ -45,10 +37,3 @@ def test_sizing_does_not_depend_on_speed():
         size_auto(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n")) for rpm in (10, 20000)
     )
     assert [d.unbalance for d in slow.devices] == pytest.approx([d.unbalance for d in fast.devices], rel=1e-12)
-
-
-def test_devices_are_summed_in_the_order_of_the_file():
-    engine = build_text(write_engine(0, 240, 120) + "[[slider]]\norder = 2\nunbalance = 3\ndirection = 10\n")
-    kinds = [d.kind for d in fit_scheme(engine).devices]
-    assert kinds == sorted(kinds)
-    assert compute_spectra(fit_scheme(engine), [1], ("force",)).force.balanced.all()

@@ -11,15 +11,13 @@ import numpy as np
 import pytest
 from oracle import momentum
 from support.cases import cases
-from support.commands import refusal, run_here
+from support.commands import run_here
 from support.engines import build_text, changed
 from support.paths import write
 from support.remedies import SMALL, figures, size_scheme, write_engine
 
 from balcli.balancing.answer import insert_remedy
-from balcli.core.phasors import unit
 from balcli.errors import BalcliError
-from balcli.sizing.factor import name_one_cylinder
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy
 from balcli.sizing.sizing import size
@@ -161,21 +159,6 @@ def find_orders(curve: np.ndarray) -> np.ndarray:
     return np.roll(np.fft.fft(curve, norm="forward"), 8)[:17]
 
 
-def test_two_planes_by_the_lever():
-    """Ford 302: 2972.1 g on every throw, at 38.1 mm; by hand to planes at -200 and 250 mm."""
-    throws = zip((-166.875, -55.625, 55.625, 166.875), (0, 90, 270, 180), strict=True)
-    one = (1872.1 + 1100) * 38.1
-    front = rear = 0j
-    for z, angle in throws:
-        pin = -one * np.exp(1j * math.radians(angle))
-        front += pin * (250 - z) / 450
-        rear += pin * (z + 200) / 450
-    first, second = fit(FORD, 0.51, planes=(-0.2, 0.25)).counterweights
-    for found, wanted in ((first, front), (second, rear)):
-        assert found.unbalance == pytest.approx(abs(wanted), rel=1e-12)
-        assert found.angle == pytest.approx(math.degrees(np.angle(wanted)), abs=1e-9)
-
-
 # ------------------------------------------------------------------ what is there already
 def test_what_the_file_has_is_counted_plane_by_plane():
     """Weights at -200 and 25: the second half-way between the planes at -200 and 250."""
@@ -233,21 +216,6 @@ def test_nothing_is_missing_once_it_is_there(planes):
     assert not again.devices
     assert again.note == "nothing is missing: the counterweights of the file balance this factor"
     assert {need.missing for need in again.needs} == {0}
-
-
-def test_nor_is_anything_of_split_pins_in_one_plane():
-    """Each pin has its weight, all in the plane of the throw; half as much again is one weight of
-    their sum.
-    """
-    split = TWIN.replace("stagger = 24", "").replace("throws = [0]", "throws = [0]\nsplay = 90")
-    first = fit(split)
-    assert [device.angle for device in first.devices] == [180, -90]
-    again = fit(insert_remedy(split.encode(), first))
-    assert (again.devices, again.note) == ((), "nothing is missing: the counterweights of the file balance this factor")
-    (one,) = fit(insert_remedy(split.encode(), first), 0.75).devices
-    apart = fit(split, 0.75).devices
-    more = [device.unbalance - own.unbalance for device, own in zip(apart, first.devices, strict=True)]
-    assert one.unbalance * unit(one.angle) == pytest.approx(-more[0] - 1j * more[1], rel=1e-9)
 
 
 def test_what_is_there_counts_in_sum_where_moments_are_not_known():
@@ -329,23 +297,6 @@ def test_the_card_of_a_ford_302():
     assert weights == pytest.approx([(1872.1 + 1100) * 38.1] * 4, rel=1e-12)
 
 
-def test_card_and_counterweights_scheme_agree():
-    """At a factor of one half the bobweights balance a cross-plane V8: the two schemes then ask for
-    the same two weights.
-    """
-    ends = SchemeOptions(planes="ends")
-    both = [size(build_text(FORD), scheme, ends) for scheme in ("factor", "counterweights")]
-    for one, other in zip(*(remedy.counterweights for remedy in both), strict=True):
-        assert one.unbalance == pytest.approx(other.unbalance, rel=1e-12)
-        assert one.angle == pytest.approx(other.angle, abs=1e-9)
-
-
-def test_a_cylinder_of_its_own_is_weighed_on_its_own():
-    (card,) = fit(TWIN + "[cylinder.2]\npiston_mass = 0.52\n", 0.5).card
-    assert next(line for line in card.lines if line.part == "piston complete").each_g == (500, 520)
-    assert card.reciprocating_g == pytest.approx(500 + 520 + 2 * 220)
-
-
 # ------------------------------------------------------------------ both definitions, and the inverse
 
 
@@ -354,13 +305,6 @@ def test_the_same_weight_by_both_definitions():
     told = figures(fit(TWIN, 0.325))
     assert (told["factor"], told["factor of one cylinder"]) == (0.325, 0.65)
     assert figures(fit(INLINE, 0.4))["factor of one cylinder"] == 0.4
-
-
-def test_one_cylinder_of_unequal_ones_is_told_as_their_mean():
-    """50 % of 720 and 550 g are 88 % of the first, and 100 % of 635 g."""
-    unequal = build_text(TWIN + "[cylinder.2]\npiston_mass = 0.33\n")
-    assert name_one_cylinder(unequal) == "one cylinder's reciprocating mass, in the mean"
-    assert name_one_cylinder(build_text(TWIN)) == "one cylinder's reciprocating mass"
 
 
 def test_what_was_measured_is_the_factor_it_stands_for():
@@ -372,14 +316,6 @@ def test_what_was_measured_is_the_factor_it_stands_for():
     assert figures(remedy)["measured"] == 1.375
     assert remedy.card[0].bobweight_g == pytest.approx(1375)
     assert remedy.counterweights[0].unbalance == pytest.approx((1375 + 900) * 48.4, rel=1e-12)
-
-
-def test_unequal_pins_share_what_was_measured():
-    """The mean of all pins counts."""
-    engine = build_text(UNEQUAL)
-    mean = np.mean([one.bobweight_g for one in size(engine, "factor").card]) / 1e3
-    measured = size_scheme(engine, "factor", measured=float(mean))
-    assert figures(measured)["factor"] == pytest.approx(0.5, rel=1e-12)
 
 
 # ------------------------------------------------------------------ refusals
@@ -406,14 +342,6 @@ def test_a_factor_alone_chooses_its_scheme(ford):
         assert "bobweight (51 %)" in found.out
     assert run_here("balance", ford, "--factor", "51%").out == in_full
     assert "Ford 302: counterweights at every throw (auto)\n" in run_here("balance", ford).out
-
-
-def test_a_table_with_a_row_for_each_factor(ford):
-    out = run_here("balance", ford, "--factor", "50%:54%:1%", "--planes", "ends").out
-    rows = out.partition("Largest values by factor")[2].splitlines()
-    assert [row.split()[0] for row in rows if " %  " in row] == ["50", "51", "52", "53", "54"]
-    assert len(rows[2]) <= 80
-    assert [row.split()[2] for row in rows if " %  " in row][:2] == ["1853", "1872.1"]
 
 
 # ------------------------------------------------------------------ the card for the wall
@@ -462,17 +390,6 @@ Permitted by ISO 21940-11, G 16, 46 kg, 6000 rpm.
     assert [line for line in wanted if line not in lines] == []
     assert max(map(len, page.splitlines())) == 80
     assert page == run_here("balance", ford, *asked, "--units", "imperial").out
-
-
-def test_a_card_alone_chooses_the_scheme_of_factors(ford, tmp_path):
-    page = run_here("balance", ford, "--format", "card").out
-    assert "Balance factor    50 % of" in page
-    run_here("balance", ford, "--format", "card", "-o", tmp_path / "card.txt")
-    assert (tmp_path / "card.txt").read_text(encoding="utf-8") == page
-    assert refusal("balance", ford, "--format", "card", "--scheme", "auto") == (
-        "--format card: scheme auto has no bobweight card; leave --scheme out, or choose --scheme factor"
-    )
-    assert "ends in .txt" in refusal("balance", ford, "--format", "card", "-o", tmp_path / "x.json")
 
 
 def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():

@@ -37,8 +37,7 @@ harmonics = "tangential.csv"
 @pytest.fixture
 def four(tmp_path):
     (tmp_path / "tangential.csv").write_text(f"order,cos,sin\n0,2,0\n0.5,1,3\n2,{COS},{SIN}\n")
-    path = write(tmp_path / "four.toml", FILE)
-    return str(path)
+    return str(write(tmp_path / "four.toml", FILE))
 
 
 def find_second_order():
@@ -83,17 +82,6 @@ def test_shafts_that_cancel_the_roll_of_inertia_may_leave_more_with_gas(four):
     assert second.split()[-2:] == [f"{abs(inertia + gas):.4g}", f"{abs(gas):.4g}"]
 
 
-def test_orders_of_which_the_gas_alone_rolls_the_engine_are_told(four, tmp_path):
-    """Inertia of order 8 is nothing beside what this gas does in it."""
-    with (tmp_path / "tangential.csv").open("a") as file:
-        file.write("8,1,0\n")
-    rolled = 4 * 1e5 * np.pi / 4 * BORE**2 * R
-    table = run_here("balance", four, "--scheme", "two-shaft", "--orders", "8").out
-    eighth = next(line for line in table.splitlines() if line.startswith("8  "))
-    *_, before, after = eighth.split()
-    assert [float(before), float(after)] == pytest.approx([rolled] * 2, rel=1e-3)
-
-
 def test_knuckle_angles_change_the_roll_of_the_gas_in_half_orders_too(tmp_path):
     """Before and after are those of the file, and of the one that is written."""
     gas = '[gas]\ncycle = "wiebe"\ncompression_ratio = 6\nimep = 8\n'
@@ -136,11 +124,3 @@ def test_a_slider_beside_the_crank_is_told_where_it_adds_roll(four, at, grows):
     assert (grown > 0) == grows
     said = f"The roll of order 2 with gas grows by {grown:.4g} N·m: "
     assert (said in " ".join(run_here(*asked).out.split()) + " ") == grows
-
-
-@pytest.mark.parametrize(
-    ("frame", "pivot"), [("", "the crankshaft"), ("[frame]\nreference = [0, 90, 0]\n", "the point of reference")]
-)
-def test_about_what_the_devices_have_levers(frame, pivot):
-    said = run_here("balance", "-", "--scheme", "slider", "--at=0,-200", stdin=FILE.partition("[gas]")[0] + frame).out
-    assert f"where they stand, the devices' forces have levers about {pivot}." in " ".join(said.split())

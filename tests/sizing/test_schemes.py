@@ -5,17 +5,13 @@ from __future__ import annotations
 import subprocess
 import sys
 
-from balcli.sizing.schemes import MEANINGS, NAMES, SCHEMES
+from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import SIZE
 
 
 def test_every_scheme_has_its_function():
     assert list(SIZE) == list(SCHEMES)
     assert len(set(SIZE.values())) == len(SIZE)
-
-
-def test_every_scheme_says_what_it_does():
-    assert list(MEANINGS) == list(NAMES)
 
 
 def test_names_and_options_are_known_without_numpy():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here
-from support.engines import engine
 from support.paths import ENGINES
 from support.remedies import fit_scheme, size_scheme
 
@@ -67,23 +66,6 @@ def test_one_eccentric_promises_the_force_alone_where_a_moment_stays():
     assert not left(TWIN, "single-shaft", SchemeOptions(), 1).moment.balanced.all()
 
 
-def test_one_eccentric_promises_both_where_it_takes_both():
-    """A single cylinder: its force acts where the shaft is."""
-    remedy = size(load(ENGINES / "single.toml"), "single-shaft")
-    assert remedy.reasons[-1].endswith("one eccentric on a shaft at -1 times crank speed can")
-    uneven = engine(crank={"throws": [0], "spacing": 1}, cylinder={"1": {"position": 30}})
-    assert "moment stays" not in size(uneven, "single-shaft").reasons[-1]
-
-
-def test_pairs_promise_no_more_either():
-    remedy = size(load(TWIN), "two-shaft")
-    reasons = [why for device, why in zip(remedy.devices, remedy.reasons, strict=True) if device in remedy.shafts]
-    assert all(reason.endswith("a moment stays, which needs eccentrics in two planes") for reason in reasons)
-    assert all(reason.startswith("Order 1 force turning") for reason in reasons)
-    whole = size_scheme(load(I4), "two-shaft", order=2).reasons
-    assert not any("stays" in reason for reason in whole)
-
-
 def test_two_planes_take_a_moment_alone_too():
     """A three has no force: two opposite eccentrics on one shaft."""
     remedy = size_scheme(load(I3), "single-shaft", planes="ends")
@@ -106,11 +88,6 @@ def test_couple_shafts_stand_at_two_places():
     shafts = size(load(I5), "couple-shaft", options).shafts
     assert [(s.ratio, s.at) for s in shafts] == [(2, (60, 90)), (2, (60, 90)), (-2, (-50, 80)), (-2, (-50, 80))]
     assert left(I5, "couple-shaft", options, 2).moment.balanced.all()
-
-
-def test_one_place_is_that_of_the_shaft_against_the_crank():
-    shafts = size_scheme(load(I5), "couple-shaft", order=2, at=(0.1 + 0j,)).shafts
-    assert {(s.ratio, s.at) for s in shafts} == {(2, (0, 0)), (-2, (100, 0))}
 
 
 def test_a_moment_that_turns_in_one_sense_takes_one_place():

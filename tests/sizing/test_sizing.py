@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.cases import cases
-from support.engines import build_text, engine_text
+from support.engines import build_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme, write_engine
 
 from balcli.errors import BalcliError
-from balcli.file.model import Counterweight
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import Remedy, fit_devices
-from balcli.sizing.sizing import size, size_auto
+from balcli.sizing.sizing import size
 
 # ------------------------------------------------------------------ all schemes
 UNEVEN = SMALL["vee"] + "[cylinder.3]\npiston_mass = 2.5\n"  # its two vectors act at different places
@@ -63,64 +60,6 @@ def test_no_roll_about_the_crank_whatever_the_point_of_reference():
     assert there == [pytest.approx(device, rel=1e-10, abs=1e-9) for device in here]
 
 
-def test_a_weight_opposite_staggered_rods_stands_in_their_middle():
-    """Places whose mean is 0 but for rounding."""
-    engine = build_text(
-        engine_text(
-            crank="stroke = 100\nthrows = [0]",
-            layout="bank_angle = 90\nstagger = 22.3",
-            rod="ratio = 0.25\nmass = 0.61\ncg = 47.3",
-        )
-    )
-    cylinders = replace(engine.cylinders, z=engine.cylinders.z * (1 + 2e-16 * (engine.cylinders.z > 0)))
-    (weight,) = size(replace(engine, cylinders=cylinders), "factor").counterweights
-    assert weight.position == 0
-
-
-def test_a_shaft_where_the_force_acts_is_at_no_distance_from_it():
-    """Not at one of 1e-15 mm."""
-    engine = build_text(
-        engine_text(crank="stroke = 100\nthrows = [0, 90]\npositions = [0, 33.3]") + "[cylinder.2]\npiston_mass = 1.7\n"
-    )
-    remedy = size_scheme(engine, "single-shaft", order=1)
-    assert remedy.shafts[0].position > 0
-    assert figures(remedy)["axial distance"] == 0
-
-
-def test_places_along_the_crank_are_figures_that_people_can_read():
-    """Where two forces act together: `(m1 z1 + m2 z2)/(m1 + m2)`, in mm."""
-    crank = "stroke = 100\nthrows = [0, 0]\npositions = [{}, {}]"
-    for first, second in ((-50, 50), (17.3, 94.1), (-211.7, 3.3), (0, 100)):
-        for share in (1, 3, 9):
-            crank_text = crank.format(first, second)
-            remedy = size_auto(build_text(engine_text(crank=crank_text) + f"[cylinder.2]\npiston_mass = {share}\n"))
-            assert {d.position for d in remedy.shafts} == {round((first + share * second) / (1 + share), 9)}
-            assert [d.position for d in remedy.counterweights] == [first, second]  # at both throws
-
-
-def test_what_is_in_the_middle_of_the_throws():
-    """Throws at 10, 30 and 110 mm: 60, where nothing says otherwise."""
-    engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 0, 0]\npositions = [10, 30, 110]"))
-    (weight,) = size(engine, "minimax").counterweights
-    assert weight.position == 60
-    (weight,) = size_scheme(engine, "minimax", position=-0.02).counterweights
-    assert weight.position == -20
-
-
-def test_a_single_device_has_no_condition_number():
-    """Of two planes at equal distance from the middle it is 1."""
-    assert "condition number" not in figures(size(build_text(SMALL["four"]), "single-shaft"))
-    assert figures(size_auto(build_text(SMALL["three"])))["condition number"] == pytest.approx(1, rel=1e-14)
-    balanced = build_text(write_engine(0, 240, 120, 120, 240, 0))
-    assert not size_auto(balanced).details
-
-
-@cases("sizing/sizing", "a_remedy_says_its_scheme_and_its_order")
-def test_a_remedy_says_its_scheme_and_its_order(scheme, name, order):
-    remedy = size(build_text((SMALL | {"centred": write_engine(0)})[name]), scheme)
-    assert (remedy.scheme, remedy.order) == (scheme, order)
-
-
 OPTIONS = {
     "order": 2,
     "at": (0.02 + 0.03j,),
@@ -161,8 +100,7 @@ def test_planes_are_named_or_given():
         size_scheme(engine, "counterweights", planes="left")
     with pytest.raises(
         BalcliError,
-        match=r"--planes: opposite eccentrics stand in two planes; give ends, or two places along "
-        r"z$",
+        match=r"--planes: give ends, or two places along z, for opposite eccentrics$",
     ):
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
@@ -186,11 +124,6 @@ def test_a_single_plane_near_the_point_of_reference_takes_no_huge_weight(name, p
     assert figures(remedy)["force with crank left"] == pytest.approx(abs(force + best), rel=1e-9)
     if place == 1e-4:
         assert figures(remedy)["force with crank left"] < 0.01 * abs(force)
-
-
-def test_without_a_scheme_it_is_auto():
-    engine = build_text(SMALL["three"])
-    assert size(engine) == size(engine, "auto") == size_auto(engine)
 
 
 # ------------------------------------------------------------------ shafts and sliders
@@ -226,17 +159,6 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
     assert all(left(min(max(other, -0.06), 0.06)) >= least for other in (-0.06, 0.0, 0.06, place - 1e-3, place + 1e-3))
 
 
-def test_a_pair_of_shafts_stands_on_the_crank_axis_if_nothing_is_said():
-    remedy = size(build_text(SMALL["vee"]), "two-shaft")
-    assert [s.at for s in remedy.shafts] == [(0, 0), (0, 0)]
-    assert remedy.reasons[-2] == (
-        "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; "
-        "one eccentric on a shaft at -1 times crank speed can; a moment stays, which needs "
-        "eccentrics in two planes"
-    )
-    assert "radius ratio" not in figures(remedy, "order 1")
-
-
 @pytest.mark.parametrize("frame", ["", "[frame]\nreference = [30, -20, 170]\n"])
 @pytest.mark.parametrize("order", [1, 2])
 def test_no_roll_by_the_nearest_places(order, frame):
@@ -256,30 +178,6 @@ def test_no_roll_by_the_nearest_places(order, frame):
         assert sum(abs(complex(*s.at)) ** 2 for s in other.shafts) > near
 
 
-@pytest.mark.parametrize("scheme", ["single-shaft", "four-shaft", "couple-shaft", "slider"])
-def test_other_devices_do_so_too(scheme):
-    remedy = size(build_text(SMALL["vee"]), scheme)
-    assert {d.at for d in remedy.devices if not isinstance(d, Counterweight)} == {(0, 0)}
-
-
-def test_a_single_shaft_has_counterweights_at_both_throws():
-    """As `auto` has, though one plane would do."""
-    assert [d.position for d in size(build_text(write_engine(0, 0)), "single-shaft").counterweights] == [-50, 50]
-
-
-def test_shafts_on_the_crank_axis_have_no_direction_there():
-    """One was told to stand at 0 mm, in a direction of 180 degrees."""
-    told = figures(size(build_text(SMALL["four"]), "two-shaft"), "order 2")
-    assert (told["radius against crank"], told["radius with crank"]) == (0, 0)
-    assert not {"direction with crank", "direction against crank", "radius ratio"} & set(told)
-
-
-def test_four_shafts_are_for_the_orders_that_are_there():
-    assert {*size(build_text(SMALL["four"]), "four-shaft").details} == {"order_2"}
-    assert {s.ratio for s in size(star(3), "four-shaft").shafts} == {1, -2}
-    assert "there is no free force of orders 1 and 2" in size(build_text(SMALL["three"]), "four-shaft").note
-
-
 @pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
 def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3,
@@ -288,7 +186,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,
-        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it and none",
+        match=f"order {order}: its force turns {turning} the crank alone, so that one shaft takes it; leave out --roll",
     ):
         size_scheme(engine, "two-shaft", order=order, roll="zero")
     remedy = size_scheme(engine, "two-shaft", order=order, at=(0.03j,))
@@ -339,17 +237,6 @@ def test_sliders_lie_along_the_axes_above_minus_90_up_to_90(bank):
 
 
 # ------------------------------------------------------------------ the shop's factor
-def test_a_single_factor_is_no_sweep():
-    engine = build_text(SMALL["vee"])
-    remedy = size_scheme(engine, "factor", factor=(0.4,))
-    assert not remedy.sweep
-    swept = size_scheme(engine, "factor", factor=(0.4, 0.5)).sweep
-    assert [peaks.factor for peaks in swept] == [0.4, 0.5]
-    assert not remedy.note
-    assert [(entry.throw, entry.cylinders, entry.factor) for entry in remedy.card] == [
-        (1, (1, 3), 0.4),
-        (2, (2, 4), 0.4),
-    ]
 
 
 def test_peaks_along_and_across_are_those_of_the_curve():
@@ -367,24 +254,11 @@ def test_peaks_along_and_across_are_those_of_the_curve():
         assert abs(row.along_N - row.across_N) > 1
 
 
-def test_rods_a_whole_turn_apart_are_on_one_pin():
-    engine = build_text(write_engine(0, 90, layout="bank_angle = 60").replace("spacing", "splay = 360\nspacing"))
-    remedy = size(engine, "factor")
-    assert [entry.cylinders for entry in remedy.card] == [(1, 3), (2, 4)]
-    assert (
-        remedy.reasons[0] == "Opposite the pin of cylinders 1, 3: all rotating mass and 0.5 of the reciprocating mass"
-    )
-
-
 @pytest.mark.parametrize("share", [-2, 2])
 def test_factors_at_their_bounds(share):
     engine = build_text(SMALL["one"])
     assert figures(size_scheme(engine, "factor", factor=(share,)))["factor"] == share
-    with pytest.raises(
-        BalcliError,
-        match=r"--factor -?2: is no share of the reciprocating mass; (did you mean 2%\? )?give one such as 0.5 or 51%, "
-        r"or a range such as 50%:54%:1%$",
-    ):
+    with pytest.raises(BalcliError, match=r"--factor -?2: (did you mean 2%\? )?give shares such as 0.5, 51% or"):
         size_scheme(engine, "factor", factor=(share * (1 + 1e-15), 0.5))
 
 
@@ -437,5 +311,5 @@ def test_what_is_no_option_is_told_in_words(scheme, options, told):
 )
 def test_places_beyond_every_engine_are_refused(options, told):
     """Most likely mm where m are wanted."""
-    with pytest.raises(BalcliError, match=f"^{told} from the origin is farther than any engine "):
+    with pytest.raises(BalcliError, match=f"^{told} from the origin; at most 50 m"):
         options.check("two-shaft" if options.planes is None else "factor")

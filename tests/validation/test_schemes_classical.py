@@ -234,12 +234,12 @@ def test_eccentric_stands_where_the_force_acts():
 @pytest.mark.parametrize(
     ("scheme", "options", "reason"),
     [
-        ("counterweights", SchemeOptions(order=2), "order 2 cannot be cancelled by anything on the crankshaft"),
+        ("counterweights", SchemeOptions(order=2), "order 2: counterweights turn at order 1; use shafts"),
         ("counterweights", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
         ("couple-shaft", SchemeOptions(planes=(0.1, 0.1)), "planes at the same z, cannot take a moment"),
-        ("couple-shaft", SchemeOptions(planes="throws"), "opposite eccentrics stand in two planes"),
-        ("counterweights", SchemeOptions(planes=(0.1, 0.1 + 1e-10)), r"too much alike: .*condition number .*e\+09"),
-        ("two-shaft", SchemeOptions(order=0), "must be a whole number from 1 to 1000"),
+        ("couple-shaft", SchemeOptions(planes="throws"), "two places along z, for opposite eccentrics"),
+        ("counterweights", SchemeOptions(planes=(0.1, 0.1 + 1e-10)), "would work against each other"),
+        ("two-shaft", SchemeOptions(order=0), "give 1 to 1000"),
         ("auto", SchemeOptions(order=2), "scheme auto has no --order; add --scheme with "),
         (
             "magic",
@@ -252,17 +252,17 @@ def test_eccentric_stands_where_the_force_acts():
         (
             "knuckles",
             SchemeOptions(),
-            "scheme knuckles sizes no devices but changes the engine file: `balcli balance --scheme knuckles` does so",
+            "scheme knuckles is fitted by `balcli balance --scheme knuckles` alone",
         ),
         ("mini-max", SchemeOptions(), "did you mean minimax"),
         ("two-shaft", SchemeOptions(order=6, roll="nought"), 'only "zero" can be asked for'),
         (
             "two-shaft",
             SchemeOptions(order=3, roll="zero"),
-            "order 3 has no free force.*shafts without unbalance can do nothing about the roll",
+            "order 3 has no free force.*leave out --roll",
         ),
-        ("two-shaft", SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)), "fixes the place of the second shaft"),
-        ("factor", SchemeOptions(factor=(math.nan,)), "is no share of the reciprocating mass"),
+        ("two-shaft", SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)), "places the second shaft"),
+        ("factor", SchemeOptions(factor=(math.nan,)), "give shares such as"),
     ],
 )
 def test_infeasible_options_are_told_why(scheme, options, reason):

@@ -110,7 +110,7 @@ def test_eccentric_slider_beats_its_neighbours(design):
 @pytest.mark.parametrize(("design", "lam"), [("a", 0.99), ("b", 0.9)])
 @pytest.mark.parametrize("criterion", ["largest", "mean"])
 def test_an_eccentric_slider_has_no_optimum_near_lambda_1(design, criterion, lam):
-    with pytest.raises(BalcliError, match=f"no optimum was found for design {design} at lambda = {lam}"):
+    with pytest.raises(BalcliError, match=f"there is no optimum of design {design} at lambda = {lam}"):
         find_optimum(design, criterion, "all orders", lam)
 
 
@@ -321,12 +321,12 @@ def test_half_balance_leaves_half():
 @pytest.mark.parametrize("scheme", ["eccentric-slider", "oldham"])
 def test_only_for_single_cylinders(scheme):
     engine = single(layout="bank_angle = 90")
-    with pytest.raises(BalcliError, match=f"{scheme} is for a single cylinder; this engine has 2 cylinders"):
+    with pytest.raises(BalcliError, match=f"{scheme} is for one cylinder; this engine has 2"):
         size(engine, scheme)
 
 
 def test_eccentric_slider_refuses_an_offset():
-    with pytest.raises(BalcliError, match="a piston offset of 3 mm"):
+    with pytest.raises(BalcliError, match="without piston offset"):
         size(single(piston="mass = 1\noffset = 3"), "eccentric-slider")
 
 

@@ -260,8 +260,7 @@ def _check_height(guide_height_m: float | None) -> None:
         0 < check_number("guide_height_m", guide_height_m, wanted) < HIGHEST_GUIDE_M
     ):
         raise BalcliError(
-            f"guide_height_m {guide_height_m:g}: the distance from the crankshaft to the middle of "
-            f"the guides must be positive, below {HIGHEST_GUIDE_M:g} m"
+            f"guide_height_m {guide_height_m:g}: give above 0, below {HIGHEST_GUIDE_M:g} m"
         )
 
 
@@ -279,10 +278,8 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
     wanted = {*list_words("only", only)}
     if strangers := sorted(wanted.difference(QUANTITIES, GAS_KINDS, EXTRAS)):
         named = ", ".join(stranger or '""' for stranger in strangers)
-        raise BalcliError(
-            f"there is no quantity {named}: choose from "
-            f"{', '.join((*QUANTITIES, GAS.name, *EXTRAS))}"
-        )
+        choices = ", ".join((*QUANTITIES, GAS.name, *EXTRAS))
+        raise BalcliError(f"there is no quantity {named}: choose from {choices}")
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
 
 
@@ -290,11 +287,9 @@ def _analyze_cylinders(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[CylinderShare, ...]:
     count = len(orders) * len(engine.numbers)
+    most = MOST_RESULTS_BY_CYLINDER // len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
-        raise BalcliError(
-            f"by cylinder, {len(orders)} orders of {len(engine.numbers)} cylinders are {count} "
-            f"results, and at most {MOST_RESULTS_BY_CYLINDER} are listed; give fewer orders"
-        )
+        raise BalcliError(f"by cylinder: {count} results; give orders for {most} at most")
     own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)

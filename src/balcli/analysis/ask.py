@@ -17,6 +17,7 @@ from ..show.csv import Rows, name_cell
 from ..show.formats import Format, Renderer, Units, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
+from . import show as chapter, speeds
 from .answer import Analysis, analyze, list_usual_quantities
 
 if TYPE_CHECKING:
@@ -24,26 +25,12 @@ if TYPE_CHECKING:
 
 
 def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
-    """Return the sheet of one analysis.
-
-    Args:
-        one: Analysis with the engine's name.
-        system: System of units.
-    """
-    from . import show as chapter  # JSON has no sheets
-
+    """Return the sheet of one analysis."""
     return chapter.sheet(one.result, system, one.view)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """Return CSV: the rows of the analysis, each after the engine's name.
-
-    Args:
-        one: Analysis with the engine's name.
-        system: System of units.
-    """
-    from . import show as chapter
-
+    """Return CSV: the rows of the analysis, each after the engine's name."""
     header, lines = chapter.rows(one.result, system, named=one.view.parts)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 
@@ -90,8 +77,6 @@ def _choose_result(
     """Return the result for an engine, and how it is shown."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
-    from . import speeds  # for those who ask for several
-
     if asked.marine:
         sheets = partial(
             speeds.find_marine_sheet,

@@ -190,6 +190,15 @@ def analyze_alike(
     return tuple(analyze_one(one.engine, every) for one in analyses)
 
 
+def make_line(
+    kind: Kind, order: float | None, values: tuple[float, ...], single: tuple[float, ...]
+) -> Line:
+    """Return one figure with its ratios to the first value; arguments as of `Line`."""
+    name = f"peak_{kind.key}" if order is None else kind.key
+    ratios = tuple(value / values[0] if values[0] else nan for value in values)
+    return Line(quantity=name, order=order, values=values, ratios=ratios, kind=kind, single=single)
+
+
 def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tuple[Line, ...]:
     """Return every figure of analyses by the same orders side by side.
 
@@ -207,14 +216,9 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
         if not all((kind, order) in table for table in tables):
             continue  # one throw has no known bearings
         values = tuple(table[kind, order] for table in tables)
-        line = Line(
-            quantity=f"peak_{kind.key}" if order is None else kind.key,
-            order=order,
-            values=values,
-            ratios=tuple(value / values[0] if values[0] else nan for value in values),
-            kind=kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind,
-            single=tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses),
-        )
+        shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
+        single = tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
+        line = make_line(shown, order, values, single)
         free = kind.name in EVERY_KIND
         due = line.low if free else order is None or order % 1 == 0
         if due or any(values) or kind in GUIDES or (every_order and free):
@@ -338,7 +342,10 @@ def sheet(result: Comparison, system: System) -> Sheet:
     """
     first, *others = result.engines
     heads = ("", first, *(head for name in others for head in (name, "ratio")))
-    parts: list[Facts | Grid | Text] = [_tell_speeds(result), *assumed_facts(result.assumed)]
+    told = [tell_speed(engine) for engine in result.compared]
+    one_for_all = ("speed", told[0])
+    speeds = Facts((("speeds", "; ".join(told)) if len(set(told)) > 1 else one_for_all,))
+    parts: list[Facts | Grid | Text] = [speeds, *assumed_facts(result.assumed)]
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):
         every = [line for line in result.figures if line.kind == kind]
@@ -358,13 +365,6 @@ def sheet(result: Comparison, system: System) -> Sheet:
     if nothing:
         parts.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", tuple(parts))
-
-
-def _tell_speeds(result: Comparison) -> Facts:
-    """Return one speed for all engines, or each in their order."""
-    told = [tell_speed(engine) for engine in result.compared]
-    one_for_all = len(set(told)) == 1
-    return Facts((("speed", told[0]) if one_for_all else ("speeds", "; ".join(told)),))
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:

@@ -24,7 +24,7 @@ from ..show.sheet import (
 from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut
 from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
-from .records import KEYS, find_value
+from .records import find_value
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 _ROUNDING = 1e-12  # of what one cylinder makes
 _HARDLY = 0.05  # % of one cylinder, which would be printed as 0.0
+_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # of CSV
 ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
@@ -215,10 +216,6 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs stand where weight is to be added and count less the steel removed for them"
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
-    if any((p.holes or 0) > 1 for p in practical):
-        shallow = tools.max_depth is not None and 1e3 * tools.max_depth < practical[0].radius_mm
-        limit = "--max-depth" if shallow else "the radius"
-        note += f" One hole would be deeper than {limit}."
     note = " ".join([note, *explain_holes(practical, tools, unit)])
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, rows, note)
@@ -274,7 +271,7 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, floa
         system: System of units.
     """
     own = FIELDS[type(device)]
-    figures = {field: find_value(device, field) for field in KEYS if field in own}
+    figures = {field: find_value(device, field) for field in _ORDER if field in own}
     figures |= zip(("at_x", "at_y"), figures.pop("at", ()), strict=False)
     for field, value in figures.items():
         if field in ("position", "at_x", "at_y"):

@@ -97,25 +97,13 @@ class Request(NamedTuple):
         given = {"--by": self.by_cylinder}
         if self.marine:
             given |= {"--only": bool(self.parts), "--why": self.why}
-        named = [option for option, is_given in given.items() if is_given]
-        if self.marine and named:
-            raise BalcliError(
-                f"--format marine: {named[0]} adds nothing to this sheet; leave one of them out"
-            )
-        if self.over_speed and named:
-            raise BalcliError(
-                f"--speed: {named[0]} is of one speed; give one, such as --speed 3000"
-            )
-        if self.over_speed and (texts := sorted(self.parts.intersection(PARTS))):
-            raise BalcliError(
-                f"--only {texts[0]}: is of one speed; over several there are force, moment, "
-                "couple, torque, roll, gas, peak, sizing, inner and guide"
-            )
-        if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):
-            warn(
-                "--guide-height changes guide-force moments alone: ask for them with --only guide, "
-                "--all or --format marine"
-            )
+        elif self.over_speed:
+            given |= dict.fromkeys((f"--only {word}" for word in PARTS if word in self.parts), True)
+        for option in (option for option, is_given in given.items() if is_given):
+            if self.marine:
+                raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")
+            if self.over_speed:
+                raise BalcliError(f"{option}: is of one speed; give one, such as --speed 3000")
         return self
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
@@ -151,7 +150,6 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
 _MOST_WORDS = 25  # of a sentence
-_MOST_TOLD = 8  # near the lock dozens of orders matter: these one by one, the others together
 _MOST_NAMED = 5  # orders in a row
 _AXES = {"0.0": "x", "90.0": "y"}
 _SENSES = {1: "with the crank", -1: "against the crank"}
@@ -259,8 +257,7 @@ class _Order(NamedTuple):
                 return f"{cancel} what turns {_SENSES[sense]}"
             return f"{cancel} {one.tell_size(self.k, sense)} of it"
         if self.order == 2:
-            further = "further " * ("further" in " ".join(devices))
-            return f"{further}shafts at +2 and -2 cancel {everything}"
+            return f"shafts at +2 and -2 cancel {everything}"
         if one and sizes:
             ahead, against = (one.tell_size(self.k, sense) for sense in self.cures)
             return f"{devices[0]} cancel {ahead} of it, {devices[1]} the other {against}"
@@ -274,7 +271,6 @@ def verdict(
     *,
     small: float = SMALL,
     steady: bool = True,
-    devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
     """Return a sentence for every order that is not small, and one on the others, each of at most
     25 words; none without forces and moments.
@@ -286,7 +282,6 @@ def verdict(
         small: Share of it below which a part is small.
         steady: Whether the speed is. If not, no cure is named: most of an order may come from
             another one through the unevenness, and vanishes with that one.
-        devices: Devices of the file, which are not named as what would cancel an order.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -313,18 +308,12 @@ def verdict(
             large=[vector for vector, found in senses.items() if found],
             rest=[vector for vector, found in senses.items() if not found],
             couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
-            # no device turns at half orders
-            cures=_find_cures(int(order), due, devices) if steady and order % 1 == 0 else {},
+            cures=_find_cures(order, due) if steady else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
     matter = [one for one in every if one.large or one.couple]
-    alone = matter if len(matter) <= _MOST_TOLD + 1 else matter[:_MOST_TOLD]
-    told = [one.tell() for one in alone]
-    if more := matter[len(alone) :]:
-        span = f"{order_name(more[0].order)} to {order_name(more[-1].order)}"
-        largest = _tell_largest([(one, v) for one in more for v in one.large])
-        told.append(f"Orders {span}, {len(more)} more: at most {largest}.")
+    told = [one.tell() for one in matter]
     if not steady and any(one.large for one in every):
         told.append(_UNEVEN)
     names = " and ".join(vector.kind.name for vector in vectors)
@@ -337,21 +326,12 @@ def verdict(
     return (*told, sentence(last)) if last else tuple(told)
 
 
-def _find_cures(order: int, due: Collection[int], devices: Sequence[Device]) -> dict[int, str]:
-    """Return what would cancel an order, by sense of rotation; further ones next to the file's.
-
-    Args:
-        order: Order.
-        due: Senses in which something turns that is not small.
-        devices: Devices of the file.
-    """
-    cures = {}
-    alike = [one for one in devices if one.order == order and one.kind is not DeviceKind.SLIDER]
-    for sense in sorted(due, reverse=True):
-        there = any(np.any(one.forward if sense > 0 else one.backward) for one in alike)
-        device = "counterweights" if order * sense == 1 else f"shaft at {order * sense:+d}"
-        cures[sense] = f"{'a ' * device.startswith('shaft')}{'further ' * there}{device}"
-    return cures
+def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
+    """Return what would cancel the parts of an order that turn in these senses, by sense."""
+    if order % 1:
+        return {}  # no device turns at half orders
+    ratios = {sense: round(order) * sense for sense in sorted(due, reverse=True)}
+    return {s: "counterweights" if n == 1 else f"a shaft at {n:+d}" for s, n in ratios.items()}
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:

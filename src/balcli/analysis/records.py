@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Node, Reached, WrittenAs
+from ..core.records import INLINE, Reached, WrittenAs, remove_unit
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -21,7 +21,7 @@ from ..show.figures import (
     list_orders,
     list_vectors,
 )
-from ..sizing.planes import FIELDS, DeviceTable, find_unbalance
+from ..sizing.planes import DeviceTable, find_unbalance
 from ..sizing.remedy import Remedy
 
 
@@ -326,18 +326,6 @@ class SizedDevices(NamedTuple):
     devices: Annotated[Devices, INLINE]
 
 
-# Figures of a device by the fields of the engine file, with their units; in the order of CSV.
-KEYS = {
-    "ratio": "ratio",
-    "order": "order",
-    "unbalance": "unbalance_kg_m",
-    "angle": "angle_deg",
-    "direction": "direction_deg",
-    "position": "position_mm",
-    "at": "at_mm",
-}
-
-
 def name_devices(remedy: Remedy) -> SizedDevices:
     """Return the scheme, its step and its devices."""
     return SizedDevices(remedy.scheme, remedy.step, describe_devices(remedy))
@@ -345,16 +333,21 @@ def name_devices(remedy: Remedy) -> SizedDevices:
 
 def describe_devices(remedy: Remedy) -> Devices:
     """Return the devices of a remedy by their kinds."""
-    each = [*zip(remedy.devices, remedy.free, strict=True)]
+    shafts = (
+        (d, f)
+        for d, f in zip(remedy.devices, remedy.free, strict=True)
+        if isinstance(d, model.Shaft)
+    )
     return Devices(
-        tuple(Counterweight(**_list_fields(d)) for d in remedy.counterweights),
-        tuple(Shaft(**_list_fields(d), free=f) for d, f in each if isinstance(d, model.Shaft)),
-        tuple(Slider(**_list_fields(d)) for d in remedy.sliders),
+        tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
+        tuple(Shaft._make([*_list_values(d, Shaft), free]) for d, free in shafts),
+        tuple(Slider(*_list_values(d, Slider)) for d in remedy.sliders),
     )
 
 
-def _list_fields(device: DeviceTable) -> Node:
-    return {KEYS[field]: find_value(device, field) for field in FIELDS[type(device)]}
+def _list_values(device: DeviceTable, record: Any) -> list[Any]:
+    """Return the values of a record's attributes, named as the fields of the file with units."""
+    return [find_value(device, remove_unit(key)) for key in record._fields if key != "free"]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:

@@ -151,8 +151,8 @@ def _tell_largest(bending: AlongCrank, system: System) -> str:
 _ALONE = "of inertia alone, without gas"
 
 
-def lay_out_guide(guide: GuideMoments, system: System) -> Iterator[Grid]:
-    """Yield one table, a row for each order.
+def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
+    """Return a table, a row for each order.
 
     Args:
         guide: Guide-force moments.
@@ -164,7 +164,7 @@ def lay_out_guide(guide: GuideMoments, system: System) -> Iterator[Grid]:
     def cell(moment: Phasors | None, k: int) -> str:
         return UNKNOWN if moment is None else size_cell(float(moment.major[k]), unit, digits=None)
 
-    yield Grid(
+    return Grid(
         f"Guide-force moments {'of inertia and gas' if guide.with_gas else _ALONE}, {unit.name}",
         ("order", "H-type", "X-type"),
         tuple((order_name(n), *(cell(m, k) for m in both)) for k, n in enumerate(guide.h.orders)),
@@ -206,15 +206,15 @@ def _heights(height_m: Array, system: System) -> str:
     return f"{' to '.join(texts)} {system.length.name}"
 
 
-def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Iterator[Grid]:
-    """Yield one table, a row for each cylinder.
+def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
+    """Return a table, a row for each cylinder.
 
     Args:
         travel: Strokes and dead centers of the cylinders.
         system: System of units.
     """
     length = system.length
-    yield Grid(
+    return Grid(
         "Strokes and dead centres",
         ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg"),
         tuple(
@@ -252,10 +252,10 @@ UNITS = (
 )
 
 
-def lay_out_symmetry(why: Symmetry) -> Iterator[Text]:
-    """Yield one paragraph a reason and the orders that have it; then what its units mean."""
+def lay_out_symmetry(why: Symmetry) -> Text:
+    """Return one paragraph a reason and the orders that have it; then what its units mean."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
-    yield Text("Why", (*why.sentences, *units))
+    return Text("Why", (*why.sentences, *units))
 
 
 def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:

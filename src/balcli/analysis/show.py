@@ -84,17 +84,17 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
     """Yield the parts that only some engines have, or that were asked for."""
     if result.travel is not None and whole:
-        yield from sections.lay_out_strokes(result.travel, system)
+        yield sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:
-        yield from sections.lay_out_guide(result.guide, system)
+        yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
         yield from _import_seldom().lay_out_journals(result.journals, system)
     if result.masses is not None:
         yield _import_seldom().lay_out_masses(result.masses)
     if result.why is not None:
-        yield from sections.lay_out_symmetry(result.why)
+        yield sections.lay_out_symmetry(result.why)
 
 
 def _import_seldom() -> ModuleType:
@@ -165,7 +165,6 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
-        devices=result.engine.devices,
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)

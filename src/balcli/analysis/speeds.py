@@ -44,6 +44,7 @@ from .comparison import (
     find_lines_that_matter,
     fit_unit,
     list_lines,
+    make_line,
     show_sizes,
 )
 from .devices_show import ladder_grid
@@ -257,14 +258,7 @@ def _list_lines(
     for k, one in enumerate(found):
         single[k, :4] = np.repeat([one.of_one_cylinder["force"], one.of_one_cylinder["moment"]], 2)
     return tuple(
-        Line(
-            quantity=kind.key,
-            order=one.order,
-            values=tuple(figures[:, k, i].tolist()),
-            ratios=(),
-            kind=kind,
-            single=tuple(single[:, i].tolist()),
-        )
+        make_line(kind, one.order, tuple(figures[:, k, i].tolist()), tuple(single[:, i].tolist()))
         for k, one in enumerate(listed[0])
         for i, kind in enumerate(FIGURES)
     )
@@ -330,7 +324,7 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
         if each.ladder is not None:
             yield ladder_grid(each.ladder, each.engine, system)
     if first.why is not None:
-        yield from sections.lay_out_symmetry(first.why)
+        yield sections.lay_out_symmetry(first.why)
 
 
 def _kind_part(
@@ -355,6 +349,7 @@ def _kind_part(
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
+_AXES = "V is along x, from which bank angles count, H along y."
 _NAMES = (
     "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
     "vertical force makes a vertical moment."
@@ -387,7 +382,7 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
             speeds, whole = result.speeds_rpm, result.every_order
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
-    notes = (_tell_axes(result), define_guide_moments(result.height_m, system))
+    notes = (_AXES, define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 
 
@@ -431,17 +426,6 @@ def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, syste
             rows.append((order_name(order or 0), *(size for (size,) in sizes)))
     heads = (f"{kind.symbol}, {unit.name}" for kind, unit in zip(kinds, units, strict=True))
     return Grid(title, ("order", *heads), tuple(rows))
-
-
-def _tell_axes(result: MarineSheet) -> str:
-    """Return where vertical is, by the banks of the file."""
-    axes = [round(float(axis), 6) + 0.0 for axis in np.ravel(result.engine.cylinders.axis_deg)]
-    if axes == [0.0]:
-        return "V is along the cylinders (x), H across them (y)."
-    mirrored = sorted(axes) == sorted(0.0 - axis for axis in axes)
-    stand = ", ".join(f"{axis:g}" for axis in axes)
-    what = "midway between the banks" if mirrored and len(axes) == 2 else f"banks at {stand} deg"
-    return f"V is along x, from which bank angles count ({what}), H along y."
 
 
 MARINE = Renderer(sheet=lay_out_marine, document=write_named, rows=list_marine)

@@ -106,20 +106,13 @@ class Arrangement:
         """
         for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
             if not abs(value) <= FARTHEST_DEG:
-                raise BalcliError(
-                    f"--{option} {value:g}: give an angle in degrees, up to {FARTHEST_DEG:g}"
-                )
+                raise BalcliError(f"--{option} {value:g}: give up to {FARTHEST_DEG:g} degrees")
         if not all(abs(value) <= FARTHEST_M for value in self.at_m):
-            raise BalcliError(
-                f"--at: the place of the second engine may be up to {FARTHEST_M:g} m off"
-            )
+            raise BalcliError(f"--at: give a place up to {FARTHEST_M:g} m away")
         if self.load not in LOADS:
             raise BalcliError(f'--load "{self.load[:60]}": choose from {", ".join(LOADS)}')
         if self.load != "first" and not self.reverse:
-            raise BalcliError(
-                f"--load {self.load}: cranks that turn alike roll the frame alike, whichever "
-                "drives the load; it matters with --reverse"
-            )
+            raise BalcliError(f"--load {self.load}: makes a difference only with --reverse")
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -390,10 +383,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
     against = ", and turns against the first" if how.reverse else ""
     yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
-    slower = second.speed_rpm != first.speed_rpm and not second.speed_assumed
-    other = slower or second.ripple not in ((), first.ripple)
-    ignored = "; what the second's file says of its speed does not count" * other
-    yield "speed", f"both at {tell_speed(first)}{ignored}"
+    yield "speed", f"both at {tell_speed(first)}, the speed of the first"
     if fired := [which for which, engine in named.items() if engine.gas is not None]:
         yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
     if result.assumed:

@@ -209,19 +209,12 @@ def permit_unbalance(
     if grade is None and mass is None:
         return None
     if grade is None or mass is None:
-        raise BalcliError(
-            "--grade and --mass belong together: a grade such as 16 permits an unbalance by the "
-            "mass of the crankshaft, in kg"
-        )
+        raise BalcliError("--grade and --mass belong together: give the mass of the crankshaft, kg")
     if not (0 < grade < math.inf and 0 < mass < math.inf):
         raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
     count = len(remedy.needs or remedy.counterweights)
     if not count:
-        raise BalcliError(
-            f"--grade: scheme {remedy.scheme} fits no counterweights to the crankshaft, so "
-            "there is nothing to share the permitted unbalance; choose one that does, such as "
-            "--scheme counterweights"
-        )
+        raise BalcliError(f"--grade: scheme {remedy.scheme} fits no counterweights to share it")
     whole = find_permitted_unbalance(grade, mass, speed_rpm)
     return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
 
@@ -275,16 +268,8 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
         raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
     engine = build(model)
     c, linkage = engine.cylinders, engine.cylinders.linkage
-    if model.articulation is not None and model.layout.rotary:
-        raise BalcliError(
-            "knuckles: this engine is rotary; even knuckle angles are looked for where the crank "
-            "turns only"
-        )
-    if model.articulation is None or not isinstance(linkage, Articulated):
-        raise BalcliError(
-            "knuckles: this engine has no articulated rods; an engine file describes them in "
-            "[articulation]"
-        )
+    if not isinstance(linkage, Articulated) or engine.rotary:
+        raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
 
@@ -306,12 +291,6 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     better = model.with_table("articulation", knuckle_angles=angles_deg)
     after = find_travel(build(better).cylinders)
     reasons = _explain(goal, hung[rows], done[rows], turn_deg[rows])
-    uneven = np.abs(measure(after)) > 10 * close
-    uneven[rows] = False  # of these the reasons list the banks
-    if others := sorted(engine.numbers[row] for row in np.flatnonzero(uneven)):
-        told = f"cylinder{'s' * (len(others) > 1)} {', '.join(map(str, others))}"
-        alike = "all knuckle pins of a bank get the angle that suits its first throw"
-        reasons = (*reasons, f"not {told}: {alike}")
     return Knuckles(better, angles_deg, find_travel(c), after, reasons)
 
 
@@ -403,10 +382,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         parse(new, file)
         return new
     if remedy.beyond:
-        raise BalcliError(
-            f"scheme {remedy.scheme}: an engine file cannot describe its devices (shafts of "
-            "variable speed, couplings), so nothing is written; leave --write out"
-        )
+        raise BalcliError(f"scheme {remedy.scheme}: no engine file can describe its devices")
     if remedy.scheme == FIT:
         return _fill_in(old, remedy, file)
     base = remedy.start or build(parse(text, file))
@@ -416,9 +392,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         old = _insert_devices(remove_tables(old, "counterweight"), first)
     new = _insert_devices(old, remedy)
     if build(parse(new, file)).devices != fit_devices(base, remedy).devices:
-        raise BalcliError(
-            f"{file}: the devices do not read back as they were sized; please report this file"
-        )
+        raise BalcliError(f"{file}: devices do not read back as they were sized: please report it")
     return new
 
 

@@ -14,14 +14,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
-from ..errors import BalcliError, InputError, list_words, refuse_more, wrong_type
+from ..errors import BalcliError, InputError, check_number, list_words, refuse_more, wrong_type
 from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
 Words = str | Iterable[str]  # names, or a text of them with commas between
 _MOST_GIVEN = 1_000_000  # speeds of a list, equal ones included
-_REAL = (int, float, np.integer, np.floating)
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
@@ -120,10 +119,7 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
         return None
     found = check_orders(orders)
     if not 0 < found[0] <= found[-1] <= HIGHEST_TORSION_ORDER:
-        raise BalcliError(
-            f"orders: {found[0]:g} to {found[-1]:g}; those of torsional vibration are above 0, to "
-            f"{HIGHEST_TORSION_ORDER} at most"
-        )
+        raise BalcliError(f"orders: give orders above 0, to {HIGHEST_TORSION_ORDER} at most")
     return found
 
 
@@ -140,11 +136,10 @@ def check_inertia(name: str, value: object) -> float | None:
     """
     if value is None:
         return None
-    if isinstance(value, bool) or not isinstance(value, _REAL):
-        raise wrong_type(name, value, "give a moment of inertia in kg m2, such as 0.1")
-    if not 0 < value < LARGEST_INERTIA:
+    number = check_number(name, value, "give a moment of inertia in kg m2, such as 0.1")
+    if not 0 < number < LARGEST_INERTIA:
         raise BalcliError(f"{name}: {shorten(value)}; give a moment of inertia in kg m2, above 0")
-    return float(value)
+    return number
 
 
 def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> int:
@@ -179,11 +174,8 @@ def read_position(name: str, value: object) -> tuple[float, float, float]:
     Raises:
         TypeError: It is not three numbers.
     """
-    try:
-        numbers = list(islice(value, 4))  # type: ignore[call-overload]
-        if any(isinstance(number, str) for number in numbers):
-            raise TypeError
-        x, y, z = map(float, numbers)
-    except (TypeError, ValueError, OverflowError):
-        raise wrong_type(name, value, "give x, y and z in m, such as (0.3, 0, 0)") from None
+    wanted = "give x, y and z in m, such as (0.3, 0, 0)"
+    if not isinstance(value, Iterable) or len(numbers := list(islice(value, 4))) != 3:
+        raise wrong_type(name, value, wanted)
+    x, y, z = (check_number(name, number, wanted) for number in numbers)
     return x, y, z

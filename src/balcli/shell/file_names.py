@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
@@ -28,14 +28,6 @@ TEXTS = {
     ".md": Format.MARKDOWN,
 }
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
-_INSTEAD = {
-    **dict.fromkeys(
-        PICTURES,
-        "pictures are drawn by balcli plot FILE X.png, and by --plot of sweep, mounts, torsion and "
-        "field",
-    ),
-    **dict.fromkeys((".html", ".htm"), "pages are written by balcli report FILE X.html"),
-}
 # Endings of other formats, which --format cannot override.
 _KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
 
@@ -156,19 +148,16 @@ def format_of(
     written = endings.get(ending)
     if written is not None:
         if asked not in (None, written):
-            raise BalcliError(
-                f"{option} {output}: {ending} is {written}, but --format says {asked}; leave one "
-                "of them out"
-            )
+            told = f"{option} {output}: {ending} is {written}, but --format says {asked}"
+            raise BalcliError(f"{told}; leave one of them out")
         return written
     usual = asked or default
     if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):
         return usual
     reason = f"{ending} cannot be written here" if ending else "has no ending that says its format"
-    raise BalcliError(
-        f"{option} {output}: {reason}; give a name that ends in {_list_or([*endings])}"
-        + (f"; {_INSTEAD[ending]}" if ending in _INSTEAD and ".csv" in endings else "")
-    )
+    *others, last = endings
+    known = f"{', '.join(others)} or {last}" if others else last
+    raise BalcliError(f"{option} {output}: {reason}; give a name that ends in {known}")
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:
@@ -193,7 +182,3 @@ def require_ending(output: Path | None, ending: str, option: str = "--output") -
         BalcliError: It has another ending.
     """
     format_of(output, None, {ending: ending}, ending, option)
-
-
-def _list_or(words: Sequence[str]) -> str:
-    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))

@@ -64,10 +64,7 @@ def read_engine(
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
-        raise BalcliError(
-            f"{path}: no such file; several words of --only stand with commas between them: "
-            f"--only force,{path}"
-        )
+        raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
     from ..engine import load, parse
 
     text = read_bytes(path)
@@ -179,9 +176,9 @@ def find_expected(paths: Sequence[Path]) -> list[Path]:
 
 def _walk(folder: Path) -> Iterator[Path]:
     """Yield all files in a folder and those within it that are not hidden."""
-    for place, inner, files in os.walk(folder):
-        inner[:] = [name for name in inner if not name.startswith(".")]
-        yield from (Path(place, name) for name in files)
+    for path in folder.rglob("*"):
+        if not any(part.startswith(".") for part in path.relative_to(folder).parts[:-1]):
+            yield path
 
 
 def _is_engine(path: Path) -> bool:

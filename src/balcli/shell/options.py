@@ -235,9 +235,7 @@ def parse_speed(text: str | None) -> float | None:
         return None
     speed = read_speed("--speed", text)
     if not SMALLEST_POSITIVE <= speed < 1e9:
-        raise BalcliError(
-            f"--speed {speed:g}: the crank speed must be a positive number of rpm, below 1e9"
-        )
+        raise BalcliError(f"--speed {speed:g}: give rpm above 0, below 1e9")
     return speed
 
 
@@ -255,8 +253,5 @@ def parse_guide_height(text: str | None, units: Units) -> float | None:
         return None
     height = read_length("--guide-height", text, units)
     if not 0 < height < HIGHEST_GUIDE_M:
-        raise BalcliError(
-            f"--guide-height {text}: must be positive, below {HIGHEST_GUIDE_M:g} m, from the "
-            "crankshaft to the middle of the guides"
-        )
+        raise BalcliError(f"--guide-height {text}: give above 0, below {HIGHEST_GUIDE_M:g} m")
     return height

@@ -88,9 +88,8 @@ def standard_output() -> Iterator[TextIO]:
         # What is left in the buffer goes nowhere, else the end of Python would fail again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not has_no_reader(error):
-            raise BalcliError(
-                f"standard output: cannot be written ({error.strerror or error})"
-            ) from None
+            reason = error.strerror or error
+            raise BalcliError(f"standard output: cannot be written ({reason})") from None
 
 
 def write_file(content: str | bytes, target: Path) -> None:
@@ -146,9 +145,7 @@ def refuse_existing(path: Path | None, force: bool) -> None:
         BalcliError: It exists.
     """
     if path is not None and os.path.lexists(path) and not force:
-        raise BalcliError(
-            f"{path}: already exists; choose another name, or --force to overwrite it"
-        )
+        raise BalcliError(f"{path}: already exists; choose another name, or --force")
 
 
 def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Place | None]) -> None:
@@ -217,10 +214,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
         with suppress(OSError):
             if (folder / name).read_bytes() == (target.parent / name).read_bytes():
                 continue
-        raise BalcliError(
-            f'{target}: the engine file names "{name}", a file in {folder}; '
-            f"write into that folder, or copy {name} into {target.parent} first"
-        )
+        raise BalcliError(f'{target}: the engine file names "{name}", which is in {folder}')
 
 
 def _list_named_files(source: Path) -> list[Path]:

@@ -138,9 +138,6 @@ def _parse_factors(text: str) -> tuple[float, ...]:
         return tuple(parts)
     first, last, step = parts if len(parts) == 3 else (1, 0, 1)
     if not (step > 0 and last >= first and (last - first) / step <= MOST_FACTORS):
-        raise BalcliError(
-            f'--factor "{text}": a range is first:last:step, rising, with at most {MOST_FACTORS} '
-            f"steps; give {wanted}"
-        )
+        raise BalcliError(f'--factor "{text}": give up to {MOST_FACTORS} steps such as 50%:54%:1%')
     steps = int((last - first) / step + 1e-9)
     return tuple(round(first + k * step, 12) for k in range(steps + 1))

@@ -57,13 +57,16 @@ class Result:
         """Return the document that the command writes as JSON (docs/json.md): its keys name SI
         units.
         """
-        return describe(self)
+        return stamp(find_renderer(self).document(self))
 
     def rows(self) -> list[Node]:
         """Return one dict for each row, all with the same keys, for a DataFrame of any library.
         Missing values are None.
         """
-        return list_rows(self)
+        found = list_columns(self).values
+        lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
+        lines = zip(*lists, strict=True)
+        return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the rows as a DataFrame. Its `attrs["units"]` are the units of columns that have
@@ -72,7 +75,14 @@ class Result:
         Raises:
             BalcliError: pandas is not installed.
         """
-        return make_frame(self)
+        try:
+            import pandas
+        except ImportError:
+            raise BalcliError("to_pandas() needs pandas: pip install pandas") from None
+        found = list_columns(self)
+        frame = pandas.DataFrame(dict(found.values))
+        frame.attrs["units"] = dict(found.units)
+        return frame
 
     def to_parquet(self, path: str | Path) -> None:
         """Write the rows into a Parquet file; each column has its unit in the metadata.
@@ -80,25 +90,26 @@ class Result:
         Raises:
             BalcliError: pyarrow is not installed; the file cannot be written.
         """
-        write_parquet(self, path)
+        try:
+            import pyarrow
+            from pyarrow import parquet
+        except ImportError:
+            raise BalcliError("to_parquet() needs pyarrow: pip install balcli[scale]") from None
+        found = list_columns(self)
+        arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
+        fields = [
+            pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
+            for name, array in zip(found.values, arrays, strict=True)
+        ]
+        about = {"balcli.version": __version__, "balcli.result": type(self).__name__}
+        table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
+        with replacing(Path(path)) as place:
+            parquet.write_table(table, place)
 
 
 def find_renderer(result: Result) -> Columnar[Result]:
     """Return the renderer of a result."""
     return import_name(f"{RENDERERS[type(result).__name__]}:RENDERER")
-
-
-def describe(result: Result) -> Node:
-    """Return the JSON document of an answer."""
-    return stamp(find_renderer(result).document(result))
-
-
-def list_rows(result: Result) -> list[Node]:
-    """Return one dict a row."""
-    found = list_columns(result).values
-    lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
-    lines = zip(*lists, strict=True)
-    return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
 
 
 def _none_for_nan(value: object) -> object:
@@ -133,14 +144,12 @@ def _read_columns(rows: Rows) -> Columns:
     for k, head in enumerate(rows.header):
         name = f"{head} ({k + 1})" if head in values else head  # an engine may be called "order"
         cells = [line[k] for line in lines]
-        numbers = [_number(cell) for cell in cells]
-        words = [_word(cell) for cell in cells]
-        if any(number is not None for number in numbers):
+        numbers, words = list(map(_number, cells)), list(map(_word, cells))
+        wordy = any(word is not None for word in words)
+        if not wordy or any(number is not None for number in numbers):
             values[name] = numbers
-        if any(word is not None for word in words):
+        if wordy:
             values[f"{name}_text" if name in values else name] = words
-        if name not in values:
-            values[name] = numbers  # nothing in it
     return Columns(values)
 
 
@@ -154,40 +163,3 @@ def _word(cell: object) -> str | None:
     if isinstance(cell, bool):
         return str(cell).lower()
     return cell if isinstance(cell, str) and cell else None
-
-
-# ------------------------------------------------------------------ other libraries
-def make_frame(result: Result) -> pandas.DataFrame:
-    """Return a DataFrame of pandas."""
-    try:
-        import pandas
-    except ImportError:
-        raise BalcliError("to_pandas() needs pandas: pip install pandas") from None
-    found = list_columns(result)
-    frame = pandas.DataFrame(dict(found.values))
-    frame.attrs["units"] = dict(found.units)
-    return frame
-
-
-def write_parquet(result: Result, path: str | Path) -> None:
-    """Write a Parquet file, which takes its place when it is whole; errors as for `replacing`.
-
-    Args:
-        result: Result to write.
-        path: File to write.
-    """
-    try:
-        import pyarrow
-        from pyarrow import parquet
-    except ImportError:
-        raise BalcliError("to_parquet() needs pyarrow: pip install balcli[scale]") from None
-    found = list_columns(result)
-    arrays = [pyarrow.array(column, from_pandas=True) for column in found.values.values()]
-    fields = [
-        pyarrow.field(name, array.type, metadata={"unit": found.units.get(name, "")})
-        for name, array in zip(found.values, arrays, strict=True)
-    ]
-    about = {"balcli.version": __version__, "balcli.result": type(result).__name__}
-    table = pyarrow.table(arrays, schema=pyarrow.schema(fields, metadata=about))
-    with replacing(Path(path)) as place:
-        parquet.write_table(table, place)

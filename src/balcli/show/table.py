@@ -229,20 +229,15 @@ def _blocks(sheet: Sheet) -> Iterator[str]:
 
 
 def _part(part: Grid | Facts | Text) -> str:
-    head = f"## {escape(part.title)}\n\n" if part.title else ""
     match part:
         case Grid():
-            return (
-                head
-                + "\n".join(_list_rows(part))
-                + (f"\n\n{escape(part.note)}" if part.note else "")
-            )
+            blocks = ["\n".join(_list_rows(part)), escape(part.note)]
         case Facts():
-            return head + "\n".join(
-                f"- {escape(name)}: {escape(value)}" for name, value in part.pairs
-            )
+            blocks = ["\n".join(f"- {escape(name)}: {escape(value)}" for name, value in part.pairs)]
         case Text():
-            return head + "\n\n".join(escape(p) for p in part.paragraphs)
+            blocks = list(map(escape, part.paragraphs))
+    head = f"## {escape(part.title)}" if part.title else ""
+    return "\n\n".join(filter(None, (head, *blocks)))
 
 
 def _list_rows(grid: Grid) -> Iterator[str]:

@@ -73,9 +73,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     if engine.rotary:
         raise BalcliError(
-            "scheme factor: the cylinders turn and the crank pins stand still, with all that is "
-            "on them: there is no rotating mass to balance opposite a pin; use counterweights or "
-            "auto"
+            "scheme factor: crank pins that stand still have no rotating mass; use auto"
         )
     if options.measured is not None and options.factor is not None:
         return _change_measured(engine, options)
@@ -175,10 +173,6 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
         if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
             return SAME_PLACE
-    if factor < 0:
-        return "a factor below 0: not even all rotating mass is balanced"
-    if factor > 1:
-        return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if fitting.remedy.devices:
         return ""
     if own:
@@ -244,8 +238,7 @@ def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]
         if not (math.isfinite(factor) and abs(factor) <= LARGEST_FACTOR):
             meant = f"did you mean {factor:g}%? " if LARGEST_FACTOR < factor <= 100 else ""
             raise BalcliError(
-                f"--factor {factor:g}: is no share of the reciprocating mass; {meant}give one such "
-                "as 0.5 or 51%, or a range such as 50%:54%:1%"
+                f"--factor {factor:g}: {meant}give shares such as 0.5, 51% or 50%:54%:1%"
             )
     return factors
 
@@ -265,18 +258,14 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     if not reciprocating:
         raise BalcliError("--measured: nothing goes to and fro in this engine: there is no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
+    told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
-            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
-            f"mass; {rotating / len(card):.5g} g balance none of it on a pin, and "
-            f"{(rotating + reciprocating) / len(card):.5g} g all; is the unit right?"
+            f"{told}: would balance {factor:.3g} times the reciprocating mass; {turning} g on a "
+            "pin rotate; is the unit right?"
         )
     if factor < 0:
-        warn(
-            f"--measured {1e3 * measured:g} g: is less than the rotating mass of "
-            f"{rotating / len(card):.5g} g on a pin, a factor of {factor:.2%}; a crankshaft is "
-            "measured with bare pins, without rods"
-        )
+        warn(f"{told}: is less than the {turning} g that rotate on a pin, a factor of {factor:.2%}")
     return factor
 
 
@@ -288,10 +277,7 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
         BalcliError: several factors.
     """
     if len(options.factor or ()) > 1:
-        raise BalcliError(
-            "--factor: a range does not go together with --measured, which is what the crankshaft "
-            "has now; give one factor, such as 55%"
-        )
+        raise BalcliError("--factor: give one factor with --measured, such as 55%")
     measured, radius = options.measured or 0.0, float(engine.cylinders.radius)
     has, wanted = find_measured_factor(engine, measured), options._replace(measured=None)
     card = fill_card(engine, _choose_factors(engine, wanted)[0])

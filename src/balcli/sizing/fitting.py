@@ -181,10 +181,8 @@ def solve_exactly(
     left = fit.left * size + 2 * EPS * largest
     if left > max(noise, LEFT * size):
         raise BalcliError(
-            f"order {residual.order}: the places given are too much alike: unbalances of "
-            f"{largest * 1e6:.3g} g mm would work against each other (condition number "
-            f"{fit.condition:.3g}), and their rounding alone would leave {left / size:.1g} of what "
-            "shakes; choose planes farther apart"
+            f"order {residual.order}: unbalances of {largest * 1e6:.3g} g mm would work against "
+            f"each other and leave {left / size:.1g} of what shakes; choose planes farther apart"
         )
     if len(slots) == 1:  # a compromise would leave rounding in the force, too
         return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)
@@ -226,18 +224,15 @@ class Fitting(NamedTuple):
         """Return the fitting with devices of these unbalances (kg m) in these slots. Devices of
         zero unbalance are left out, and counterweights negligible against the moving masses.
         """
-        first_axis_deg, dust = float(self.engine.first_axis_deg), LEFT * self._find_moving()
+        first_axis_deg = float(self.engine.first_axis_deg)
+        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
+        dust = LEFT * float(sum(masses) * self.engine.cylinders.radius)
         tables = [
             slot.make_table(unbalance, first_axis_deg)
             for slot, unbalance in zip(slots, unbalances, strict=True)
             if abs(unbalance) > (dust if slot.kind == "counterweight" else 0)
         ]
         return self._replace(remedy=self.remedy.add_devices(tables, reason))
-
-    def _find_moving(self) -> float:
-        """Return the sum of all moving masses at the crank radius, kg m."""
-        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
-        return float(sum(masses) * self.engine.cylinders.radius)
 
     def cancel(
         self,

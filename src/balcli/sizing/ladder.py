@@ -147,14 +147,12 @@ class Ladder:
         name = names[at] if 0 <= at < len(names) else plain
         if name in names[1:]:
             return name
-        rows = ", ".join(f"{k} {name}" for k, name in enumerate(names))
+        rows = ", ".join(f"{k} {name}" for k, name in enumerate(names) if k)
+        rows = rows or "none, as nothing is worth fitting"
         for out in self.left_out:
             if out.step == name:
                 raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
-        why = "nothing is fitted as drawn" if name == AS_DRAWN else "there is no such step"
-        if name == WEIGHTS and WEIGHTS_AT_THROWS in names:
-            why = f'"{WEIGHTS_AT_THROWS}" replaces it; --scheme {WEIGHTS} fits it'
-        raise BalcliError(f'step "{step[:60]}": {why}; this engine has {rows}')
+        raise BalcliError(f'step "{step[:60]}": choose from {rows}')
 
     def _explain(self, out: LeftOut) -> str:
         """Return the effect of an omitted step, and the option that lists it, if there is one."""

@@ -12,7 +12,7 @@ bounds the larger one: the error is known.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations_with_replacement
 from typing import NamedTuple
 
 import numpy as np
@@ -84,31 +84,17 @@ def enclose_curve(curve: Phasors) -> Circle:
 
 def enclose_points(points: Complex) -> tuple[complex, list[int]]:
     """Return the centre of the smallest circle around some points, and the (at most three) points
-    that fix it: of those and the farthest point, again and again.
+    that fix it: of all circles through three points, or with two of them on a diameter, the
+    smallest around all.
     """
-    centre, radius, fixing = complex(points[0]), 0.0, [0]
-    for _ in range(len(points) + _ROUNDS):
-        distance = np.abs(points - centre)
-        farthest = int(np.argmax(distance))
-        if distance[farthest] <= radius * (1 + _SAME) or farthest in fixing:
-            break
-        few = [*fixing, farthest]
-        circles = []
-        for some in (list(some) for k in (2, 3) for some in combinations(few, k)):
-            middle = _find_middle(points[some])
-            circles.append((float(np.abs(points[few] - middle).max()), middle, some))
-        radius, centre, fixing = min(circles, key=lambda circle: circle[0])
-    return centre, fixing
-
-
-def _find_middle(points: Complex) -> complex:
-    """Return the centre of the circle through two points (as diameter) or three; inf: in line."""
-    a, b = complex(points[0]), complex(points[1] - points[0])
-    if len(points) == 2:
-        return a + b / 2
-    c = complex(points[2]) - a
-    across = 2 * (b.conjugate() * c).imag
-    return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / across if across else complex(np.inf)
+    triples = np.array([*combinations_with_replacement(range(len(points)), 3)])
+    a, b, c = points[triples].T
+    b, c, middle = b - a, c - a, (a + c) / 2
+    across = 2 * (b.conj() * c).imag
+    rise = 1j * (b * np.abs(c) ** 2 - c * np.abs(b) ** 2)
+    centres = np.where(across, a + rise / np.where(across, across, 1), middle)
+    best = int(np.abs(points[:, None] - centres).max(axis=0).argmin())
+    return complex(centres[best]), sorted({*triples[best].tolist()})
 
 
 def _reach(curve: Phasors, centre: complex) -> Circle:
@@ -158,8 +144,11 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         raise NothingToBalanceError(nothing_gained)
     unbalance = 0j if centred else -circle.centre / newtons_per_kg_m
     slots, unbalances = _split(engine, options, fitting, unbalance)
+    named = "all orders"
+    if options.orders is not None:
+        named = f"orders {', '.join(f'{order:g}' for order in sorted({1, *options.orders}))}"
     reason = (
-        f"The largest force over a revolution, {_name_orders(options)}, becomes as small as a "
+        f"The largest force over a revolution, {named}, becomes as small as a "
         "counterweight can make it (smallest circle around the force as seen from the crank)"
     )
     fitting = fitting.add(slots, unbalances, reason)
@@ -173,13 +162,6 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         **({} if options.orders is not None else _compare_with_half(fitting.engine, circle)),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
-
-
-def _name_orders(options: SchemeOptions) -> str:
-    if options.orders is None:
-        return "all orders"
-    named = ", ".join(f"{order:g}" for order in sorted({1, *options.orders}))
-    return f"orders {named}"
 
 
 def _split(

@@ -84,10 +84,7 @@ class SchemeOptions(NamedTuple):
             has = f"it takes {names}" if taken else "it takes no options"
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
         if self.order is not None and not 1 <= self.order <= HIGHEST_SHAFT_ORDER:
-            raise BalcliError(
-                f"--order {self.order}: the order must be a whole number from 1 to "
-                f"{HIGHEST_SHAFT_ORDER}"
-            )
+            raise BalcliError(f"--order {self.order}: give 1 to {HIGHEST_SHAFT_ORDER}")
         check_small(self.read_small())
         if scheme == "step" and self.step is None:
             raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
@@ -111,15 +108,13 @@ class SchemeOptions(NamedTuple):
             if given is None or (name == "planes" and isinstance(given, str)):
                 continue
             values = given if name in _SEVERAL else (given,)
-            if not _are(values, kind):
+            if not _are(values, kind, name not in ("factor", "radius")):
                 raise wrong_type(f"SchemeOptions: {name}", given, f"give {right}")
             if name in ("at", "position", "planes"):
                 farthest = max(map(abs, values))
                 if farthest > FARTHEST_DEVICE_M:
-                    raise BalcliError(
-                        f"--{name}: {1e3 * farthest:g} mm from the origin is farther than any "
-                        f"engine reaches; at most {FARTHEST_DEVICE_M:g} m"
-                    )
+                    told = f"--{name}: {1e3 * farthest:g} mm from the origin"
+                    raise BalcliError(f"{told}; at most {FARTHEST_DEVICE_M:g} m")
 
     def read_place(self) -> complex:
         """Return the given place, or 0, the crank axis; BalcliError for more than one."""
@@ -136,19 +131,18 @@ def check_small(share: float) -> float:
         BalcliError: It is not one from 0 to MOST_SMALL.
     """
     if not 0 <= share <= MOST_SMALL:
-        raise BalcliError(
-            f"small {100 * share:g} %: give a share of one cylinder from 0 to {MOST_SMALL:.0%}"
-        )
+        raise BalcliError(f"small {100 * share:g} %: give a share from 0 to {MOST_SMALL:.0%}")
     return share
 
 
-def _are(values: object, kind: type) -> bool:
+def _are(values: object, kind: type, finite: bool) -> bool:
     """Return whether there are values, all numbers of a kind and none with hundreds of digits."""
     if not isinstance(values, tuple) or not values:
         return False
     try:
         sizes = [abs(complex(cast(Any, one))) for one in values if isinstance(one, kind)]
-        return len(sizes) == len(values) and max(sizes) < math.inf
+        whole = all(size < math.inf for size in sizes) if finite else True
+        return len(sizes) == len(values) and whole
     except OverflowError:
         return False
 
@@ -161,10 +155,7 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     if scheme in SCHEMES:
         return SCHEMES[scheme]
     if scheme in (KNUCKLES, FIT):
-        raise BalcliError(
-            f"scheme {scheme} changes the engine file, or fits devices that it leaves open: only "
-            f"`balcli balance --scheme {scheme}` does so"
-        )
+        raise BalcliError(f"scheme {scheme} is fitted by `balcli balance --scheme {scheme}` alone")
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
     raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")

@@ -112,9 +112,7 @@ def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, floa
     """Return the two given planes (z, m), or else the ends; BalcliError if they are not two."""
     planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
     if not isinstance(planes, tuple) or len(planes) != 2:
-        raise BalcliError(
-            "--planes: opposite eccentrics stand in two planes; give ends, or two places along z"
-        )
+        raise BalcliError("--planes: give ends, or two places along z, for opposite eccentrics")
     low, high = planes
     if low == high:
         raise BalcliError(f"--planes: {SAME_PLACE}")

@@ -107,9 +107,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         residual = choose_residual(engine, options, ("force",))
     except NothingToBalanceError as reason:
         if options.roll:
-            raise BalcliError(
-                f"{reason}; shafts without unbalance can do nothing about the roll"
-            ) from None
+            raise BalcliError(f"{reason}; leave out --roll") from None
         if options.order is None or options.position is None:
             raise
         return _compensate_moment(engine, options, options.position)
@@ -131,8 +129,7 @@ def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Reme
     residual = choose_residual(engine, options, ("moment",))
     if z == residual.reference.z:
         raise BalcliError(
-            f"--position {1e3 * z:g}: a force there has no arm about the point of reference and "
-            f"makes no moment of order {residual.order}; give a place far from it"
+            f"--position {1e3 * z:g}: a force there has no arm; give a place far away"
         )
     against, with_crank = (*(options.at or ()), 0j, 0j)[:2]
     parts = [part for part in MOMENT if residual.parts[part]]
@@ -161,10 +158,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         largest = residuals[sizes.index(max(sizes))]
         raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
     if not forces:
-        raise NothingToBalanceError(
-            "there is no free force of orders 1 and 2: nothing to balance; couple-shaft takes "
-            "moments"
-        )
+        raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:
         fitting = _add_pair(fitting, residual, options)
     return fitting.remedy
@@ -199,23 +193,18 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
-        raise BalcliError(
-            "--at: a pair of shafts has two places, first that of the shaft turning against the "
-            "crank"
-        )
+        raise BalcliError("--at: a pair of shafts has two places, that against the crank first")
     if not (forward and backward):
         if options.roll:
+            way = "with" if forward else "against"
             raise BalcliError(
-                f"order {residual.order}: its force turns {'with' if forward else 'against'} the "
-                "crank alone, so that one shaft takes it and none is left to be placed for the "
-                "roll; leave out --roll"
+                f"order {residual.order}: its force turns {way} the crank alone, so that one shaft "
+                "takes it; leave out --roll"
             )
         place = at[0] if at else 0j
         return {1 if forward else -1: (place, -place) if place else (0j,)}
     if len(at) == 2 and options.roll:
-        raise BalcliError(
-            "--roll zero fixes the place of the second shaft; give one --at, or two without --roll"
-        )
+        raise BalcliError("--roll zero places the second shaft; give one --at")
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
     here = residual.reference.place  # the roll is wanted about the crank axis

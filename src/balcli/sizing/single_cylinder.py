@@ -91,8 +91,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
             x = _iterate(lambda x: _step_to_mean(design, engine, x), x, _FARTHEST_TO_MEAN)
     except (np.linalg.LinAlgError, ArithmeticError):
         raise BalcliError(
-            f"eccentric-slider: no optimum was found for design {design} at lambda = {lam:g}: the "
-            "second order is too strong for an eccentric smaller than its pin radius"
+            f"eccentric-slider: there is no optimum of design {design} at lambda = {lam:g}"
         ) from None
     remaining, _ = _linearize(design, engine, x)
     primitive = _evaluate(remaining, _find_zeros(remaining), -1)
@@ -214,18 +213,16 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     theta = _find_zeros(remaining, 1)
     values = _evaluate(remaining, theta)
     slopes = np.sign(values)[:, None] * _evaluate(by_x, theta)
-    top, best = -np.inf, None
-    for triple in map(list, combinations(range(len(values)), 3)):
-        system = np.column_stack([slopes[triple], -np.ones(3)])
-        if abs(np.linalg.det(system)) < _SINGULAR:
-            continue
-        weights = np.linalg.solve(system.T, [0, 0, -1.0])
-        solution = np.linalg.solve(system, -np.abs(values[triple]))
-        if np.all(weights >= _BELOW_0) and solution[2] > top:
-            top, best = solution[2], solution[:2]
-    if best is None:
+    triples = np.array([*combinations(range(len(values)), 3)])
+    systems = np.concatenate([slopes[triples], -np.ones((len(triples), 3, 1))], axis=2)
+    regular = np.abs(np.linalg.det(systems)) >= _SINGULAR
+    systems, triples = systems[regular], triples[regular]
+    weights = np.linalg.solve(systems.transpose(0, 2, 1), np.array([[0], [0], [-1.0]]))
+    solutions = np.linalg.solve(systems, -np.abs(values)[triples][..., None])[..., 0]
+    balanced = solutions[np.all(weights[..., 0] >= _BELOW_0, axis=1)]
+    if not len(balanced):
         raise ArithmeticError("no three extremes balance")
-    return np.asarray(best)
+    return np.asarray(balanced[balanced[:, 2].argmax(), :2])
 
 
 def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
@@ -279,10 +276,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     _require_one_cylinder(engine, "eccentric-slider")
     c = engine.cylinders
     if np.any(c.eps):
-        raise BalcliError(
-            "eccentric-slider: two shafts symmetric to the cylinder axis suit a centred mechanism "
-            f"alone; this one has a piston offset of {float(c.offset[0]) * 1e3:g} mm"
-        )
+        raise BalcliError("eccentric-slider is for a cylinder without piston offset")
     mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
     optima = find_optima(float(np.ravel(c.lam)[0]))
     designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
@@ -375,6 +369,4 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
 
 def _require_one_cylinder(engine: Engine, scheme: str) -> None:
     if engine.cylinders.count != 1:
-        raise BalcliError(
-            f"{scheme} is for a single cylinder; this engine has {engine.cylinders.count} cylinders"
-        )
+        raise BalcliError(f"{scheme} is for one cylinder; this engine has {engine.cylinders.count}")

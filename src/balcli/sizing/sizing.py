@@ -53,15 +53,6 @@ def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
     return find_ladder(engine, (options or SchemeOptions()).read_small()).fit()
 
 
-def size_step(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Return the devices of the step asked for.
-
-    Raises:
-        BalcliError: It is not listed.
-    """
-    return find_ladder(engine, options.read_small()).fit(options.step)
-
-
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights for the force and the moment of order 1 that turn with the crank, in the
     given planes; in a single plane as a compromise; of unknown moments, for the force alone.
@@ -71,10 +62,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: nothing of order 1 turns with the crank.
     """
     if options.order not in (None, 1):
-        raise BalcliError(
-            f"order {options.order} cannot be cancelled by anything on the crankshaft, which turns "
-            "at order 1: use a shaft scheme"
-        )
+        raise BalcliError(f"order {options.order}: counterweights turn at order 1; use shafts")
     fitting = Fitting.start(engine, "counterweights", 1)
     residual = fitting.find_residual(1)
     if options.planes == "throws":
@@ -172,7 +160,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "auto": size_auto,
     "complete": lambda engine, _: size_complete(engine),
-    "step": size_step,
+    "step": lambda engine, options: find_ladder(engine, options.read_small()).fit(options.step),
     "counterweights": size_counterweights,
     "factor": size_by_factor,
     "minimax": size_minimax,

@@ -16,7 +16,7 @@ from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Slider
-from .planes import DeviceTable, find_order, find_unbalance, name_kind
+from .planes import DeviceTable, find_order, find_unbalance
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
@@ -95,8 +95,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     rim = tools.radius or float(engine.cylinders.radius)
     if tools.drill is not None and tools.drill > 2 * rim:
         raise BalcliError(
-            f"--drill: a hole of {1e3 * tools.drill:g} mm is wider than its rim of radius "
-            f"{1e3 * rim:g} mm (--radius, else the crank radius)"
+            f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of {1e3 * rim:g} mm"
         )
     return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
 
@@ -113,19 +112,11 @@ def _refuse_impossible(tools: Tools) -> None:
     if strange:
         raise BalcliError(f"{', '.join(strange)}; give figures above 0")
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
-        raise BalcliError(
-            "--max-depth, --slug and --width are for holes: give the diameter of the drill with "
-            "--drill"
-        )
+        raise BalcliError("--max-depth, --slug and --width are for holes: give --drill")
     if tools.slug is not None and tools.slug <= STEEL:
-        raise BalcliError(
-            f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel in whose place it "
-            f"is put ({STEEL / 1e3:g} g/cm3); tungsten alloy has 17 to 18.5"
-        )
+        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel there")
     if tools.thickness is not None and tools.disc is not None:
-        raise BalcliError(
-            "a semicircular disc has its radius or its thickness given, not both: the other follows"
-        )
+        raise BalcliError("a disc has its radius or its thickness given: the other follows")
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:
@@ -171,11 +162,9 @@ def _plan_holes(
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
         raise HolesDoNotFitError(
-            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm of "
-            f"{name_kind(device)} at z = {device.position:g} mm do not fit: {fitting:g} holes side "
-            f"by side have room on {1e3 * room:g} mm (--width) and make at most "
-            f"{1e6 * fitting * of_one:.6g} g mm; use a larger drill or --radius, a larger "
-            "--max-depth, or --slug"
+            f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
+            f"fit: {fitting:g} holes side by side have room on {1e3 * room:g} mm (--width); use a "
+            "larger drill, --radius or --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
