@@ -17,7 +17,7 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
-from ..file.fields import order_number, printable
+from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
@@ -63,8 +63,7 @@ class TorsionQuestion(NamedTuple):
     damper: DamperAsked = DamperAsked()
 
 
-@dataclass(frozen=True)
-class ChainNode:
+class ChainNode(NamedTuple):
     """Inertia of the chain.
 
     Attributes:
@@ -78,8 +77,7 @@ class ChainNode:
     gear: float
 
 
-@dataclass(frozen=True)
-class ChainJoint:
+class ChainJoint(NamedTuple):
     """Shaft between two nodes.
 
     Attributes:
@@ -91,8 +89,7 @@ class ChainJoint:
     stiffness_Nm_per_rad: float
 
 
-@dataclass(frozen=True)
-class HolzerRow:
+class HolzerRow(NamedTuple):
     """One inertia of Holzer's table.
 
     Attributes:
@@ -284,7 +281,7 @@ def _tabulate(
     omega, chain = asked.omega, system.chain
     if asked.mode is not None:
         if asked.mode > len(modes):
-            count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
+            count = counted(len(modes), "mode")
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
         omega = modes[asked.mode - 1].omega
     # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
@@ -302,8 +299,7 @@ def _tabulate(
             )
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
-    hertz = omega / (2 * np.pi)
-    left = table.residual
+    hertz, left = omega / (2 * np.pi), table.residual
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 

@@ -72,9 +72,8 @@ def parse_question(
     Raises:
         BalcliError: one of them cannot be read.
     """
-    inertia = None
-    if damper_inertia is not None:
-        inertia = read_inertia("--damper-inertia", damper_inertia, units)
+    heavy = damper_inertia
+    inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
     trials = [_parse_trial(each) for each in holzer]
     sized = DamperAsked(damper, damper_at, inertia)
     return TorsionQuestion(parse_speeds(speeds), trials, sized)

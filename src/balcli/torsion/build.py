@@ -25,7 +25,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..errors import InputError, Problem
+from ..errors import BalcliError, InputError, Problem
 from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.plain_tables import STEADY
@@ -33,6 +33,7 @@ from ..file.torsion_tables import (
     STEEL,
     ChainKeys,
     Damper,
+    NodeKeys,
     Part,
     ShaftKeys,
     Torsion,
@@ -63,12 +64,12 @@ _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node: inertia in kg m2, damping in N m s/rad against ground, and the damper it has."""
+    """A node, described by its table in the units of the file, and its damping against ground,
+    N m s/rad.
+    """
 
-    name: str
-    inertia: float
+    table: NodeKeys
     damping: float = 0.0
-    damper: Damper | None = None
 
 
 class PlannedShaft(NamedTuple):
@@ -104,28 +105,28 @@ def assemble_system(
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
     for k, node in enumerate(planned):
-        damper = fitted.get(node.name, node.damper)
+        name, damper = node.table.name, fitted.get(node.table.name, node.table.damper)
         if damper is None:
             continue
-        inertia = (damper.inertia or 0.0) / 1e6
         if damper.kind == "rubber":
             rubber = ShaftKeys.model_construct(stiffness=damper.stiffness, loss=damper.loss)
-            shafts.append(PlannedShaft(f"{node.name} ring", k, len(nodes), rubber))
-            nodes.append(PlannedNode(f"{node.name} ring", inertia))
+            ring = NodeKeys.model_construct(name=f"{name} ring", inertia=damper.inertia)
+            shafts.append(PlannedShaft(ring.name, k, len(nodes), rubber))
+            nodes.append(PlannedNode(ring))
         elif damper.kind == "viscous":
-            rings.append(ViscousRing(k, inertia, damper.damping or 0.0))
+            rings.append(ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0))
         else:
             radius, length = (damper.radius or 0.0) / 1e3, (damper.length or 0.0) / 1e3
             pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
     tables = [each.table for each in shafts]
     joints = [ChainShaft(s.start, s.end, find_stiffness(s.table), s.ratio) for s in shafts]
-    chain = join_chain([node.inertia for node in nodes], joints, clamped)
+    chain = join_chain([(node.table.inertia or 0.0) / 1e6 for node in nodes], joints, clamped)
     halves = np.array([find_shaft_inertia(table, table.density) / 2 for table in tables])
     np.add.at(chain.inertia, chain.start, halves * chain.ratio**2)
     np.add.at(chain.inertia, chain.end, halves)
     losses = (keys.loss if table.loss is None else table.loss for table in tables)
     return TorsionalSystem(
-        nodes=tuple(node.name for node in nodes),
+        nodes=tuple(node.table.name for node in nodes),
         shafts=tuple(each.name for each in shafts),
         chain=chain,
         damping=Damping(
@@ -152,17 +153,15 @@ def _find_stress(table: ShaftKeys) -> float:
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:
     """Yield a warning of plain shafts without a density whose inertia would count."""
-    bare = [STEEL if each.table.density is None else 0.0 for each in shafts]
-    lost = np.array(
-        [find_shaft_inertia(s.table, each) for s, each in zip(shafts, bare, strict=True)]
-    )
+    lost = np.array([find_shaft_inertia(each.table, STEEL) for each in shafts])
+    lost[[each.table.density is not None for each in shafts]] = 0
     ends = np.where(chain.clamped, np.inf, chain.inertia)
     near = np.minimum(ends[chain.start] / chain.ratio**2, ends[chain.end])
     if heavy := np.flatnonzero(lost > _LIGHT * near).tolist():
-        names = [shorten(shafts[k].name) for k in heavy[:_MOST_NAMED]]
-        names += ["..."] * (len(heavy) > _MOST_NAMED)
+        named = ", ".join(shorten(shafts[k].name) for k in heavy[:_MOST_NAMED])
+        named += ", ..." * (len(heavy) > _MOST_NAMED)
         yield (
-            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(names)}): their "
+            f"{counted(len(heavy), 'plain shaft')} without a density ({named}): their "
             f"inertia, {sum(lost[heavy]):.4g} kg m2 in steel, is left out; give density = {STEEL} "
             "(g/cm3), which puts half of it at either end"
         )
@@ -187,10 +186,7 @@ def build_chain(
         InputError: nodes without a shaft, gears that lock each other, no node that can turn.
     """
     index = {node.name: k for k, node in enumerate(file.node)}
-    nodes = [
-        PlannedNode(node.name, (node.inertia or 0.0) / 1e6, node.damping, node.damper)
-        for node in file.node
-    ]
+    nodes = [PlannedNode(node, node.damping) for node in file.node]
     joints: list[ShaftTable | Gear] = [*file.shaft, *file.gear]
     labels = _tell_apart([f"{each.from_}-{each.to}" for each in joints])
     shafts = [
@@ -259,9 +255,9 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
         text = (
-            "closes a loop of gears, rigid shafts or fixed nodes, and nothing says how they share"
+            "closes a loop of gears, rigid shafts or fixed nodes, and nothing says how the torque"
         )
-        yield Problem(paths[mesh], f"{text} the torque; leave it out, or give a stiffness")
+        yield Problem(paths[mesh], f"{text} is shared; leave it out, or give a stiffness")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
         how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
@@ -299,6 +295,24 @@ class _Joint(NamedTuple):
     of: str
 
 
+def require_torsion(model: EngineFile, name: str) -> Torsion:
+    """Return the table [torsion] of an engine file.
+
+    Args:
+        model: Engine file.
+        name: Name of the file, for messages.
+
+    Raises:
+        BalcliError: The file has none.
+    """
+    if model.torsion is None:
+        raise BalcliError(
+            f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
+            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
+        )
+    return model.torsion
+
+
 def build_engine_system(
     model: EngineFile,
     engine: Engine,
@@ -318,20 +332,14 @@ def build_engine_system(
     Raises:
         InputError: contradictions in [torsion], by their paths.
     """
-    torsion = model.torsion
-    if torsion is None:
-        hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
-        raise InputError([Problem.of_missing("torsion", hint)], name)
+    torsion = require_torsion(model, name)
     throws = [f"throw {k}" for k, _ in enumerate(engine.joined_throws, 1)]
     joints, front = _join_parts(torsion, throws), len(torsion.front)
     if problems := list(_find_misfits(torsion, model, engine, throws, joints)):
         raise InputError(problems, name)
-    parts = [
-        PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
-        for _, part, _ in joints
-    ]
+    parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
     nodes = [*parts[:front][::-1], *_plan_throws(torsion, engine, throws), *parts[front:]]
-    place = {node.name: k for k, node in enumerate(nodes)}
+    place = {node.table.name: k for k, node in enumerate(nodes)}
     led, gears = _lead_outward(joints, throws), dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
@@ -339,11 +347,10 @@ def build_engine_system(
         PlannedShaft(part.name, place[of], place[part.name], part, gears[part.name] / gears[of])
         for _, part, of in joints
     ]
+    plain = ShaftKeys.model_construct(diameter=torsion.throw_diameter, bore=torsion.throw_bore)
     stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
-    between = [
-        PlannedShaft(label, k, k + 1, _cut_throws(torsion, each))
-        for k, label, each in zip(count(front), _name_between(throws), stiffness, strict=False)
-    ]
+    tables = [plain.model_copy(update={"stiffness": each}) for each in stiffness]
+    between = map(PlannedShaft, _name_between(throws), count(front), count(front + 1), tables)
     ends = (
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
         for key, start in (("front", throws[0]), ("rear", throws[-1]))
@@ -371,15 +378,9 @@ def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Ite
     bare = _weigh_throws(torsion, engine)
     for throw, name in enumerate(throws):
         here = np.equal(on_throw, throw)
-        inertia = bare[throw] + float(gear[here].sum())
-        yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
-
-
-def _cut_throws(torsion: Torsion, stiffness: float) -> ShaftKeys:
-    """Return the table of a shaft between two throws."""
-    return ShaftKeys.model_construct(
-        stiffness=stiffness, diameter=torsion.throw_diameter, bore=torsion.throw_bore
-    )
+        inertia = 1e6 * (bare[throw] + float(gear[here].sum()))
+        table = NodeKeys.model_construct(name=name, inertia=inertia)
+        yield PlannedNode(table, torsion.damping * int(here.sum()))
 
 
 def _name_between(throws: Sequence[str]) -> list[str]:

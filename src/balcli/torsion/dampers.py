@@ -26,7 +26,6 @@ from ..core.vibration import Real
 from ..errors import BalcliError
 from ..file.edit import set_keys
 from ..file.fields import printable
-from ..file.messages import describe_finding
 from ..file.torsion_tables import Damper
 from ..process import Tell, tell_nobody
 from .build import NO_DAMPERS
@@ -34,7 +33,7 @@ from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
 from .motion import move
-from .response import count_columns, find_largest
+from .response import find_largest
 from .system import TorsionalSystem
 
 # Figures of a damper: key in JSON, how many of the file's units are one SI unit, and its label.
@@ -138,10 +137,7 @@ class SizedDamper:
 
 
 def size_damper(
-    source: Source,
-    asked: DamperAsked,
-    speeds: Real,
-    tell: Tell = tell_nobody,
+    source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
 ) -> SizedDamper:
     """Return the damper that makes the largest stress of all shafts over speeds least.
 
@@ -227,10 +223,9 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
         system: With an excitation.
         speeds: (speeds,) rising, rpm.
     """
-    columns, stress = np.zeros(count_columns(system)), system.stress_by_torque
-    shafts = len(stress) - (len(system.nodes) - 1 - system.last)
-    columns[:shafts] = stress[:shafts] if any(stress) else 1
-    rpm, value = find_largest(system, speeds, columns, together=True)
+    rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
+    weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
+    rpm, value = find_largest(system, speeds, weights, together=True)
     worst = int(value.argmax())
     return worst, float(rpm[worst]), float(value[worst])
 
@@ -326,12 +321,9 @@ def _propose(
         figures = {"kind": kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
     try:
         return Damper.model_validate(figures)
-    except ValidationError as error:
-        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
-        raise BalcliError(
-            f"--damper {kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
-            "check the units of inertias and stiffnesses"
-        ) from None
+    except ValidationError:
+        wrong = "the best damper is impossible; check the units of inertias and stiffnesses"
+        raise BalcliError(f"--damper {kind}: {wrong}") from None
 
 
 # ------------------------------------------------------------------ doubts

@@ -6,7 +6,6 @@ Holzer's table: a torsional chain at one frequency, node by node, as in textbook
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -148,8 +147,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class NaturalMode:
+class NaturalMode(NamedTuple):
     """Natural mode in which shafts twist.
 
     Attributes:
@@ -176,8 +174,7 @@ class NaturalMode:
         return 2 * np.pi * self.frequency_Hz
 
 
-@dataclass(frozen=True, kw_only=True)
-class Critical:
+class Critical(NamedTuple):
     """Speed at which an order excites a mode.
 
     Attributes:

@@ -231,7 +231,7 @@ def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
     """
     excitation, speeds = system.require_excitation(), rpm * RPM
     w = frequencies(excitation.orders, speeds)
-    load = excitation.on_nodes(speeds, len(system.nodes))
+    load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
     attached = system.attached(w, np.broadcast_to(excitation.orders[:, None], w.shape))
     try:
         twist = respond_chain(system.chain, system.damping, w, load, attached)

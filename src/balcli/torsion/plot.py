@@ -172,9 +172,9 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: Sys
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it.
     """
-    limit, by_torque = result.system.limit_pa, np.ones(len(result.shafts))
-    if by_stress := limit is not None and any(result.system.stress_by_torque):
-        by_torque = result.system.stress_by_torque
+    limit, stress = result.system.limit_pa, result.system.stress_by_torque
+    by_stress = limit is not None and any(stress)
+    by_torque = stress if by_stress else np.ones(len(stress))
     values = curves.swings[:, : len(by_torque)] * by_torque
     peaks = values.max(axis=0)
     unit = (system.stress if by_stress else system.moment).fit(peaks.max())

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,15 +42,20 @@ def find_largest(
     Args:
         system: With an excitation.
         rpm: (speeds,) rising.
-        weights: (columns,) factor of each column; 0: it is not looked at. Default: 1.
+        weights: Factors of the first columns; those without a factor, or with 0, are not looked
+            at. Default: 1 for all.
         together: whether only the highest of all columns is wanted, which takes less time.
 
     Raises:
         BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
-    orders, columns = system.require_excitation().orders, np.arange(count_columns(system))
+    orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
+    parts = (compute_curves(system, speeds[some]) for some in _split(len(speeds)))
+    heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
+    columns = np.arange(heights.shape[1])
     weights = np.ones(len(columns)) if weights is None else weights
+    factors = np.pad(weights, (0, len(columns) - len(weights)))
 
     def judge(at: Real, which: Indices) -> Real:
         """Return the values at speeds, each of one of the columns."""
@@ -60,22 +66,15 @@ def find_largest(
         curves = phasors[:, point[swings], column[swings]]
         values[swings] = find_swing(orders, curves).half
         values[~swings] = heat[point[~swings], column[~swings] - count]
-        return (values * weights[column]).reshape(at.shape)
+        return (values * factors[column]).reshape(at.shape)
 
-    speeds = _add_resonances(system, rpm)
-    heights = _sum_amplitudes(system, speeds) * weights  # the values are at most so high
+    heights *= factors  # the values are at most so high
     level = judge(speeds[heights.argmax(axis=0)], columns)
-    near = np.nonzero((heights > 0) & (heights >= _NEAR * _join(level, together)))
+    least = _NEAR * (level.max() if together else level)
+    near = np.nonzero((heights > 0) & (heights >= least))
     heights[near] = judge(speeds[near[0]], near[1])
-    return find_highest(judge, speeds, heights, _join(heights.max(axis=0), together), _NEAR)
-
-
-def _sum_amplitudes(system: TorsionalSystem, speeds: Real) -> Real:
-    """Return the columns of `find_largest` at speeds, of curves the sum of the amplitudes of all
-    orders, (speeds, columns).
-    """
-    parts = (compute_curves(system, speeds[some]) for some in _split(len(speeds)))
-    return np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
+    level = heights.max() if together else heights.max(axis=0)
+    return find_highest(judge, speeds, heights, level, _NEAR)
 
 
 def _split(count: int) -> list[Indices]:
@@ -86,11 +85,6 @@ def _split(count: int) -> list[Indices]:
 def _join(level: Real, together: bool) -> Real:
     """Return the level (columns,) that a value has to reach."""
     return np.full(len(level), level.max(initial=0)) if together else level
-
-
-def count_columns(system: TorsionalSystem) -> int:
-    """Return the number of columns of `find_largest`."""
-    return len(system.shafts) + 1 + len(system.pendulums) + len(system.dampers)
 
 
 def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
@@ -112,8 +106,7 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     return np.unique(np.clip(np.append(rpm, about), rpm[0], rpm[-1]))
 
 
-@dataclass(frozen=True)
-class OrderTorque:
+class OrderTorque(NamedTuple):
     """Torque of one order.
 
     Attributes:
@@ -166,8 +159,7 @@ class ShaftResponse:
     worst: WorstTorque
 
 
-@dataclass(frozen=True)
-class WorstSwing:
+class WorstSwing(NamedTuple):
     """Largest swing over the range of speeds, between the speeds as well.
 
     Attributes:
@@ -179,8 +171,7 @@ class WorstSwing:
     half_swing_deg: float
 
 
-@dataclass(frozen=True)
-class WorstHeat:
+class WorstHeat(NamedTuple):
     """Largest power that a damper turns to heat, over the range of speeds.
 
     Attributes:
@@ -192,8 +183,7 @@ class WorstHeat:
     heat_W: float
 
 
-@dataclass(frozen=True, eq=False)
-class DamperHeat:
+class DamperHeat(NamedTuple):
     """Power that a damper turns to heat.
 
     Attributes:
@@ -207,8 +197,7 @@ class DamperHeat:
     worst: WorstHeat
 
 
-@dataclass(frozen=True, eq=False)
-class PendulumSwing:
+class PendulumSwing(NamedTuple):
     """Swing of pendulums against their node.
 
     Attributes:

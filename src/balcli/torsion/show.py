@@ -158,11 +158,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
         parts.append(_show_response(result, result.response, system))
         if limits := tuple(_judge_limits(result, system)):
             parts.append(Facts(limits, "Limits"))
-    return Sheet(f"{_name(result)}: torsion", tuple(parts))
-
-
-def _name(result: TorsionAnalysis) -> str:
-    return result.name or "shafts without a name"
+    return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
@@ -289,8 +285,8 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
             number(_settle(row.angle, angles), 6),
             number(unit.of(_settle(row.torque_Nm, torques))),
             number(unit.of(_settle(row.sum_Nm, torques))),
-            _show_stiffness(stiffness.of(row.stiffness_Nm_per_rad)),
-            number(row.twist, 4) if row.stiffness_Nm_per_rad else "–",
+            number(stiffness.of(row.stiffness_Nm_per_rad or math.nan)).replace("inf", "rigid"),
+            number(row.twist if row.stiffness_Nm_per_rad else math.nan, 4),
         )
         for row in table.rows
     )
@@ -307,10 +303,6 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     )
 
 
-def _show_stiffness(value: float) -> str:
-    return "rigid" if math.isinf(value) else number(value) if value else "–"
-
-
 def _settle(value: float, others: Sequence[float]) -> float:
     """Return an angle or torque, 0 where it is a rounding error of others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
@@ -319,20 +311,20 @@ def _settle(value: float, others: Sequence[float]) -> float:
 def _show_response(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Grid | Text:
-    span, swings = _name_span(response.speeds_rpm), _describe_swings(result, response)
+    span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
     if not response.shafts:
-        return Text(f"Vibration, {span}", (swings,))
+        return Text(f"Vibration, {span}", (worst,))
     unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
     stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
     rows = []
     for shaft in response.shafts:
-        worst = shaft.worst
-        known = math.nan if worst.stress_Pa is None else worst.stress_Pa
+        most = shaft.worst
+        known = math.nan if most.stress_Pa is None else most.stress_Pa
         cells = [
             shaft.name,
-            number(unit.of(worst.half_peak_to_peak_Nm)),
-            number(worst.speed_rpm),
-            number(unit.of(worst.sum_of_amplitudes_Nm)),
+            number(unit.of(most.half_peak_to_peak_Nm)),
+            number(most.speed_rpm),
+            number(unit.of(most.sum_of_amplitudes_Nm)),
             *[number(stress.of(known), 4)] * stressed,
         ]
         rows.append((*cells, _name_orders(shaft, unit)))
@@ -340,15 +332,8 @@ def _show_response(
     heads += [*[stress.name] * stressed, "largest orders"]
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {swings}"
+        f"do not peak together. {worst}{_name_gas(result, ' Gas as in the file at every speed.')}"
     )
-    note += _name_gas(result, " Gas as in the file at every speed.")
-    for damper in response.dampers or ():
-        note += (
-            f" The damper of {damper.node} turns up to "
-            f"{size_text(damper.worst.heat_W, system.heat)} to heat, at "
-            f"{number(damper.worst.speed_rpm)} rpm."
-        )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
 
@@ -367,15 +352,15 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
     return where_counted if excitation.steady.any() else alone
 
 
-def _describe_swings(result: TorsionAnalysis, response: TorsionResponse) -> str:
-    """Return the largest swing of the free end and of pendulums, and where."""
-    parts = [(result.system.free_end, "swings", response.free_end_worst)]
-    for each in response.pendulums or ():
-        parts.append((f"The pendulums of {each.node}", "swing", each.worst))
-    return " ".join(
-        f"{name} {verb} by ±{number(worst.half_swing_deg, 4)} deg at {number(worst.speed_rpm)} rpm."
-        for name, verb, worst in parts
-    )
+def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
+    """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
+    swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
+    swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
+    parts = [(f"{what} by ±{number(w.half_swing_deg, 4)} deg", w.speed_rpm) for what, w in swings]
+    for each in response.dampers or ():
+        heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
+        parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))
+    return " ".join(f"{what} at {number(speed)} rpm." for what, speed in parts)
 
 
 def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:

@@ -53,10 +53,6 @@ class Excitation(NamedTuple):
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
-    def on_nodes(self, speeds: Real, count: int) -> Complex:
-        """Return the torques added up node by node, (orders, speeds, nodes)."""
-        return self.at(speeds) @ np.equal.outer(self.nodes, np.arange(count))
-
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
