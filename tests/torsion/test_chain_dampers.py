@@ -29,31 +29,22 @@ def at_first_node(inertia):
     return respond_chain(CHAIN, DAMPING, W, LOAD, attached)
 
 
-def with_a_ring(inertia, stiffness, loss, dashpot):
-    """The same chain with the damper as a fourth node on a shaft of its own."""
-    chain = join_chain(
-        [0.1, 0.2, 2, inertia], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, stiffness)]
-    )
-    damping = Damping(np.array([0.02, 0.02, loss]), np.array([0, 0, dashpot]), np.zeros(4))
-    return respond_chain(chain, damping, W, np.append(LOAD, 0))
-
-
 def test_viscous_ring_is_a_node_on_a_dashpot():
+    """The same chain with the damper as a fourth node on a shaft of its own."""
     found = at_first_node(viscous_inertia(0.05, 12.0, W))
-    expected = with_a_ring(0.05, 0, 0, 12.0)
+    shafts = [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, 0)]
+    damping = Damping(np.array([0.02, 0.02, 0]), np.array([0, 0, 12.0]), np.zeros(4))
+    expected = respond_chain(join_chain([0.1, 0.2, 2, 0.05], shafts), damping, W, np.append(LOAD, 0))
     assert found.angle == pytest.approx(expected.angle[:, :3], rel=1e-12)
     assert found.torque == pytest.approx(expected.torque[:, :2], rel=1e-12)
 
 
 def test_limits_of_dampers():
-    """A ring that sticks is inertia, one that slips is none."""
+    """A ring that sticks is inertia, one that slips is none; between them it takes energy."""
     assert viscous_inertia(0.05, 1e12, W) == pytest.approx(np.full(3, 0.05))
     assert abs(viscous_inertia(0.05, 1e-12, W)) == pytest.approx(np.zeros(3), abs=1e-12)
-    assert pendulum_inertia(2.0, 0.1, 0.025, np.zeros(1)) == pytest.approx([2 * 0.125**2])
-
-
-def test_dampers_take_energy():
     assert np.all(viscous_inertia(0.05, 12.0, W).imag < 0)
+    assert pendulum_inertia(2.0, 0.1, 0.025, np.zeros(1)) == pytest.approx([2 * 0.125**2])
 
 
 def test_a_tuned_pendulum_holds_its_node_still():

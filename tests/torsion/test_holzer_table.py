@@ -12,7 +12,7 @@ from balcli.torsion.motion import respond_chain
 
 
 @pytest.mark.parametrize("kind", [k for k in KINDS if k not in ("looped", "clamped at both ends")])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_holzers_table_closes_at_natural_frequencies(kind, seed):
     chain = random_chain(kind, seed, 0.4)
     modes = find_chain_modes(chain)

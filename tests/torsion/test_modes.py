@@ -22,7 +22,7 @@ OF_LARGEST = 1e-15  # error of a low frequency in parts of the highest
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("spread", [1, 5])
 def test_frequencies_against_50_digits(kind, seed, spread):
     chain = random_chain(kind, seed, spread)
@@ -84,9 +84,6 @@ def test_a_clamp_holds_all_that_meshes_with_it():
     chain = join_chain([1, 2, 3], [ChainShaft(0, 1, np.inf, 2), ChainShaft(1, 2, 12)], clamped=[0])
     assert find_chain_modes(chain).omega == pytest.approx([2])
     assert find_chain_modes(chain).shapes[0].tolist()[:2] == [0, 0]
-
-
-def test_all_clamped_has_no_modes():
     assert find_chain_modes(chain_of([1, 2], [5], clamped=[0, 1])).omega.size == 0
 
 
@@ -110,23 +107,21 @@ def test_shafts_without_stiffness_join_nothing():
     assert modes.omega == pytest.approx([0, 0, np.sqrt(12)])
 
 
+def count_nodes(chain):
+    return [sum(map(len, locate_nodes(chain, shape))) for shape in find_chain_modes(chain).shapes]
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_the_rth_mode_of_a_chain_has_r_nodes(seed):
     chain = random_chain("plain", seed, 0.5)
-    shapes = find_chain_modes(chain).shapes
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in shapes] == list(range(len(shapes)))
+    assert count_nodes(chain) == list(range(len(chain.inertia)))
 
 
-def test_a_node_at_rest_hides_no_node_of_vibration():
-    chain = chain_of([1, 2, 1], [5, 5])
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in find_chain_modes(chain).shapes] == [0, 1, 2]
-
-
-def test_gears_that_reverse_are_no_nodes():
-    chain = join_chain([1, 2], [ChainShaft(0, 1, 5, -1.5)])
-    shapes = scale_shapes(find_chain_modes(chain).shapes)
-    assert shapes[0] == pytest.approx([-1 / 1.5, 1])
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in shapes] == [0, 1]
+def test_a_node_at_rest_hides_no_node_of_vibration_and_gears_that_reverse_are_none():
+    assert count_nodes(chain_of([1, 2, 1], [5, 5])) == [0, 1, 2]
+    reversing = join_chain([1, 2], [ChainShaft(0, 1, 5, -1.5)])
+    assert scale_shapes(find_chain_modes(reversing).shapes)[0] == pytest.approx([-1 / 1.5, 1])
+    assert count_nodes(reversing) == [0, 1]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -82,7 +82,8 @@ def vary(path: str) -> tuple[float, EngineFile]:
     tables = tomllib.loads(FILE)
     inner, last = find_place(tables, path)
     value = NEW[path] if path in NEW else float(inner[last]) * 1.03
-    inner.pop(RIVALS.get(path), None) if isinstance(inner, dict) else None
+    if path in RIVALS:
+        inner.pop(RIVALS[path])
     inner[last] = value
     return value, parse(tomli_w.dumps(tables))
 

@@ -7,6 +7,7 @@ import math
 
 import pytest
 from support.cases import cases
+from support.chains import chain_text
 from support.commands import ask_torsion, refusal, run_here
 
 from balcli.file.toml import parse_toml
@@ -74,15 +75,11 @@ def test_a_plain_shaft_has_the_stiffness_of_its_steel():
     assert softer.chain.stiffness == pytest.approx([modulus * math.pi / 32 * 0.04**4 / 0.5])
 
 
-def test_loss_of_the_file_is_that_of_shafts_that_name_none():
+def test_loss_of_the_file_is_that_of_shafts_that_name_none_and_equal_names_are_told_apart():
     text = "loss = 0.03\n" + TWO + '[[shaft]]\nfrom = "b"\nto = "a"\nstiffness = 5\nloss = 0\n'
-    system = build(text)
-    assert system.damping.loss.tolist() == [0.03, 0]
-    assert system.shafts == ("a-b", "b-a")
-
-
-def test_shafts_between_the_same_nodes_are_told_apart():
-    assert build(TWO + '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 5\n').shafts == ("a-b", "a-b (2)")
+    system = build(text + '[[shaft]]\nfrom = "a"\nto = "b"\nstiffness = 5\n')
+    assert system.damping.loss.tolist() == [0.03, 0, 0.03]
+    assert system.shafts == ("a-b", "b-a", "a-b (2)")
 
 
 def test_a_rubber_ring_is_a_node_and_a_shaft():
@@ -96,25 +93,13 @@ def test_a_rubber_ring_is_a_node_and_a_shaft():
 
 
 def test_torques_of_one_node_and_order_add_up():
-    system = build(
-        TWO
-        + """
-        [[excitation]]
-        node = "b"
-        order = 2
-        cos = 3
-        [[excitation]]
-        node = "b"
-        order = 2
-        cos = 1
-        sin = 5
-        [[excitation]]
-        node = "a"
-        order = 0.5
-        sin = "1 lbf ft"
-        """
-    )
-    excitation = system.excitation
+    torques = [
+        ("b", "order = 2", "cos = 3"),
+        ("b", "order = 2", "cos = 1\nsin = 5"),
+        ("a", "order = 0.5", 'sin = "1 lbf ft"'),
+    ]
+    more = "".join(f'[[excitation]]\nnode = "{node}"\n{order}\n{size}\n' for node, order, size in torques)
+    excitation = build(TWO + more).excitation
     assert excitation is not None
     assert excitation.orders.tolist() == [0.5, 2]
     assert excitation.nodes.tolist() == [0, 1]
@@ -129,21 +114,14 @@ def test_a_mistake_says_what_would_be_right(text, message):
 
 def test_a_rubber_ring_is_inertia_enough():
     """Two springs in series, 10 and 30 kN m/rad, to a ring of 0.1 kg m2; the hub has no inertia."""
-    ring = 'damper = { kind = "rubber", inertia = 1e5, stiffness = 3e4, loss = 0.1 }'
-    found = ask_torsion(
-        f"""
-        fixed = ["wall"]
-        node = [{{ name = "hub", {ring} }}, {{ name = "wall" }}]
-        shaft = [{{ from = "hub", to = "wall", stiffness = 1e4 }}]
-        """
-    )
+    hub = {"damper": {"kind": "rubber", "inertia": 1e5, "stiffness": 3e4, "loss": 0.1}}
+    found = ask_torsion(chain_text({"hub": hub, "wall": 0}, {("hub", "wall"): 1e4}, fixed=["wall"]))
     (mode,) = found["modes"]
     assert mode["frequency_Hz"] == pytest.approx(math.sqrt(7500 / 0.1) / (2 * math.pi), rel=1e-14)
 
 
 def test_sizes_are_limited():
-    many = "".join(f'[[node]]\nname = "{k}"\ninertia = 1\n' for k in range(201))
-    assert mistakes(many) == ["node: stands 201 times; at most 200 are taken"]
+    assert mistakes(chain_text({str(k): 1 for k in range(201)})) == ["node: stands 201 times; at most 200 are taken"]
 
 
 def test_the_schema_knows_all_keys():

@@ -68,7 +68,6 @@ def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
     assert "Spread of 3 random crankshafts" in run_here(*asked).out
 
 
-@pytest.mark.slow
 def test_stress_of_a_shaft_scatters(tmp_path):
     said = ask_json("scatter", write(tmp_path / "three.toml", THREE), "-q", "shaft.wheel.stress", "--samples", "3")
     found = said["quantities"]["shaft.wheel.stress"]
