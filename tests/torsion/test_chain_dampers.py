@@ -47,16 +47,6 @@ def test_limits_of_dampers():
     assert pendulum_inertia(2.0, 0.1, 0.025, np.zeros(1)) == pytest.approx([2 * 0.125**2])
 
 
-def test_a_tuned_pendulum_holds_its_node_still():
-    """n^2 = R/L: at that order the node is at rest whatever the speed, and no other one is."""
-    order = np.array([2.0, 3.0, 4.0])
-    attached = np.zeros((3, 3), complex)
-    attached[:, 0] = pendulum_inertia(0.5, 0.09, 0.01, order)
-    angle = respond_chain(CHAIN, DAMPING, 40 * order, LOAD, attached).angle
-    assert abs(angle[1, 0]) < 1e-9 * abs(angle[0, 0])
-    assert abs(angle[2, 0]) > 1e-3 * abs(angle[0, 0])
-
-
 def test_a_pendulum_swings_as_its_equation_of_motion_says():
     """For a point mass at R + L on a disc that turns at 1 + small: L y'' + R y = -(R + L) x'', y
     the pendulum's angle against the disc.

@@ -251,3 +251,6 @@ def test_barred_ranges_do_not_depend_on_the_steps_of_the_speeds(seed):
     speeds = np.array(dense["speeds_rpm"])
     inside = np.any([(speeds >= low) & (speeds <= high) for low, high in found[0]], axis=0)
     assert np.array_equal(inside, stress > limit)
+    ends = [end for end in np.ravel(found[0]).tolist() if end not in (1000, 3000)]  # where the limit is just met
+    at_ends = ask_torsion(text, "--speeds", ",".join(map(repr, ends)))["response"]["shafts"]
+    assert np.max([shaft["stress_Pa"] for shaft in at_ends], axis=0) == pytest.approx(limit, rel=1e-6)

@@ -48,16 +48,12 @@ intake_closes = 580
 throw_stiffness = [0.8e6, 0.9e6]
 damping = 1.5
 loss = 0.03
+rear = [{ name = "wheel", inertia = 300000, stiffness = 1.1e6, diameter = 70 }]
 [[torsion.front]]
 name = "pulley"
 inertia = 8000
 stiffness = 0.3e6
 damper = { kind = "viscous", inertia = 9000, damping = 4 }
-[[torsion.rear]]
-name = "wheel"
-inertia = 300000
-stiffness = 1.1e6
-diameter = 70
 """
 MODEL = parse(FILE)
 RIVALS = {"rod.ratio": "length", "gas.heat": "imep", "cylinder.2.rod_ratio": "rod_length"}

@@ -7,7 +7,6 @@ import pytest
 from support.chains import (
     KINDS,
     balance_power,
-    chain_matrices,
     chain_of,
     exact_response,
     no_damping,
@@ -19,7 +18,6 @@ from balcli.core.vibration import (
     UndampedResonanceError,
     find_resonances,
     frequencies,
-    solve_response,
 )
 from balcli.torsion.chain import ChainShaft, Damping, join_chain
 from balcli.torsion.modes import chain_loss, find_chain_modes
@@ -93,14 +91,6 @@ def test_rigid_shafts_share_the_load_as_their_inertias():
     assert twist.angle == pytest.approx(np.full(3, -acceleration / 25.0**2), rel=1e-14)
     carried = np.cumsum(load - chain.inertia * acceleration)[:2]
     assert twist.torque == pytest.approx(carried, rel=1e-13)
-
-
-def test_dense_equations_agree_with_the_tree():
-    chain = random_chain("branched", 3)
-    damping, w = random_damping(chain, 3), frequencies([0.5, 1, 6], [100.0, 200])
-    load, m = random_load(chain, 9, 3, 1), chain_matrices(chain, damping)
-    motion = solve_response(m.stiffness, m.damping, m.mass, w, load @ m.follow)
-    assert respond_chain(chain, damping, w, load).angle == pytest.approx(motion @ m.follow.T, rel=1e-9)
 
 
 def test_one_speed_is_a_thousand():
