@@ -272,9 +272,9 @@ IMPERIAL = {  # SI units of the CSV: what stands instead, and its size
 }
 
 
-@pytest.mark.parametrize("kind", ["viscous", "rubber", "pendulum"])
+@pytest.mark.parametrize("kind", ["viscous", "pendulum"])
 def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
-    options = ("--speeds", "3000,3800,4600", "--orders", "3", "--holzer", "1", "--damper", kind, "--units")
+    options = ("--speeds", "4300,4330", "--orders", "3", "--holzer", "1", "--damper", kind, "--units")
     metric, imperial = (
         ask_csv("torsion", "-q", "-", *options, units, stdin=write_diesel()) for units in ("si", "imperial")
     )

@@ -30,30 +30,16 @@ operation = { speed = 3000 }
 cylinder.2 = { piston_mass = 0.62, gas = 0.9, rod_length = 166 }
 flywheel = { inertia = 200000 }
 counterweight = [{ unbalance = 20000, angle = 180, position = -110 }]
-[gas]
-cycle = "wiebe"
-compression_ratio = 10
-imep = 9
-burn_start = -12
-burn_duration = 55
-burn_shape = 2
-intake = 0.9
-exhaust = 1.1
-crankcase = 1.0
-compression_index = 1.32
-expansion_index = 1.28
-exhaust_opens = 140
-intake_closes = 580
+gas = { cycle = "wiebe", compression_ratio = 10, imep = 9, burn_start = -12, burn_duration = 55, burn_shape = 2, \
+    intake = 0.9, exhaust = 1.1, crankcase = 1.0, compression_index = 1.32, expansion_index = 1.28, \
+    exhaust_opens = 140, intake_closes = 580 }
 [torsion]
 throw_stiffness = [0.8e6, 0.9e6]
 damping = 1.5
 loss = 0.03
 rear = [{ name = "wheel", inertia = 300000, stiffness = 1.1e6, diameter = 70 }]
-[[torsion.front]]
-name = "pulley"
-inertia = 8000
-stiffness = 0.3e6
-damper = { kind = "viscous", inertia = 9000, damping = 4 }
+front = [{ name = "pulley", inertia = 8000, stiffness = 0.3e6, \
+    damper = { kind = "viscous", inertia = 9000, damping = 4 } }]
 """
 MODEL = parse(FILE)
 RIVALS = {"rod.ratio": "length", "gas.heat": "imep", "cylinder.2.rod_ratio": "rod_length"}

@@ -37,24 +37,13 @@ def mistakes(text):
 
 
 def test_figures_are_converted_once():
-    system = build(
-        """
-        [[node]]
-        name = "a"
-        inertia = 1500
-        damping = "18 lbf in s/rad"
-        [[node]]
-        name = "b"
-        inertia = "1500 lb ft^2"
-        damper = { kind = "pendulum", mass = "3 lb", radius = 60, length = "1 in" }
-        [[shaft]]
-        from = "a"
-        to = "b"
-        stiffness = "24.17e6 lbf in/rad"
-        diameter = "3 in"
-        bore = 20
-        """
-    )
+    pendulum = {"kind": "pendulum", "mass": "3 lb", "radius": 60, "length": "1 in"}
+    nodes = {
+        "a": {"inertia": 1500, "damping": "18 lbf in s/rad"},
+        "b": {"inertia": "1500 lb ft^2", "damper": pendulum},
+    }
+    shaft = {"stiffness": "24.17e6 lbf in/rad", "diameter": "3 in", "bore": 20}
+    system = build(chain_text(nodes, {"ab": shaft}))
     pound, inch = 0.45359237, 0.0254
     force = pound * 9.80665
     assert system.chain.inertia == pytest.approx([1.5e-3, 1500 * pound * (12 * inch) ** 2])
@@ -83,8 +72,8 @@ def test_loss_of_the_file_is_that_of_shafts_that_name_none_and_equal_names_are_t
 
 
 def test_a_rubber_ring_is_a_node_and_a_shaft():
-    rubber = 'damper = { kind = "rubber", inertia = 4e4, stiffness = 300, loss = 0.2 }\n'
-    system = build(TWO.replace('name = "a"\n', f'name = "a"\n{rubber}', 1))
+    hub = {"inertia": 1e6, "damper": {"kind": "rubber", "inertia": 4e4, "stiffness": 300, "loss": 0.2}}
+    system = build(chain_text({"a": hub, "b": 2}, {"ab": 1000}))
     assert system.nodes == ("a", "b", "a ring")
     assert system.shafts == ("a-b", "a ring")
     assert system.chain.inertia.tolist() == [1, 2, 0.04]
