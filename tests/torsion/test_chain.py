@@ -55,15 +55,11 @@ CHAIN = join_chain([0.1, 0.2, 2], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5)]
 DAMPING = Damping(np.full(2, 0.02), np.zeros(2), np.zeros(3))
 
 
-def at_first_node(inertia):
-    attached = np.zeros((len(W), 3), complex)
-    attached[:, 0] = inertia
-    return respond_chain(CHAIN, DAMPING, W, LOAD, attached)
-
-
 def test_viscous_ring_is_a_node_on_a_dashpot():
     """The same chain with the damper as a fourth node on a shaft of its own."""
-    found = at_first_node(viscous_inertia(0.05, 12.0, W))
+    attached = np.zeros((len(W), 3), complex)
+    attached[:, 0] = viscous_inertia(0.05, 12.0, W)
+    found = respond_chain(CHAIN, DAMPING, W, LOAD, attached)
     shafts = [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, 0)]
     damping = Damping(np.array([0.02, 0.02, 0]), np.array([0, 0, 12.0]), np.zeros(4))
     expected = respond_chain(join_chain([0.1, 0.2, 2, 0.05], shafts), damping, W, np.append(LOAD, 0))

@@ -122,6 +122,7 @@ def test_power_fed_is_power_lost_and_torques_are_reciprocal(kind):
     assert moved == pytest.approx(moved.T, rel=1e-10, abs=1e-13 * biggest(moved))
 
 
+MESHED = [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)]
 THREE = chain_of([1, 2, 1], [5, 5])  # symmetric: omega^2 = 5 and 10
 
 
@@ -137,20 +138,8 @@ THREE = chain_of([1, 2, 1], [5, 5])  # symmetric: omega^2 = 5 and 10
         # nodes held at both ends of a shaft
         (chain_of([1, 1, 1], [4, 9], clamped=[0, 1]), 1.0, [1, 1, 16.0], [0, 0, 2], [0, -18]),
         # a mesh with a clamped gear holds, and carries what the other passes on
-        (
-            join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)], [0]),
-            1.0,
-            [3, 1, 16.0],
-            [0, 0, 2],
-            [-19, -18],
-        ),
-        (
-            join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -3), ChainShaft(1, 2, 9)], [1]),
-            1.0,
-            [3, 1, 16.0],
-            [0, 0, 2],
-            [-1, -18],
-        ),
+        (join_chain([1, 1, 1], MESHED, [0]), 1.0, [3, 1, 16.0], [0, 0, 2], [-19, -18]),
+        (join_chain([1, 1, 1], MESHED, [1]), 1.0, [3, 1, 16.0], [0, 0, 2], [-1, -18]),
         # pieces vibrate by themselves
         (join_chain([1, 2, 4], [ChainShaft(0, 2, 5)]), 2.0, [0, 8.0, 0], [0, -1, 0], [0]),
     ],

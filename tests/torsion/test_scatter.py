@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_json, refusal, run_here
 from support.paths import write
 
@@ -74,27 +75,6 @@ def test_stress_of_a_shaft_scatters(tmp_path):
     assert 0 < found["p05"] < found["p95"]
 
 
-@pytest.mark.parametrize(
-    ("quantity", "options", "told"),
-    [
-        (
-            "torsion.1.Hz,force.2.major",
-            (),
-            "torsion.1.Hz, force.2.major: engine, mounts and torsion have different tolerances; ask for quantities of one "
-            "of them at a time",
-        ),
-        (
-            "torsion.1.Hz",
-            ("--samples", "30000"),
-            "30 000 samples: give from 1 to 20 000, as torsion.1.Hz is computed one by one",
-        ),
-        (
-            "torsion.1.Hz",
-            ("--mass-scatter", "0%", "--stiffness-scatter", "0%"),
-            "all tolerances are 0; give one, such as --stiffness-scatter 15%",
-        ),
-        ("shaft.x.torque", (), 'shaft.x.torque: the file has no shaft "x"; there are wheel'),
-    ],
-)
+@cases("torsion/quantity", "what_does_not_scatter")
 def test_what_does_not_scatter(tmp_path, quantity, options, told):
     assert refusal("scatter", write(tmp_path / "two.toml", TWO), "-q", quantity, *options) == told
