@@ -58,9 +58,7 @@ def torsion(
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional(
-            "KGMM2", "Its ring, or its pendulums about the axis; default: the file's, or usual."
-        ),
+        optional("KGMM2", "Of its ring or pendulums; default: the file's or a usual one."),
     ] = None,
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
