@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_torsion, refusal, run_here
+from support.commands import ask_json, ask_torsion, refusal, run_here
 from support.diesel import INERTIAS, NATURAL_HZ, write_diesel
 from support.paths import write
 
@@ -190,6 +190,17 @@ def test_branches_and_gears():
     assert (gears["flywheel"], gears["camshaft"], gears["pump"]) == (1, 0.5, 0.5)
     assert len(said["modes"]) == 10
     assert said["modes"][0]["frequency_Hz"] < np.sqrt(9000 / 0.003) / 2 / np.pi
+
+
+def test_half_of_a_plain_shaft_turns_with_either_end():
+    """4 times as much of a shaft that turns twice as fast as the crank, of 1000 mm and 40 mm in steel."""
+    pump = '[[torsion.rear]]\nname = "pump"\ngear = 2\nof = "throw 6"\ninertia = 1000\nlength = 1000\ndiameter = 40\n'
+    bare, heavy = (
+        [n["inertia_kg_m2"] for n in ask_json("-q", "torsion", "-", stdin=write_diesel() + pump + more)["nodes"]]
+        for more in ("", "density = 7.85")
+    )
+    half = 7850 * np.pi / 32 * 0.04**4 / 2
+    assert np.subtract(heavy, bare) == pytest.approx([0] * 7 + [4 * half, 0, half], abs=1e-15)
 
 
 def test_a_rigid_part_adds_to_its_neighbour():

@@ -17,7 +17,7 @@ from balcli.core.peaks import find_swing
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.torsion.build import build_engine_system, excite_engine
-from balcli.torsion.motion import move
+from balcli.torsion.motion import compute_curves
 from balcli.torsion.quantity import Variants, parse_quantity
 
 GAS = '[gas]\ncycle = "wiebe"\ncompression_ratio = 16\nimep = 15\n'
@@ -38,7 +38,8 @@ def search_finely(text, shaft):
     system = build_engine_system(model, engine, excite_engine(model, engine, None))
 
     def look(speeds):
-        return find_swing(system.excitation.orders, move(system, speeds).torque[:, :, shaft]).half
+        torques = compute_curves(system, speeds)[0][:, :, : len(system.shafts)]
+        return find_swing(system.excitation.orders, torques[:, :, shaft]).half
 
     speeds = np.linspace(1000, 3000, 4001)
     swings = look(speeds)

@@ -90,11 +90,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 
 
 def make_figures_of_torsion(
-    path: str,
-    pages: Sequence[str],
-    speeds: str | None,
-    orders: str | None,
-    units: Units,
+    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
 ) -> list[Figure]:
     """Return figures of the chain or engine at a path, one a page.
 

@@ -32,7 +32,7 @@ from .build import NO_DAMPERS
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
-from .motion import move
+from .motion import compute_curves
 from .response import find_largest
 from .system import TorsionalSystem
 
@@ -157,7 +157,8 @@ def size_damper(
     place = bare.nodes.index(node)
     mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
-    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
+    radius = None if source.engine is None else float(source.engine.cylinders.radius)
+    first = _propose(asked, own, bare, place, mode, order, radius)
     figure, width = _FIGURE[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)
 
@@ -263,7 +264,7 @@ def _find_mode_to_damp(
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds)
-    by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
+    by_order = np.abs(compute_curves(system, np.array([rpm]))[0][:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
     heavy = [_find_inertia_in(mode, system, node) for mode in modes]

@@ -48,11 +48,6 @@ class Source(NamedTuple):
     dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
 
-    @property
-    def crank_radius(self) -> float | None:
-        """Half the stroke, m; None of a chain."""
-        return None if self.engine is None else float(self.engine.cylinders.radius)
-
 
 def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""

@@ -21,12 +21,11 @@ from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, refuse_unbounded
+from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
 _ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_AT_ONCE = 256  # speeds
 _NEAR = 0.9  # of the largest value at the speeds looked at: a peak beside them may exceed this
 
 
@@ -51,7 +50,7 @@ def find_largest(
     """
     refuse_unbounded(system, rpm)
     orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
-    parts = (compute_curves(system, speeds[some]) for some in _split(len(speeds)))
+    parts = compute_in_parts(system, speeds)
     heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
     columns = np.arange(heights.shape[1])
     weights = np.ones(len(columns)) if weights is None else weights
@@ -75,16 +74,6 @@ def find_largest(
     heights[near] = judge(speeds[near[0]], near[1])
     level = heights.max() if together else heights.max(axis=0)
     return find_highest(judge, speeds, heights, level, _NEAR)
-
-
-def _split(count: int) -> list[Indices]:
-    """Return the places of so many speeds in parts, which bounds the memory."""
-    return np.array_split(np.arange(count), count // _AT_ONCE + 1)
-
-
-def _join(level: Real, together: bool) -> Real:
-    """Return the level (columns,) that a value has to reach."""
-    return np.full(len(level), level.max(initial=0)) if together else level
 
 
 def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
@@ -247,11 +236,11 @@ def find_response(
     """
     refuse_unbounded(system, speeds_rpm)
     orders, end = system.require_excitation().orders, len(system.shafts)
-    phasors, heat = compute_curves(system, speeds_rpm)
-    swings, sums = np.zeros(phasors.shape[1:]), sum_amplitudes(phasors)
-    for some in _split(len(swings)):
-        swings[some] = find_swing(orders, phasors[:, some]).half
-        tell((some[-1] + 1) / len(swings))
+    found = []
+    for phasors, lost in compute_in_parts(system, speeds_rpm):
+        found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
+        tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
+    swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
     at, value = find_largest(system, speeds_rpm)
     there, _ = compute_curves(system, at[:end])
     by_order = np.abs(there[:, range(end), range(end)])  # of each shaft where it is largest
@@ -278,7 +267,7 @@ def find_response(
         PendulumSwing(system.nodes[each.node], degrees[:, k], worst_swings[k])
         for k, each in enumerate(system.pendulums, end + 1)
     )
-    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[phasors.shape[2] :]
+    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
     names = (name.removesuffix(" ring") for name in system.dampers)
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
@@ -315,10 +304,10 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     def measure(some: Real) -> Real:
         """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
         found = []
-        for part in _split(len(some)):
-            curves = compute_curves(system, some[part])[0][:, :, : len(weights)] * weights
+        for phasors, _ in compute_in_parts(system, some):
+            curves = phasors[:, :, : len(weights)] * weights
             speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
-            highest = np.zeros(len(part))
+            highest = np.zeros(curves.shape[1])
             np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
             found.append(highest)
         return np.concatenate(found)

@@ -22,9 +22,6 @@ Torque = Annotated[float, Number(TORQUE, most=1e18)]
 class _HalfOrder(Number):
     """An order: a multiple of 1/2."""
 
-    def __init__(self) -> None:
-        super().__init__(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)
-
     def read(self, value: object) -> float:
         order = super().read(value)
         if 2 * order != round(2 * order):
@@ -67,7 +64,7 @@ class Excitation(FileTable):
     """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, t the angle of the first node."""
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
-    order: Annotated[float, _HalfOrder()] = Field(
+    order: Annotated[float, _HalfOrder(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)] = Field(
         examples=[1.5], description="how often in a turn of the first node; a multiple of 0.5"
     )
     cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
