@@ -335,7 +335,7 @@ def build_engine_system(
     torsion = require_torsion(model, name)
     throws = [f"throw {k}" for k, _ in enumerate(engine.joined_throws, 1)]
     joints, front = _join_parts(torsion, throws), len(torsion.front)
-    if problems := list(_find_misfits(torsion, model, engine, throws, joints)):
+    if problems := list(_find_misfits(torsion, engine, throws, joints)):
         raise InputError(problems, name)
     parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
     nodes = [*parts[:front][::-1], *_plan_throws(torsion, engine, throws), *parts[front:]]
@@ -483,16 +483,12 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
 
 # ------------------------------------------------------------------ what does not fit together
 def _find_misfits(
-    torsion: Torsion,
-    model: EngineFile,
-    engine: Engine,
-    throws: Sequence[str],
-    joints: Sequence[_Joint],
+    torsion: Torsion, engine: Engine, throws: Sequence[str], joints: Sequence[_Joint]
 ) -> Iterator[Problem]:
     if engine.rotary:
         yield Problem("torsion", "needs a crankshaft that turns; that of a rotary engine does not")
         return
-    yield from _check_throws(torsion, model, len(throws), len(engine.throws_m))
+    yield from _check_throws(torsion, engine, len(throws))
     names = [*throws, *(joint.part.name for joint in joints)]
     reserved = {*throws, *_name_between(throws)}
     joined = [j if j.of in names else j._replace(of=throws[0]) for j in joints]
@@ -509,23 +505,18 @@ def _find_misfits(
             yield Problem(f"{path}.of", text)
 
 
-def _check_throws(
-    torsion: Torsion, model: EngineFile, throws: int, in_file: int
-) -> Iterator[Problem]:
-    """Check the keys of throws; `in_file`: as many as the file has, before some are one."""
-    places = throws - 1
+def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Problem]:
+    """Check the keys of throws; lists may count the throws of the file, before some are one."""
+    places, in_file = throws - 1, len(engine.throws_m)
     if torsion.throw_stiffness is None and places:
         hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
         yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
-    counts = {"throw_stiffness": (places, places), "throw_inertia": (throws, in_file)}
-    for key, (needed, also) in counts.items():
-        values = getattr(torsion, key)
-        if values is not None and len(values) not in (1, needed, also):
-            yield Problem(
-                f"torsion.{key}",
-                f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "
-                f"{needed}; give one for all, or a list of these",
-            )
-    if torsion.throw_inertia is None and model.crank.inertia is None:
+    lists = ("throw_stiffness", places, places), ("throw_inertia", throws, in_file)
+    for key, needed, also in lists:
+        values = getattr(torsion, key) or [0]
+        if len(values) not in (1, needed, also):
+            text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
+            yield Problem(f"torsion.{key}", f"{text}; give one for all, or a list of these")
+    if torsion.throw_inertia is None and engine.crank_inertia is None:
         hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
         yield Problem.of_missing("torsion.throw_inertia", hint)

@@ -144,9 +144,8 @@ def _list_response(response: Node) -> Iterator[Line]:
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Return the sheet: modes first, then the requested parts."""
-    parts: list[Grid | Facts | Text] = []
-    if silent := list_silent(result.system.silent):
-        parts.append(Facts(tuple(silent)))
+    silent = tuple(list_silent(result.system.silent))
+    parts: list[Grid | Facts | Text] = [Facts(silent)] if silent else []
     parts += assumed_facts(result.assumed)
     if result.damper is not None:
         parts.append(_show_damper(result.damper, system))
