@@ -23,7 +23,7 @@ from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
 from .build import NO_DAMPERS
-from .dampers import KINDS_OF_DAMPERS, DamperAsked, SizedDamper, size_damper
+from .dampers import FIGURES, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -186,14 +186,14 @@ class TorsionAnalysis(Result):
 
 
 def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator[str]:
+    small = "but the computation assumes small swings"
     for each in response.pendulums or ():
         wide = each.worst.half_swing_deg
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
-                f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
-                f"{WIDE_SWING:.0f} deg, where it is 0.8 % out of tune"
+                f"{each.worst.speed_rpm:.4g} rpm, {small}; {wide / WIDE_SWING:.2g} times their "
+                f"mass would limit the swing to about {WIDE_SWING:.0f} deg"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
@@ -206,8 +206,8 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
             f"{printable(system.free_end)} swings by {swing.half_swing_deg:.4g} deg at "
-            f"{swing.speed_rpm:.5g} rpm, but the computation assumes small swings; is an inertia "
-            f"missing, or the speed too low? {question.capitalize()}"
+            f"{swing.speed_rpm:.5g} rpm, {small}; is an inertia missing, or the speed too low? "
+            f"{question.capitalize()}"
         )
 
 
@@ -346,8 +346,8 @@ def analyze_torsion(
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
     check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
-    if damper not in (None, *KINDS_OF_DAMPERS):
-        raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
+    if damper not in (None, *FIGURES):
+        raise BalcliError(f"damper {damper!r}: choose from {', '.join(FIGURES)}")
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')

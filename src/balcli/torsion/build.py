@@ -260,9 +260,8 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
         yield Problem(paths[mesh], f"{text} is shared; leave it out, or give a stiffness")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
-        how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
-        text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
-        yield Problem("angle_limit", f"{text} the node that may swing so far")
+        text = f"is of the first node, and {shorten(names[0])} stands still; leave it out, or begin"
+        yield Problem("angle_limit", f"{text} with the node that may swing so far")
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
             node = int(np.argmax(piece))
@@ -450,8 +449,7 @@ def _weigh_throws(torsion: Torsion, engine: Engine) -> Sequence[float]:
     of those of the file's throws that are one.
     """
     joined, throws = engine.joined_throws, len(engine.throws_m)
-    whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
-    given = torsion.throw_inertia or [whole * 1e6 / throws]
+    given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
     if len(given) == len(joined) < throws:  # already those of the throws of the crank
         return [each / 1e6 for each in given]
     by_throw = _each(given, throws)
@@ -473,10 +471,10 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
         step = 1.0 if engine.gas is None else 2 / engine.strokes
         usual = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
         orders = np.union1d(usual, list_gas_orders(engine))
-    growing = compute_spectra(engine, orders, ("torque",), each=True)["torque"].x
-    steady = np.zeros_like(growing)
-    if engine.gas is not None:
-        steady = compute_spectra(engine, orders, ("gas",), each=True)["gas"].x
+    parts = ("torque",) if engine.gas is None else ("torque", "gas")
+    spectra = compute_spectra(engine, orders, parts, each=True)
+    growing = spectra["torque"].x
+    steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
     moves = np.any((growing != 0) | (steady != 0), axis=1)
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
 

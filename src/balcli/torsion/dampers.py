@@ -46,9 +46,8 @@ DAMPER_KEYS = {
     "radius": ("radius_m", 1e3, "hung up at a radius of"),
     "length": ("length_m", 1e3, "length to the centre of mass"),
 }
-KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 RUBBER_LOSS = 0.15  # usual for damper rubber
-_FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
+FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 # of the mode's inertia at the node, where nothing says how heavy a damper is
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
@@ -130,11 +129,6 @@ class SizedDamper:
     before: Annotated[float, HIDDEN]
     after: Annotated[float, HIDDEN]
 
-    @property
-    def figure(self) -> str:
-        """Name of the figure that was sized."""
-        return _FIGURE[self.kind]
-
 
 def size_damper(
     source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
@@ -159,7 +153,7 @@ def size_damper(
     own = own if own is not None and own.kind == asked.kind else None
     radius = None if source.engine is None else float(source.engine.cylinders.radius)
     first = _propose(asked, own, bare, place, mode, order, radius)
-    figure, width = _FIGURE[first.kind], math.log(_WIDTH[first.kind])
+    figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)
 
     def judge(damper: Damper | None) -> float:
@@ -311,8 +305,7 @@ def _propose(
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
             raise BalcliError(
-                "--damper pendulum: a chain has no crank radius for the pendulums; "
-                f"give {printable(system.nodes[node])} a radius, such as damper = "
+                "--damper pendulum: a chain has no crank radius; give the node a damper = "
                 '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
             )
         length = radius * (system.gears[node] / order) ** 2
@@ -335,7 +328,7 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
-    sized = float(getattr(found.damper, found.figure))
+    sized = float(getattr(found.damper, FIGURES[found.kind]))
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
         yield (
@@ -350,10 +343,8 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
             f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
-        yield (
-            f"the best {found.figure} is at an end of the searched range, {1 / width:.2g} to "
-            f"{width:g} times the optimum for mode {found.mode} alone"
-        )
+        ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {found.mode} alone"
+        yield f"the best {FIGURES[found.kind]} is at an end of the searched range, {ends}"
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:

@@ -53,7 +53,10 @@ def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
     """Return the source of a chain file that has been read."""
-    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model)
+    losses = [(f"shaft.{k}.loss", shaft.loss) for k, shaft in enumerate(model.shaft, 1)]
+    damped = [(k, node.damper) for k, node in enumerate(model.node, 1) if node.damper]
+    losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
+    doubts = *doubt_losses([("loss", model.loss), *losses]), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
     return Source(name, text, doubts, partial(build_chain, model, name, orders), dampers)
 
@@ -80,7 +83,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         misfires: Numbers of an engine's cylinders without gas force.
 
     Raises:
-        BalcliError: The file cannot be read, or has mistakes.
+        BalcliError: The file cannot be read, or has mistakes; a misfire of an engine without gas,
+            or of a cylinder that the engine does not have.
     """
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
@@ -90,27 +94,20 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
-    made = make_source(model, build_named(model, name), name, orders, misfires)
-    return made._replace(text=text)
+    engine = build_named(model, name)
+    for number in misfires:
+        engine = silence(engine, number)
+    return make_source(model, engine, name, orders)._replace(text=text)
 
 
-def make_source(
-    model: EngineFile,
-    engine: Engine,
-    name: str,
-    orders: Real | None = None,
-    misfires: Sequence[int] = (),
-) -> Source:
+def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
     """Return the source of an engine file that has been read and built. It has no text, so that
     nothing can be written into it.
 
     Raises:
-        BalcliError: The file has no [torsion]; a misfire of an engine without gas, or of a cylinder
-            that the engine does not have.
+        BalcliError: The file has no [torsion].
     """
     doubts, torsion = engine.unlikely, require_torsion(model, name)
-    for number in misfires:
-        engine = silence(engine, number)
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
     parts = (*reversed(torsion.front), *torsion.rear)

@@ -90,9 +90,8 @@ def chain_loss(
     twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
     moved = modes.shapes**2
     loss = chain.stiffness[elastic] * damping.loss[elastic]
-    lost = twist @ loss - modes.omega**2 * np.sum(
-        np.asarray(attached, complex).imag * moved, axis=1
-    )
+    felt = np.asarray(attached, complex).imag * moved
+    lost = twist @ loss - modes.omega**2 * felt.sum(axis=1)
     lost += modes.omega * (twist @ damping.dashpots[elastic] + moved @ damping.nodes)
     return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
 
@@ -248,27 +247,27 @@ def find_criticals(
         modes: Natural modes.
         range_rpm: First and last speed, rpm; None: all speeds.
     """
+    if not modes:
+        return ()
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
-    found = []
-    for mode in modes:
-        speeds = mode.omega / orders
-        torque = np.diagonal(excitation.at(speeds), axis1=0, axis2=1).T  # (orders, sources)
-        moved, rpm = mode.shape[excitation.nodes], speeds / RPM
-        phasors = np.abs(torque @ moved)
-        counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
-        counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
-        total = phasors[counted].sum()
-        found += [
-            Critical(
-                mode=mode.number,
-                order=order_number(float(orders[k])),
-                speed_rpm=float(rpm[k]),
-                phase_sum=float(phasors[k] / np.abs(torque[k]).max()),
-                work_share=float(phasors[k] / total),
-                work=float(np.pi * phasors[k]),
-            )
-            for k in np.flatnonzero(counted)
-        ]
+    moved = np.array([mode.shape[excitation.nodes] for mode in modes])[:, None]
+    speeds = np.array([[mode.omega] for mode in modes]) / orders  # (modes, orders)
+    torque = excitation.steady + excitation.growing * speeds[..., None] ** 2
+    phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
+    counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
+    counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
+    total = np.sum(phasors, axis=1, where=counted)
+    found = [
+        Critical(
+            mode=modes[m].number,
+            order=order_number(float(orders[k])),
+            speed_rpm=float(rpm[m, k]),
+            phase_sum=float(phasors[m, k] / np.abs(torque[m, k]).max()),
+            work_share=float(phasors[m, k] / total[m]),
+            work=float(np.pi * phasors[m, k]),
+        )
+        for m, k in np.argwhere(counted)
+    ]
     return tuple(sorted(found, key=lambda each: -each.work))
 
 

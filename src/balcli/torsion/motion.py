@@ -276,13 +276,10 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
             mode that is driven at its own frequency.
     """
     excitation = system.require_excitation()
-    orders, shafts = len(excitation.orders), len(system.shafts)
-    if orders * len(rpm) * shafts > MOST_TORSION_TORQUES:
-        raise BalcliError(
-            f"{orders} orders at {len(rpm)} speeds in {shafts} shafts are "
-            f"{orders * len(rpm) * shafts} torques, and at most {MOST_TORSION_TORQUES} are kept: "
-            "take fewer speeds or orders"
-        )
+    count = len(excitation.orders) * len(rpm) * len(system.shafts)
+    if count > MOST_TORSION_TORQUES:
+        text = f"{count} torques by order, speed and shaft, and at most {MOST_TORSION_TORQUES} are"
+        raise BalcliError(f"{text} kept: take fewer speeds or orders")
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
         return

@@ -145,8 +145,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
             label = f"{number(mode.frequency_Hz, 4)} Hz"
             ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
-    excitation = result.system.excitation
-    orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
+    orders = sorted({c.order for c in drawn}) or result.orders or ()
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
     for order in orders:
         end = min(top, 60 * ceiling / order)

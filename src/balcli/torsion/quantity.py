@@ -38,9 +38,7 @@ def parse_quantity(text: str) -> TargetQuantity:
     found = parse_target_quantity(text, _SUBJECTS)
     number = found.target
     if found.kind == "torsion" and not (number.isascii() and number.isdigit() and int(number)):
-        raise BalcliError(
-            f"{text} is no quantity: after torsion comes the number of a mode, from 1"
-        )
+        raise BalcliError(f"{text} is no quantity: after torsion comes the number of a mode")
     return found
 
 

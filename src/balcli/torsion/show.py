@@ -18,14 +18,13 @@ from ..show.formats import Renderer
 from ..show.sheet import Facts, Grid, Sheet, Text, assumed_facts, number, order_name, size_text
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
-from .dampers import DAMPER_KEYS, SizedDamper
+from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import ShaftResponse, TorsionResponse
 from .system import TorsionalSystem
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
-_MOST_LISTED = 8  # orders of the excitation: of more the first and the last are named
-_MOST_BARE = 8  # shafts without a diameter that are named
+_MOST_LISTED = 8  # orders of the excitation, shafts without a diameter
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
 
 
@@ -45,8 +44,8 @@ class Line(NamedTuple):
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Return CSV: one figure a row."""
-    lines, units = _list_lines(to_document(result)), _choose_units(system)
-    return Rows(Line._fields, lines if system == SI else (_convert(line, units) for line in lines))
+    units = {} if system == SI else _choose_units(system)
+    return Rows(Line._fields, (_convert(line, units) for line in _list_lines(to_document(result))))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
@@ -176,7 +175,7 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
         (figure,) = list_figures({name: value})
         shown = units.get(figure.unit, ShownUnit("", 1)).fit(value)
         text = size_text(value, shown, 6).rstrip()
-        if key == sized.figure:
+        if key == FIGURES[sized.kind]:
             alone = number(shown.of(sized.start / size))
             text += f" (best for mode {sized.mode} alone: {alone})"
         pairs.append((label, text))
@@ -203,8 +202,7 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
         for mode in result.modes
     )
     note = "Node in: the shafts whose ends turn against each other."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}."
+    note += _name_left_out(result.system, ".")
     heads = ("mode", "Hz", "1/min", "nodes", "node in")
     return Grid("Natural modes", heads, rows, note, words=(0, 4))
 
@@ -251,8 +249,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 def _name_scope(result: TorsionAnalysis) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
     rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}, which shift them."
+    note += _name_left_out(result.system, ", which shift them.")
     if result.response is not None:
         return note
     note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
@@ -266,10 +263,10 @@ def _list_orders(orders: Sequence[float]) -> str:
     return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
 
 
-def _list_left_out(system: TorsionalSystem) -> str:
+def _name_left_out(system: TorsionalSystem, end: str) -> str:
     """Return the dampers that modes and criticals are without."""
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
-    return " and ".join(dampers)
+    return f" Without {' and '.join(dampers)}{end}" if dampers else ""
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
@@ -385,13 +382,10 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
     if limits:
         yield "limit", " and ".join(limits)
     if result.barred_rpm is not None:
-        text = ", ".join(map(_name_span, result.barred_rpm)) or "none in this range"
-        own = system.rated_rpm or 0.0
-        if any(low <= own <= high for low, high in result.barred_rpm):
-            text += f"; the file's own speed, {number(own)} rpm, is barred"
-        yield "barred speeds", text
+        spans = ", ".join(map(_name_span, result.barred_rpm))
+        yield "barred speeds", spans or "none in this range"
     if bare:
-        named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
+        named = ", ".join(bare[:_MOST_LISTED]) + ", ..." * (len(bare) > _MOST_LISTED)
         yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 

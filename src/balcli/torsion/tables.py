@@ -5,7 +5,6 @@ Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
@@ -82,15 +81,6 @@ class ChainFile(ChainKeys):
     shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
     gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")
     excitation: tuple[Excitation, ...] = Field((), examples=[], description="torques on nodes")
-
-    def list_losses(self) -> Iterator[tuple[str, float | None]]:
-        """Loss factors of all shafts and dampers, by their paths."""
-        yield "loss", self.loss
-        for number, shaft in enumerate(self.shaft, 1):
-            yield f"shaft.{number}.loss", shaft.loss
-        for number, node in enumerate(self.node, 1):
-            if node.damper is not None:
-                yield f"node.{number}.damper.loss", node.damper.loss
 
 
 LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)
