@@ -278,25 +278,23 @@ def _tabulate(
     system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
 ) -> HolzerTable:
     """Return Holzer's table at a frequency."""
-    omega, chain = asked.omega, system.chain
+    omega, chain, shape = asked.omega, system.chain, None
     if asked.mode is not None:
         if asked.mode > len(modes):
             count = counted(len(modes), "mode")
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
-        omega = modes[asked.mode - 1].omega
+        omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
     # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
     except ValueError as error:
         raise system.refusal(f"--holzer: {error}") from None
-    if asked.mode is not None:
-        shape = modes[asked.mode - 1].shape
-        if np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
-            raise system.refusal(
-                f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
-                "hardly moves in it, or a branch swings by itself"
-            )
+    if shape is not None and np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
+        raise system.refusal(
+            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
+            "hardly moves in it, or a branch swings by itself"
+        )
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
     hertz, left = omega / (2 * np.pi), table.residual

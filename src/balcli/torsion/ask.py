@@ -103,8 +103,8 @@ def make_figures_of_torsion(
     """
     asked = parse_question(speeds)
     source = load_source(path, parse_half_orders(orders))
-    over_speed = {"response", "waterfall"} & {*pages}
-    if over_speed and asked.speeds_rpm is None and source.engine is not None:
+    missing = asked.speeds_rpm is None and {"response", "waterfall"} & {*pages}
+    if missing and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     for page in pages:
         require_speeds(asked, page)

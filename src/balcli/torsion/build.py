@@ -225,13 +225,12 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Excitation | None:
     if not file.excitation:
         return None
-    given = np.unique([each.order for each in file.excitation])
-    sources = sorted({index[each.node] for each in file.excitation})
+    given, row = np.unique([each.order for each in file.excitation], return_inverse=True)
+    nodes = [index[each.node] for each in file.excitation]
+    sources, column = np.unique(nodes, return_inverse=True)
     steady = np.zeros((len(given), len(sources)), complex)
-    for each in file.excitation:
-        row, column = int(np.searchsorted(given, each.order)), sources.index(index[each.node])
-        steady[row, column] += complex(each.cos, -each.sin)
-    found = Excitation(given, np.array(sources), steady, np.zeros_like(steady))
+    np.add.at(steady, (row, column), [complex(each.cos, -each.sin) for each in file.excitation])
+    found = Excitation(given, sources, steady, np.zeros_like(steady))
     return found if orders is None else found.only(orders)
 
 
@@ -374,12 +373,12 @@ def build_engine_system(
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
     """Yield a node for each throw, with its running gear and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
-    bare = _weigh_throws(torsion, engine)
-    for throw, name in enumerate(throws):
-        here = np.equal(on_throw, throw)
-        inertia = 1e6 * (bare[throw] + float(gear[here].sum()))
-        table = NodeKeys.model_construct(name=name, inertia=inertia)
-        yield PlannedNode(table, torsion.damping * int(here.sum()))
+    inertias = _weigh_throws(torsion, engine) + np.bincount(on_throw, gear, len(throws))
+    for name, inertia, rods in zip(
+        throws, inertias, np.bincount(on_throw, None, len(throws)), strict=True
+    ):
+        table = NodeKeys.model_construct(name=name, inertia=1e6 * float(inertia))
+        yield PlannedNode(table, torsion.damping * int(rods))
 
 
 def _name_between(throws: Sequence[str]) -> list[str]:
@@ -444,16 +443,16 @@ def weigh_running_gear(engine: Engine) -> Real:
     return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
 
 
-def _weigh_throws(torsion: Torsion, engine: Engine) -> Sequence[float]:
+def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
     """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear: the sum
     of those of the file's throws that are one.
     """
     joined, throws = engine.joined_throws, len(engine.throws_m)
     given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
     if len(given) == len(joined) < throws:  # already those of the throws of the crank
-        return [each / 1e6 for each in given]
+        return np.array(given) / 1e6
     by_throw = _each(given, throws)
-    return [sum(by_throw[throw] for throw in together) / 1e6 for together in joined]
+    return np.array([sum(by_throw[throw] for throw in together) for together in joined]) / 1e6
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:

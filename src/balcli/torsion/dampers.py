@@ -197,14 +197,12 @@ def _find_carrier(
     """Return the name of the node that is to carry the damper, and the damper it has: the asked
     one, else the free end or the foremost that can.
     """
-    first = free_end if free_end in carriers else next(iter(carriers), None)
-    name = first if asked is None else asked
-    if name is None:
-        raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
+    first = free_end if free_end in carriers else next(iter(carriers), free_end)
+    name, able = asked or first, ", ".join(map(printable, carriers))
     if name not in carriers:
+        able = able or "nothing; give a part in [[torsion.front]]"
         raise BalcliError(
-            f'--damper-at "{printable(name)}": cannot carry a damper; what can is '
-            f"{', '.join(printable(each) for each in carriers)}"
+            f'--damper-at "{printable(name)}": cannot carry a damper; what can is {able}'
         )
     return name, carriers[name]
 

@@ -31,7 +31,6 @@ class Source(NamedTuple):
     """A chain or engine file that has been read.
 
     Attributes:
-        file: Name of the file.
         text: Text of the file; empty if nothing can be written into it.
         doubts: Warnings of figures that are allowed and yet unlikely.
         system: Function of dampers by the names of their nodes to the system that the file
@@ -41,7 +40,6 @@ class Source(NamedTuple):
         engine: Engine of the file; None: it describes a chain.
     """
 
-    file: str
     text: bytes
     doubts: tuple[str, ...]
     system: Callable[[Mapping[str, Damper | None]], TorsionalSystem]
@@ -58,7 +56,7 @@ def make_chain_source(
     losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
     doubts = *doubt_losses([("loss", model.loss), *losses]), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
-    return Source(name, text, doubts, partial(build_chain, model, name, orders), dampers)
+    return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
@@ -111,4 +109,4 @@ def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | Non
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
     parts = (*reversed(torsion.front), *torsion.rear)
-    return Source(name, b"", doubts, system, {part.name: part.damper for part in parts}, engine)
+    return Source(b"", doubts, system, {part.name: part.damper for part in parts}, engine)

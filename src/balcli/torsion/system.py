@@ -162,8 +162,8 @@ class TorsionalSystem:
         """Angles of pendulums against their nodes (orders, speeds, pendulums), where these swing by
         `angle` (orders, speeds, nodes) at orders (orders,) of the reference.
         """
-        found = np.zeros((*angle.shape[:2], len(self.pendulums)), complex)
-        for k, swung in enumerate(self.pendulums):
+        found = [angle[..., :0]]
+        for swung in self.pendulums:
             ratio = pendulum_swing(swung.radius, swung.length, orders / self.gears[swung.node])
-            found[..., k] = ratio[:, None] * angle[..., swung.node]
-        return found
+            found.append((ratio[:, None] * angle[..., swung.node])[..., None])
+        return np.concatenate(found, axis=-1)
