@@ -238,10 +238,9 @@ def answer_question(
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
-    for each in () if found.response is None else found.response.dampers or ():
+    for each in (found.response and found.response.dampers) or ():
         if each.node == sized.node:
-            heat = each.worst
-            sized = replace(sized, heat_W=heat.heat_W, heat_rpm=heat.speed_rpm)
+            sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
     return replace(found, damper=sized)
 
 

@@ -53,7 +53,7 @@ def _parse_trial(text: str) -> HolzerAsked:
     try:
         omega = convert(text, SPEED) * RPM
     except ValueError:
-        raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
+        omega = 0.0
     if not 0 < omega < 1e12:
         raise BalcliError(f'--holzer "{text[:60]}": {right}')
     return HolzerAsked(None, omega)

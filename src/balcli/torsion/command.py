@@ -30,12 +30,7 @@ def torsion(
     ],
     speeds: Annotated[
         str | None,
-        optional(
-            "A:B:STEP",
-            "Forced vibration at these speeds, rpm; or a list such as 1500,2000.",
-            "--speeds",
-            "--speed",
-        ),
+        optional("A:B:STEP", "Forced vibration at these speeds, rpm.", "--speeds", "--speed"),
     ] = None,
     orders: Annotated[
         str | None,

@@ -316,10 +316,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
-        raise ValueError(
-            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as "
-            "well, and leave the gear out"
-        )
+        raise ValueError("Holzer's table does not take gears that mesh with a fixed node")
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:
         if chain.clamped[node]:

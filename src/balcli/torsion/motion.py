@@ -93,8 +93,7 @@ def respond_chain(
             chain, carrying, *some, w[weak], singular[weak]
         )
         angle[find_still(chain)] = 0
-    moved, twisted = (part.T.reshape(*frequency.shape, len(part)) for part in (angle, torque))
-    return Twist(moved, twisted)
+    return Twist(*(part.T.reshape(*frequency.shape, len(part)) for part in (angle, torque)))
 
 
 def _find_flexibilities(

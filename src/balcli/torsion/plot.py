@@ -109,8 +109,8 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
             style = (0, (1, 2)) if np.isinf(stiffness) else line
-            angles = mode.shape[[start, end]]
-            ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
+            ends = [start, end]
+            ax.plot(ends, mode.shape[ends], color=colour, linestyle=style, linewidth=1.4)
         label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
         ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
         ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
@@ -143,8 +143,8 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            label = f"{number(mode.frequency_Hz, 4)} Hz"
-            ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
+            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz, 4)} Hz"
+            ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
     orders = sorted({c.order for c in drawn}) or result.orders or ()
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
     for order in orders:

@@ -16,7 +16,7 @@ from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
 from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
-from .build import build_engine_system, excite_engine
+from .build import build_engine_system, excite_engine, require_torsion
 from .modes import find_chain_modes
 from .response import find_largest
 from .system import Excitation, TorsionalSystem
@@ -60,10 +60,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         BalcliError: The quantity does not exist; the error lists those there are.
         InputError: contradictions in [torsion].
     """
-    if model.torsion is None:
-        raise BalcliError(
-            f"{quantities[0].name}: the file has no [torsion]; see balcli torsion --help"
-        )
+    require_torsion(model, quantities[0].name)
     system = _build(model)
     modes = len(_find_frequencies(system))
     for q in quantities:
