@@ -256,7 +256,8 @@ def _find_mode_to_damp(
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds)
-    by_order = np.abs(compute_curves(system, np.array([rpm]))[0][:, 0, worst])
+    phasors, _ = compute_curves(system, np.array([rpm]))
+    by_order = np.abs(phasors[:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
     heavy = [_find_inertia_in(mode, system, node) for mode in modes]

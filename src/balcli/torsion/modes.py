@@ -247,11 +247,10 @@ def find_criticals(
         modes: Natural modes.
         range_rpm: First and last speed, rpm; None: all speeds.
     """
-    if not modes:
-        return ()
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
-    moved = np.array([mode.shape[excitation.nodes] for mode in modes])[:, None]
-    speeds = np.array([[mode.omega] for mode in modes]) / orders  # (modes, orders)
+    moved = np.array([mode.shape[excitation.nodes] for mode in modes])
+    moved = moved.reshape(len(modes), 1, len(excitation.nodes))
+    speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
     torque = excitation.steady + excitation.growing * speeds[..., None] ** 2
     phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
     counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
@@ -336,6 +335,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     carried[stiff] = unit * solution[count:]
     total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
     for child, _, shaft, near, _ in branches:
-        total[child], stiffness[child] = near * carried[shaft], near**2 * chain.stiffness[shaft]
+        total[child] = near * carried[shaft]
+        stiffness[child] = near**2 * chain.stiffness[shaft]
     twist = np.divide(total, stiffness, out=np.zeros(count), where=stiffness > 0)
     return Holzer(angle, inertial * angle, total, stiffness, twist, float(total[last]))

@@ -193,10 +193,12 @@ def _solve_dense(
     free, twist = ~chain.clamped[:, None], incidence(chain)[carrying] * ~chain.clamped
     nodes, diagonal = len(own), np.arange(len(own) + len(twist))
     matrix = np.zeros((len(w), len(diagonal), len(diagonal)), complex)
-    matrix[:, :nodes, nodes:], matrix[:, nodes:, :nodes] = twist.T, twist
+    matrix[:, :nodes, nodes:] = twist.T
+    matrix[:, nodes:, :nodes] = twist
     each = np.concatenate([np.where(free, own / scale, 1), -scale * flexible[carrying]])
     matrix[:, diagonal, diagonal] = each.T
-    right = np.pad(np.where(free, load / scale, 0), [(0, len(twist)), (0, 0)]).T
+    right = np.zeros((len(w), len(diagonal)), complex)
+    right[:, :nodes] = np.where(free, load / scale, 0).T
     solution = solve_equations(matrix, right, w, singular).T
     torque = np.zeros((len(chain.start), len(w)), complex)
     torque[carrying] = scale * solution[nodes:]

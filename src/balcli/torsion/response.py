@@ -61,7 +61,8 @@ def find_largest(
         speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
         rpm, point = np.unique(speeds, return_inverse=True)
         phasors, heat = compute_curves(system, rpm)
-        values, swings, count = np.zeros(len(speeds)), column < phasors.shape[2], phasors.shape[2]
+        values, count = np.zeros(len(speeds)), phasors.shape[2]
+        swings = column < count
         curves = phasors[:, point[swings], column[swings]]
         values[swings] = find_swing(orders, curves).half
         values[~swings] = heat[point[~swings], column[~swings] - count]
