@@ -17,13 +17,13 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
-from ..file.fields import order_number, printable
+from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
 from .build import NO_DAMPERS
-from .dampers import KINDS_OF_DAMPERS, DamperAsked, SizedDamper, size_damper
+from .dampers import FIGURES, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -63,8 +63,7 @@ class TorsionQuestion(NamedTuple):
     damper: DamperAsked = DamperAsked()
 
 
-@dataclass(frozen=True)
-class ChainNode:
+class ChainNode(NamedTuple):
     """Inertia of the chain.
 
     Attributes:
@@ -78,8 +77,7 @@ class ChainNode:
     gear: float
 
 
-@dataclass(frozen=True)
-class ChainJoint:
+class ChainJoint(NamedTuple):
     """Shaft between two nodes.
 
     Attributes:
@@ -91,8 +89,7 @@ class ChainJoint:
     stiffness_Nm_per_rad: float
 
 
-@dataclass(frozen=True)
-class HolzerRow:
+class HolzerRow(NamedTuple):
     """One inertia of Holzer's table.
 
     Attributes:
@@ -189,14 +186,14 @@ class TorsionAnalysis(Result):
 
 
 def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator[str]:
+    small = "but the computation assumes small swings"
     for each in response.pendulums or ():
         wide = each.worst.half_swing_deg
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings; "
-                f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
-                f"{WIDE_SWING:.0f} deg, where it is 0.8 % out of tune"
+                f"{each.worst.speed_rpm:.4g} rpm, {small}; {wide / WIDE_SWING:.2g} times their "
+                f"mass would limit the swing to about {WIDE_SWING:.0f} deg"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
@@ -209,8 +206,8 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
             f"{printable(system.free_end)} swings by {swing.half_swing_deg:.4g} deg at "
-            f"{swing.speed_rpm:.5g} rpm, but the computation assumes small swings; is an inertia "
-            f"missing, or the speed too low? {question.capitalize()}"
+            f"{swing.speed_rpm:.5g} rpm, {small}; is an inertia missing, or the speed too low? "
+            f"{question.capitalize()}"
         )
 
 
@@ -241,10 +238,9 @@ def answer_question(
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
-    for each in () if found.response is None else found.response.dampers or ():
+    for each in (found.response and found.response.dampers) or ():
         if each.node == sized.node:
-            heat = each.worst
-            sized = replace(sized, heat_W=heat.heat_W, heat_rpm=heat.speed_rpm)
+            sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
     return replace(found, damper=sized)
 
 
@@ -281,29 +277,26 @@ def _tabulate(
     system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
 ) -> HolzerTable:
     """Return Holzer's table at a frequency."""
-    omega, chain = asked.omega, system.chain
+    omega, chain, shape = asked.omega, system.chain, None
     if asked.mode is not None:
         if asked.mode > len(modes):
-            count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
+            count = counted(len(modes), "mode")
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
-        omega = modes[asked.mode - 1].omega
+        omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
     # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
     except ValueError as error:
         raise system.refusal(f"--holzer: {error}") from None
-    if asked.mode is not None:
-        shape = modes[asked.mode - 1].shape
-        if np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
-            raise system.refusal(
-                f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
-                "hardly moves in it, or a branch swings by itself"
-            )
+    if shape is not None and np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
+        raise system.refusal(
+            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
+            "hardly moves in it, or a branch swings by itself"
+        )
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
-    hertz = omega / (2 * np.pi)
-    left = table.residual
+    hertz, left = omega / (2 * np.pi), table.residual
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 
@@ -350,8 +343,8 @@ def analyze_torsion(
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
     check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
-    if damper not in (None, *KINDS_OF_DAMPERS):
-        raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
+    if damper not in (None, *FIGURES):
+        raise BalcliError(f"damper {damper!r}: choose from {', '.join(FIGURES)}")
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')

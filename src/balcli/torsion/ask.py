@@ -53,7 +53,7 @@ def _parse_trial(text: str) -> HolzerAsked:
     try:
         omega = convert(text, SPEED) * RPM
     except ValueError:
-        raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
+        omega = 0.0
     if not 0 < omega < 1e12:
         raise BalcliError(f'--holzer "{text[:60]}": {right}')
     return HolzerAsked(None, omega)
@@ -72,9 +72,8 @@ def parse_question(
     Raises:
         BalcliError: one of them cannot be read.
     """
-    inertia = None
-    if damper_inertia is not None:
-        inertia = read_inertia("--damper-inertia", damper_inertia, units)
+    heavy = damper_inertia
+    inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
     trials = [_parse_trial(each) for each in holzer]
     sized = DamperAsked(damper, damper_at, inertia)
     return TorsionQuestion(parse_speeds(speeds), trials, sized)
@@ -91,11 +90,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 
 
 def make_figures_of_torsion(
-    path: str,
-    pages: Sequence[str],
-    speeds: str | None,
-    orders: str | None,
-    units: Units,
+    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
 ) -> list[Figure]:
     """Return figures of the chain or engine at a path, one a page.
 
@@ -108,8 +103,8 @@ def make_figures_of_torsion(
     """
     asked = parse_question(speeds)
     source = load_source(path, parse_half_orders(orders))
-    over_speed = {"response", "waterfall"} & {*pages}
-    if over_speed and asked.speeds_rpm is None and source.engine is not None:
+    missing = asked.speeds_rpm is None and {"response", "waterfall"} & {*pages}
+    if missing and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     for page in pages:
         require_speeds(asked, page)

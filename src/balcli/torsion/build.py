@@ -25,7 +25,7 @@ from ..core.mechanisms.closed_form import select_cylinders
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
-from ..errors import InputError, Problem
+from ..errors import BalcliError, InputError, Problem
 from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.plain_tables import STEADY
@@ -33,6 +33,7 @@ from ..file.torsion_tables import (
     STEEL,
     ChainKeys,
     Damper,
+    NodeKeys,
     Part,
     ShaftKeys,
     Torsion,
@@ -63,12 +64,12 @@ _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node: inertia in kg m2, damping in N m s/rad against ground, and the damper it has."""
+    """A node, described by its table in the units of the file, and its damping against ground,
+    N m s/rad.
+    """
 
-    name: str
-    inertia: float
+    table: NodeKeys
     damping: float = 0.0
-    damper: Damper | None = None
 
 
 class PlannedShaft(NamedTuple):
@@ -104,28 +105,28 @@ def assemble_system(
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
     for k, node in enumerate(planned):
-        damper = fitted.get(node.name, node.damper)
+        name, damper = node.table.name, fitted.get(node.table.name, node.table.damper)
         if damper is None:
             continue
-        inertia = (damper.inertia or 0.0) / 1e6
         if damper.kind == "rubber":
             rubber = ShaftKeys.model_construct(stiffness=damper.stiffness, loss=damper.loss)
-            shafts.append(PlannedShaft(f"{node.name} ring", k, len(nodes), rubber))
-            nodes.append(PlannedNode(f"{node.name} ring", inertia))
+            ring = NodeKeys.model_construct(name=f"{name} ring", inertia=damper.inertia)
+            shafts.append(PlannedShaft(ring.name, k, len(nodes), rubber))
+            nodes.append(PlannedNode(ring))
         elif damper.kind == "viscous":
-            rings.append(ViscousRing(k, inertia, damper.damping or 0.0))
+            rings.append(ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0))
         else:
             radius, length = (damper.radius or 0.0) / 1e3, (damper.length or 0.0) / 1e3
             pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
     tables = [each.table for each in shafts]
     joints = [ChainShaft(s.start, s.end, find_stiffness(s.table), s.ratio) for s in shafts]
-    chain = join_chain([node.inertia for node in nodes], joints, clamped)
+    chain = join_chain([(node.table.inertia or 0.0) / 1e6 for node in nodes], joints, clamped)
     halves = np.array([find_shaft_inertia(table, table.density) / 2 for table in tables])
     np.add.at(chain.inertia, chain.start, halves * chain.ratio**2)
     np.add.at(chain.inertia, chain.end, halves)
     losses = (keys.loss if table.loss is None else table.loss for table in tables)
     return TorsionalSystem(
-        nodes=tuple(node.name for node in nodes),
+        nodes=tuple(node.table.name for node in nodes),
         shafts=tuple(each.name for each in shafts),
         chain=chain,
         damping=Damping(
@@ -152,17 +153,15 @@ def _find_stress(table: ShaftKeys) -> float:
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:
     """Yield a warning of plain shafts without a density whose inertia would count."""
-    bare = [STEEL if each.table.density is None else 0.0 for each in shafts]
-    lost = np.array(
-        [find_shaft_inertia(s.table, each) for s, each in zip(shafts, bare, strict=True)]
-    )
+    lost = np.array([find_shaft_inertia(each.table, STEEL) for each in shafts])
+    lost[[each.table.density is not None for each in shafts]] = 0
     ends = np.where(chain.clamped, np.inf, chain.inertia)
     near = np.minimum(ends[chain.start] / chain.ratio**2, ends[chain.end])
     if heavy := np.flatnonzero(lost > _LIGHT * near).tolist():
-        names = [shorten(shafts[k].name) for k in heavy[:_MOST_NAMED]]
-        names += ["..."] * (len(heavy) > _MOST_NAMED)
+        named = ", ".join(shorten(shafts[k].name) for k in heavy[:_MOST_NAMED])
+        named += ", ..." * (len(heavy) > _MOST_NAMED)
         yield (
-            f"{counted(len(heavy), 'plain shaft')} without a density ({', '.join(names)}): their "
+            f"{counted(len(heavy), 'plain shaft')} without a density ({named}): their "
             f"inertia, {sum(lost[heavy]):.4g} kg m2 in steel, is left out; give density = {STEEL} "
             "(g/cm3), which puts half of it at either end"
         )
@@ -187,10 +186,7 @@ def build_chain(
         InputError: nodes without a shaft, gears that lock each other, no node that can turn.
     """
     index = {node.name: k for k, node in enumerate(file.node)}
-    nodes = [
-        PlannedNode(node.name, (node.inertia or 0.0) / 1e6, node.damping, node.damper)
-        for node in file.node
-    ]
+    nodes = [PlannedNode(node, node.damping) for node in file.node]
     joints: list[ShaftTable | Gear] = [*file.shaft, *file.gear]
     labels = _tell_apart([f"{each.from_}-{each.to}" for each in joints])
     shafts = [
@@ -229,13 +225,12 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Excitation | None:
     if not file.excitation:
         return None
-    given = np.unique([each.order for each in file.excitation])
-    sources = sorted({index[each.node] for each in file.excitation})
+    given, row = np.unique([each.order for each in file.excitation], return_inverse=True)
+    nodes = [index[each.node] for each in file.excitation]
+    sources, column = np.unique(nodes, return_inverse=True)
     steady = np.zeros((len(given), len(sources)), complex)
-    for each in file.excitation:
-        row, column = int(np.searchsorted(given, each.order)), sources.index(index[each.node])
-        steady[row, column] += complex(each.cos, -each.sin)
-    found = Excitation(given, np.array(sources), steady, np.zeros_like(steady))
+    np.add.at(steady, (row, column), [complex(each.cos, -each.sin) for each in file.excitation])
+    found = Excitation(given, sources, steady, np.zeros_like(steady))
     return found if orders is None else found.only(orders)
 
 
@@ -259,14 +254,13 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
         text = (
-            "closes a loop of gears, rigid shafts or fixed nodes, and nothing says how they share"
+            "closes a loop of gears, rigid shafts or fixed nodes, and nothing says how the torque"
         )
-        yield Problem(paths[mesh], f"{text} the torque; leave it out, or give a stiffness")
+        yield Problem(paths[mesh], f"{text} is shared; leave it out, or give a stiffness")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
-        how = "is fixed" if chain.clamped[0] else "meshes with a fixed node"
-        text = f"is of the first node, and {shorten(names[0])} {how}; leave it out, or begin with"
-        yield Problem("angle_limit", f"{text} the node that may swing so far")
+        text = f"is of the first node, and {shorten(names[0])} stands still; leave it out, or begin"
+        yield Problem("angle_limit", f"{text} with the node that may swing so far")
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
             node = int(np.argmax(piece))
@@ -299,6 +293,24 @@ class _Joint(NamedTuple):
     of: str
 
 
+def require_torsion(model: EngineFile, name: str) -> Torsion:
+    """Return the table [torsion] of an engine file.
+
+    Args:
+        model: Engine file.
+        name: Name of the file, for messages.
+
+    Raises:
+        BalcliError: The file has none.
+    """
+    if model.torsion is None:
+        raise BalcliError(
+            f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
+            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
+        )
+    return model.torsion
+
+
 def build_engine_system(
     model: EngineFile,
     engine: Engine,
@@ -318,20 +330,14 @@ def build_engine_system(
     Raises:
         InputError: contradictions in [torsion], by their paths.
     """
-    torsion = model.torsion
-    if torsion is None:
-        hint = "write [torsion] with throw_stiffness and throw_inertia, and [[torsion.rear]]"
-        raise InputError([Problem.of_missing("torsion", hint)], name)
+    torsion = require_torsion(model, name)
     throws = [f"throw {k}" for k, _ in enumerate(engine.joined_throws, 1)]
     joints, front = _join_parts(torsion, throws), len(torsion.front)
-    if problems := list(_find_misfits(torsion, model, engine, throws, joints)):
+    if problems := list(_find_misfits(torsion, engine, throws, joints)):
         raise InputError(problems, name)
-    parts = [
-        PlannedNode(part.name, (part.inertia or 0.0) / 1e6, part.node_damping, part.damper)
-        for _, part, _ in joints
-    ]
+    parts = [PlannedNode(part, part.node_damping) for _, part, _ in joints]
     nodes = [*parts[:front][::-1], *_plan_throws(torsion, engine, throws), *parts[front:]]
-    place = {node.name: k for k, node in enumerate(nodes)}
+    place = {node.table.name: k for k, node in enumerate(nodes)}
     led, gears = _lead_outward(joints, throws), dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
@@ -339,11 +345,10 @@ def build_engine_system(
         PlannedShaft(part.name, place[of], place[part.name], part, gears[part.name] / gears[of])
         for _, part, of in joints
     ]
+    plain = ShaftKeys.model_construct(diameter=torsion.throw_diameter, bore=torsion.throw_bore)
     stiffness = _each(torsion.throw_stiffness or (), len(throws) - 1)
-    between = [
-        PlannedShaft(label, k, k + 1, _cut_throws(torsion, each))
-        for k, label, each in zip(count(front), _name_between(throws), stiffness, strict=False)
-    ]
+    tables = [plain.model_copy(update={"stiffness": each}) for each in stiffness]
+    between = map(PlannedShaft, _name_between(throws), count(front), count(front + 1), tables)
     ends = (
         place[_find_end([j for j in led if j.path.startswith(f"torsion.{key}")], gears, start)]
         for key, start in (("front", throws[0]), ("rear", throws[-1]))
@@ -368,18 +373,12 @@ def build_engine_system(
 def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Iterator[PlannedNode]:
     """Yield a node for each throw, with its running gear and the damping of every cylinder."""
     gear, on_throw = weigh_running_gear(engine), engine.joined_throw_of_rows
-    bare = _weigh_throws(torsion, engine)
-    for throw, name in enumerate(throws):
-        here = np.equal(on_throw, throw)
-        inertia = bare[throw] + float(gear[here].sum())
-        yield PlannedNode(name, inertia, torsion.damping * int(here.sum()))
-
-
-def _cut_throws(torsion: Torsion, stiffness: float) -> ShaftKeys:
-    """Return the table of a shaft between two throws."""
-    return ShaftKeys.model_construct(
-        stiffness=stiffness, diameter=torsion.throw_diameter, bore=torsion.throw_bore
-    )
+    inertias = _weigh_throws(torsion, engine) + np.bincount(on_throw, gear, len(throws))
+    for name, inertia, rods in zip(
+        throws, inertias, np.bincount(on_throw, None, len(throws)), strict=True
+    ):
+        table = NodeKeys.model_construct(name=name, inertia=1e6 * float(inertia))
+        yield PlannedNode(table, torsion.damping * int(rods))
 
 
 def _name_between(throws: Sequence[str]) -> list[str]:
@@ -444,17 +443,16 @@ def weigh_running_gear(engine: Engine) -> Real:
     return np.broadcast_to(moving, own.shape) + np.broadcast_to(turning, own.shape)
 
 
-def _weigh_throws(torsion: Torsion, engine: Engine) -> Sequence[float]:
+def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
     """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear: the sum
     of those of the file's throws that are one.
     """
     joined, throws = engine.joined_throws, len(engine.throws_m)
-    whole = 0.0 if engine.crank_inertia is None else float(engine.crank_inertia)
-    given = torsion.throw_inertia or [whole * 1e6 / throws]
+    given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
     if len(given) == len(joined) < throws:  # already those of the throws of the crank
-        return [each / 1e6 for each in given]
+        return np.array(given) / 1e6
     by_throw = _each(given, throws)
-    return [sum(by_throw[throw] for throw in together) / 1e6 for together in joined]
+    return np.array([sum(by_throw[throw] for throw in together) for together in joined]) / 1e6
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
@@ -472,26 +470,22 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
         step = 1.0 if engine.gas is None else 2 / engine.strokes
         usual = np.arange(step, HIGHEST_TORSION_ORDER_UNASKED + step, step)
         orders = np.union1d(usual, list_gas_orders(engine))
-    growing = compute_spectra(engine, orders, ("torque",), each=True)["torque"].x
-    steady = np.zeros_like(growing)
-    if engine.gas is not None:
-        steady = compute_spectra(engine, orders, ("gas",), each=True)["gas"].x
+    parts = ("torque",) if engine.gas is None else ("torque", "gas")
+    spectra = compute_spectra(engine, orders, parts, each=True)
+    growing = spectra["torque"].x
+    steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
     moves = np.any((growing != 0) | (steady != 0), axis=1)
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
 
 
 # ------------------------------------------------------------------ what does not fit together
 def _find_misfits(
-    torsion: Torsion,
-    model: EngineFile,
-    engine: Engine,
-    throws: Sequence[str],
-    joints: Sequence[_Joint],
+    torsion: Torsion, engine: Engine, throws: Sequence[str], joints: Sequence[_Joint]
 ) -> Iterator[Problem]:
     if engine.rotary:
         yield Problem("torsion", "needs a crankshaft that turns; that of a rotary engine does not")
         return
-    yield from _check_throws(torsion, model, len(throws), len(engine.throws_m))
+    yield from _check_throws(torsion, engine, len(throws))
     names = [*throws, *(joint.part.name for joint in joints)]
     reserved = {*throws, *_name_between(throws)}
     joined = [j if j.of in names else j._replace(of=throws[0]) for j in joints]
@@ -508,23 +502,18 @@ def _find_misfits(
             yield Problem(f"{path}.of", text)
 
 
-def _check_throws(
-    torsion: Torsion, model: EngineFile, throws: int, in_file: int
-) -> Iterator[Problem]:
-    """Check the keys of throws; `in_file`: as many as the file has, before some are one."""
-    places = throws - 1
+def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Problem]:
+    """Check the keys of throws; lists may count the throws of the file, before some are one."""
+    places, in_file = throws - 1, len(engine.throws_m)
     if torsion.throw_stiffness is None and places:
         hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
         yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
-    counts = {"throw_stiffness": (places, places), "throw_inertia": (throws, in_file)}
-    for key, (needed, also) in counts.items():
-        values = getattr(torsion, key)
-        if values is not None and len(values) not in (1, needed, also):
-            yield Problem(
-                f"torsion.{key}",
-                f"has {counted(len(values), 'value')}, but {counted(throws, 'throw')} need "
-                f"{needed}; give one for all, or a list of these",
-            )
-    if torsion.throw_inertia is None and model.crank.inertia is None:
+    lists = ("throw_stiffness", places, places), ("throw_inertia", throws, in_file)
+    for key, needed, also in lists:
+        values = getattr(torsion, key) or [0]
+        if len(values) not in (1, needed, also):
+            text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
+            yield Problem(f"torsion.{key}", f"{text}; give one for all, or a list of these")
+    if torsion.throw_inertia is None and engine.crank_inertia is None:
         hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
         yield Problem.of_missing("torsion.throw_inertia", hint)

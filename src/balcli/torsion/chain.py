@@ -186,15 +186,14 @@ def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> 
     at an order of the speed of its node: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it
     holds its node still.
     """
-    return mass * (radius + length) ** 2 / _away_from_zero(1 - order**2 * (length / radius) + 0j)
+    return mass * (radius + length) ** 2 / _detune(radius, length, order)
 
 
 def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
     """Return the angle of a pendulum against its node for each rad of swing of the node, both
     small: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
     """
-    detuning = _away_from_zero(1 - order**2 * (length / radius) + 0j)
-    return np.asarray(order**2 * (1 + length / radius) / detuning, complex)
+    return order**2 * (1 + length / radius) / _detune(radius, length, order)
 
 
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
@@ -206,5 +205,7 @@ def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> floa
     return 2 * inertia * frequency / sqrt(2 * (1 + ratio) * (2 + ratio))
 
 
-def _away_from_zero(detuning: Complex) -> Complex:
+def _detune(radius: float, length: float, order: Real) -> Complex:
+    """Return `1 - n^2 L/R`, where it is not 0."""
+    detuning = 1 - order**2 * (length / radius) + 0j
     return np.where(np.abs(detuning) < _TUNED, _TUNED, detuning)

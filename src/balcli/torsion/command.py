@@ -24,53 +24,36 @@ def torsion(
         str,
         typer.Argument(
             metavar="FILE",
-            help="Engine file with [torsion], or a chain of inertias and shafts (TOML); - reads "
-            "standard input.",
+            help="Engine file with [torsion], or a chain of shafts; - reads standard input.",
             show_default=False,
         ),
     ],
     speeds: Annotated[
         str | None,
-        optional(
-            "A:B:STEP",
-            "Forced vibration at these speeds, rpm; or a list such as 1500,2000.",
-            "--speeds",
-            "--speed",
-        ),
+        optional("A:B:STEP", "Forced vibration at these speeds, rpm.", "--speeds", "--speed"),
     ] = None,
     orders: Annotated[
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
-            "to 32 of an engine, and that of firing.",
+            "Orders that excite; default: all of a chain, of an engine to 32 and that of firing.",
         ),
     ] = None,
     holzer: Annotated[
         list[str] | None,
-        optional(
-            "MODE|FREQUENCY",
-            'Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
-        ),
+        optional("MODE|FREQUENCY", 'Holzer table of a mode, or at "20 rad/s"; may be given again.'),
     ] = None,
     misfire: Misfire = None,
     damper: Annotated[
         Literal["viscous", "rubber", "pendulum"] | None,
-        typer.Option(
-            show_default=False,
-            help="Size a damper that makes the largest stress over --speeds least.",
-        ),
+        optional("KIND", "Size a viscous, rubber or pendulum damper for the least stress."),
     ] = None,
     damper_at: Annotated[
         str | None, optional("NAME", "Node that carries the damper; default: the foremost part.")
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional(
-            "KGMM2",
-            "Its ring, or its pendulums about the axis; default: that in the file, or a usual "
-            "share.",
-        ),
+        optional("KGMM2", "Of its ring or pendulums; default: the file's or a usual one."),
     ] = None,
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,

@@ -26,15 +26,14 @@ from ..core.vibration import Real
 from ..errors import BalcliError
 from ..file.edit import set_keys
 from ..file.fields import printable
-from ..file.messages import describe_finding
 from ..file.torsion_tables import Damper
 from ..process import Tell, tell_nobody
 from .build import NO_DAMPERS
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
-from .motion import move
-from .response import count_columns, find_largest
+from .motion import compute_curves
+from .response import find_largest
 from .system import TorsionalSystem
 
 # Figures of a damper: key in JSON, how many of the file's units are one SI unit, and its label.
@@ -47,9 +46,8 @@ DAMPER_KEYS = {
     "radius": ("radius_m", 1e3, "hung up at a radius of"),
     "length": ("length_m", 1e3, "length to the centre of mass"),
 }
-KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 RUBBER_LOSS = 0.15  # usual for damper rubber
-_FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
+FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 # of the mode's inertia at the node, where nothing says how heavy a damper is
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
@@ -131,17 +129,9 @@ class SizedDamper:
     before: Annotated[float, HIDDEN]
     after: Annotated[float, HIDDEN]
 
-    @property
-    def figure(self) -> str:
-        """Name of the figure that was sized."""
-        return _FIGURE[self.kind]
-
 
 def size_damper(
-    source: Source,
-    asked: DamperAsked,
-    speeds: Real,
-    tell: Tell = tell_nobody,
+    source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
 ) -> SizedDamper:
     """Return the damper that makes the largest stress of all shafts over speeds least.
 
@@ -161,8 +151,9 @@ def size_damper(
     place = bare.nodes.index(node)
     mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
-    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
-    figure, width = _FIGURE[first.kind], math.log(_WIDTH[first.kind])
+    radius = None if source.engine is None else float(source.engine.cylinders.radius)
+    first = _propose(asked, own, bare, place, mode, order, radius)
+    figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)
 
     def judge(damper: Damper | None) -> float:
@@ -206,14 +197,12 @@ def _find_carrier(
     """Return the name of the node that is to carry the damper, and the damper it has: the asked
     one, else the free end or the foremost that can.
     """
-    first = free_end if free_end in carriers else next(iter(carriers), None)
-    name = first if asked is None else asked
-    if name is None:
-        raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
+    first = free_end if free_end in carriers else next(iter(carriers), free_end)
+    name, able = asked or first, ", ".join(map(printable, carriers))
     if name not in carriers:
+        able = able or "nothing; give a part in [[torsion.front]]"
         raise BalcliError(
-            f'--damper-at "{printable(name)}": cannot carry a damper; what can is '
-            f"{', '.join(printable(each) for each in carriers)}"
+            f'--damper-at "{printable(name)}": cannot carry a damper; what can is {able}'
         )
     return name, carriers[name]
 
@@ -227,10 +216,9 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
         system: With an excitation.
         speeds: (speeds,) rising, rpm.
     """
-    columns, stress = np.zeros(count_columns(system)), system.stress_by_torque
-    shafts = len(stress) - (len(system.nodes) - 1 - system.last)
-    columns[:shafts] = stress[:shafts] if any(stress) else 1
-    rpm, value = find_largest(system, speeds, columns, together=True)
+    rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
+    weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
+    rpm, value = find_largest(system, speeds, weights, together=True)
     worst = int(value.argmax())
     return worst, float(rpm[worst]), float(value[worst])
 
@@ -268,7 +256,8 @@ def _find_mode_to_damp(
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
         worst, rpm, _ = _find_hardest(system, speeds)
-    by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
+    phasors, _ = compute_curves(system, np.array([rpm]))
+    by_order = np.abs(phasors[:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
     heavy = [_find_inertia_in(mode, system, node) for mode in modes]
@@ -315,8 +304,7 @@ def _propose(
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
             raise BalcliError(
-                "--damper pendulum: a chain has no crank radius for the pendulums; "
-                f"give {printable(system.nodes[node])} a radius, such as damper = "
+                "--damper pendulum: a chain has no crank radius; give the node a damper = "
                 '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
             )
         length = radius * (system.gears[node] / order) ** 2
@@ -326,12 +314,9 @@ def _propose(
         figures = {"kind": kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
     try:
         return Damper.model_validate(figures)
-    except ValidationError as error:
-        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
-        raise BalcliError(
-            f"--damper {kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
-            "check the units of inertias and stiffnesses"
-        ) from None
+    except ValidationError:
+        wrong = "the best damper is impossible; check the units of inertias and stiffnesses"
+        raise BalcliError(f"--damper {kind}: {wrong}") from None
 
 
 # ------------------------------------------------------------------ doubts
@@ -342,7 +327,7 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
-    sized = float(getattr(found.damper, found.figure))
+    sized = float(getattr(found.damper, FIGURES[found.kind]))
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
         yield (
@@ -357,10 +342,8 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
             f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
-        yield (
-            f"the best {found.figure} is at an end of the searched range, {1 / width:.2g} to "
-            f"{width:g} times the optimum for mode {found.mode} alone"
-        )
+        ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {found.mode} alone"
+        yield f"the best {FIGURES[found.kind]} is at an end of the searched range, {ends}"
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 from ..core.vibration import Real
 from ..engine.engine import Engine
@@ -18,7 +18,7 @@ from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.curves import silence
-from .build import build_chain, build_engine_system, excite_engine
+from .build import build_chain, build_engine_system, excite_engine, require_torsion
 from .read import describes_chain, read_chain_tables
 from .system import TorsionalSystem
 from .tables import ChainFile
@@ -27,12 +27,10 @@ _LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
 _THIN = 1.0  # mm
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """A chain or engine file that has been read.
 
     Attributes:
-        file: Name of the file.
         text: Text of the file; empty if nothing can be written into it.
         doubts: Warnings of figures that are allowed and yet unlikely.
         system: Function of dampers by the names of their nodes to the system that the file
@@ -42,42 +40,36 @@ class Source:
         engine: Engine of the file; None: it describes a chain.
     """
 
-    file: str
     text: bytes
     doubts: tuple[str, ...]
     system: Callable[[Mapping[str, Damper | None]], TorsionalSystem]
     dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
 
-    @property
-    def crank_radius(self) -> float | None:
-        """Half the stroke, m; None of a chain."""
-        return None if self.engine is None else float(self.engine.cylinders.radius)
-
 
 def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
     """Return the source of a chain file that has been read."""
-    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model)
+    losses = [(f"shaft.{k}.loss", shaft.loss) for k, shaft in enumerate(model.shaft, 1)]
+    damped = [(k, node.damper) for k, node in enumerate(model.node, 1) if node.damper]
+    losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
+    doubts = *doubt_losses([("loss", model.loss), *losses]), *_doubt_units(model)
     dampers = {node.name: node.damper for node in model.node}
-    return Source(name, text, doubts, partial(build_chain, model, name, orders), dampers)
+    return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
     """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
-    for number, node in enumerate(model.node, 1):
-        if node.inertia is not None and node.inertia < _LIGHT:
-            yield (
-                f"node.{number}.inertia of '{node.name}' is {node.inertia:.4g} kg mm^2; "
-                f"{ask_unit('kg mm^2', f'{node.inertia:.4g} kg m^2')}"
-            )
-    for number, shaft in enumerate(model.shaft, 1):
-        if shaft.diameter is not None and shaft.diameter < _THIN:
-            yield (
-                f"shaft.{number}.diameter is {shaft.diameter:.4g} mm; "
-                f"{ask_unit('mm', f'{shaft.diameter:.4g} m')}"
-            )
+    nodes, shafts = enumerate(model.node, 1), enumerate(model.shaft, 1)
+    inertias = [(f"node.{k}.inertia of '{node.name}'", node.inertia) for k, node in nodes]
+    diameters = [(f"shaft.{k}.diameter", shaft.diameter) for k, shaft in shafts]
+    kinds = (inertias, _LIGHT, "kg mm^2", "kg m^2"), (diameters, _THIN, "mm", "m")
+    for figures, least, unit, larger in kinds:
+        for path, value in figures:
+            if value is not None and value < least:
+                meant = ask_unit(unit, f"{value:.4g} {larger}")
+                yield f"{path} is {value:.4g} {unit}; {meant}"
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
@@ -89,7 +81,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         misfires: Numbers of an engine's cylinders without gas force.
 
     Raises:
-        BalcliError: The file cannot be read, or has mistakes.
+        BalcliError: The file cannot be read, or has mistakes; a misfire of an engine without gas,
+            or of a cylinder that the engine does not have.
     """
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
@@ -99,33 +92,21 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
-    made = make_source(model, build_named(model, name), name, orders, misfires)
-    return replace(made, text=text)
+    engine = build_named(model, name)
+    for number in misfires:
+        engine = silence(engine, number)
+    return make_source(model, engine, name, orders)._replace(text=text)
 
 
-def make_source(
-    model: EngineFile,
-    engine: Engine,
-    name: str,
-    orders: Real | None = None,
-    misfires: Sequence[int] = (),
-) -> Source:
+def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
     """Return the source of an engine file that has been read and built. It has no text, so that
     nothing can be written into it.
 
     Raises:
-        BalcliError: The file has no [torsion]; a misfire of an engine without gas, or of a cylinder
-            that the engine does not have.
+        BalcliError: The file has no [torsion].
     """
-    if model.torsion is None:
-        raise BalcliError(
-            f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
-            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
-        )
-    doubts = engine.unlikely
-    for number in misfires:
-        engine = silence(engine, number)
+    doubts, torsion = engine.unlikely, require_torsion(model, name)
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
-    parts = (*reversed(model.torsion.front), *model.torsion.rear)
-    return Source(name, b"", doubts, system, {part.name: part.damper for part in parts}, engine)
+    parts = (*reversed(torsion.front), *torsion.rear)
+    return Source(b"", doubts, system, {part.name: part.damper for part in parts}, engine)

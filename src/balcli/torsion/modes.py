@@ -6,7 +6,6 @@ Holzer's table: a torsional chain at one frequency, node by node, as in textbook
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -91,9 +90,8 @@ def chain_loss(
     twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
     moved = modes.shapes**2
     loss = chain.stiffness[elastic] * damping.loss[elastic]
-    lost = twist @ loss - modes.omega**2 * np.sum(
-        np.asarray(attached, complex).imag * moved, axis=1
-    )
+    felt = np.asarray(attached, complex).imag * moved
+    lost = twist @ loss - modes.omega**2 * felt.sum(axis=1)
     lost += modes.omega * (twist @ damping.dashpots[elastic] + moved @ damping.nodes)
     return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
 
@@ -148,8 +146,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class NaturalMode:
+class NaturalMode(NamedTuple):
     """Natural mode in which shafts twist.
 
     Attributes:
@@ -176,8 +173,7 @@ class NaturalMode:
         return 2 * np.pi * self.frequency_Hz
 
 
-@dataclass(frozen=True, kw_only=True)
-class Critical:
+class Critical(NamedTuple):
     """Speed at which an order excites a mode.
 
     Attributes:
@@ -252,26 +248,25 @@ def find_criticals(
         range_rpm: First and last speed, rpm; None: all speeds.
     """
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
-    found = []
-    for mode in modes:
-        speeds = mode.omega / orders
-        torque = np.diagonal(excitation.at(speeds), axis1=0, axis2=1).T  # (orders, sources)
-        moved, rpm = mode.shape[excitation.nodes], speeds / RPM
-        phasors = np.abs(torque @ moved)
-        counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
-        counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
-        total = phasors[counted].sum()
-        found += [
-            Critical(
-                mode=mode.number,
-                order=order_number(float(orders[k])),
-                speed_rpm=float(rpm[k]),
-                phase_sum=float(phasors[k] / np.abs(torque[k]).max()),
-                work_share=float(phasors[k] / total),
-                work=float(np.pi * phasors[k]),
-            )
-            for k in np.flatnonzero(counted)
-        ]
+    moved = np.array([mode.shape[excitation.nodes] for mode in modes])
+    moved = moved.reshape(len(modes), 1, len(excitation.nodes))
+    speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
+    torque = excitation.steady + excitation.growing * speeds[..., None] ** 2
+    phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
+    counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
+    counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
+    total = np.sum(phasors, axis=1, where=counted)
+    found = [
+        Critical(
+            mode=modes[m].number,
+            order=order_number(float(orders[k])),
+            speed_rpm=float(rpm[m, k]),
+            phase_sum=float(phasors[m, k] / np.abs(torque[m, k]).max()),
+            work_share=float(phasors[m, k] / total[m]),
+            work=float(np.pi * phasors[m, k]),
+        )
+        for m, k in np.argwhere(counted)
+    ]
     return tuple(sorted(found, key=lambda each: -each.work))
 
 
@@ -320,10 +315,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
-        raise ValueError(
-            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as "
-            "well, and leave the gear out"
-        )
+        raise ValueError("Holzer's table does not take gears that mesh with a fixed node")
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:
         if chain.clamped[node]:
@@ -343,6 +335,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     carried[stiff] = unit * solution[count:]
     total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
     for child, _, shaft, near, _ in branches:
-        total[child], stiffness[child] = near * carried[shaft], near**2 * chain.stiffness[shaft]
+        total[child] = near * carried[shaft]
+        stiffness[child] = near**2 * chain.stiffness[shaft]
     twist = np.divide(total, stiffness, out=np.zeros(count), where=stiffness > 0)
     return Holzer(angle, inertial * angle, total, stiffness, twist, float(total[last]))

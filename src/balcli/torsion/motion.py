@@ -8,6 +8,7 @@ rad/s and of any shape, nodes or shafts on the last axis. See `vibration`.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -92,8 +93,7 @@ def respond_chain(
             chain, carrying, *some, w[weak], singular[weak]
         )
         angle[find_still(chain)] = 0
-    moved, twisted = (part.T.reshape(*frequency.shape, len(part)) for part in (angle, torque))
-    return Twist(moved, twisted)
+    return Twist(*(part.T.reshape(*frequency.shape, len(part)) for part in (angle, torque)))
 
 
 def _find_flexibilities(
@@ -193,10 +193,12 @@ def _solve_dense(
     free, twist = ~chain.clamped[:, None], incidence(chain)[carrying] * ~chain.clamped
     nodes, diagonal = len(own), np.arange(len(own) + len(twist))
     matrix = np.zeros((len(w), len(diagonal), len(diagonal)), complex)
-    matrix[:, :nodes, nodes:], matrix[:, nodes:, :nodes] = twist.T, twist
+    matrix[:, :nodes, nodes:] = twist.T
+    matrix[:, nodes:, :nodes] = twist
     each = np.concatenate([np.where(free, own / scale, 1), -scale * flexible[carrying]])
     matrix[:, diagonal, diagonal] = each.T
-    right = np.pad(np.where(free, load / scale, 0), [(0, len(twist)), (0, 0)]).T
+    right = np.zeros((len(w), len(diagonal)), complex)
+    right[:, :nodes] = np.where(free, load / scale, 0).T
     solution = solve_equations(matrix, right, w, singular).T
     torque = np.zeros((len(chain.start), len(w)), complex)
     torque[carrying] = scale * solution[nodes:]
@@ -204,34 +206,14 @@ def _solve_dense(
 
 
 _EDGE = 1e-10  # share of a speed by which a resonance may lie beyond the range
-_AT_A_TIME = 1 << 20  # angles and torques by order, at all speeds, which bounds the memory
+_AT_A_TIME = 1 << 18  # angles and torques by order, at all speeds, which bounds the memory
 
 
-class ChainMotion(NamedTuple):
-    """Steady vibration by order, complex.
-
-    Attributes:
-        angle: (orders, speeds, nodes) rad.
-        torque: (orders, speeds, shafts) N m.
-        pendulums: (orders, speeds, pendulums) angles against their nodes, rad.
-        heat: (orders, speeds, dampers) power lost in dampers, W; rings in oil first, then rubber.
-    """
-
-    angle: Complex
-    torque: Complex
-    pendulums: Complex
-    heat: Real
-
-
-def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
-    """Return the vibration at speeds (speeds,), rpm.
-
-    Raises:
-        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
-    """
+def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
+    """Return curves and heat as of `compute_curves`."""
     excitation, speeds = system.require_excitation(), rpm * RPM
     w = frequencies(excitation.orders, speeds)
-    load = excitation.on_nodes(speeds, len(system.nodes))
+    load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
     attached = system.attached(w, np.broadcast_to(excitation.orders[:, None], w.shape))
     try:
         twist = respond_chain(system.chain, system.damping, w, load, attached)
@@ -244,7 +226,8 @@ def move(system: TorsionalSystem, rpm: Real) -> ChainMotion:
             "give a loss factor (loss = 0.02), or damping"
         ) from None
     swings = system.swing_pendulums(excitation.orders, twist.angle)
-    return ChainMotion(*twist, swings, _find_heat(system, w, *twist))
+    parts = twist.torque, twist.angle[:, :, system.ends[:1]], swings
+    return np.concatenate(parts, axis=-1), _find_heat(system, w, *twist).sum(axis=0)
 
 
 def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex) -> Real:
@@ -261,21 +244,27 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
     return np.concatenate([oil, rubber], axis=-1) / 2
 
 
+def compute_in_parts(system: TorsionalSystem, rpm: Real) -> Iterator[tuple[Complex, Real]]:
+    """Yield curves and heat, as of `compute_curves`, at some of the speeds after the others, which
+    bounds the memory.
+    """
+    work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
+    for some in np.array_split(rpm, len(rpm) * work // _AT_A_TIME + 1):
+        yield _move(system, some)
+
+
 def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     """Return torques, swings and the heat of dampers at speeds (speeds,), rpm.
 
     Returns:
         Phasors (orders, speeds, curves) of torques of all shafts (N m), the angle of the free end
-        and those of pendulums (rad), and heat (speeds, dampers), W.
+        and those of pendulums (rad), and heat (speeds, dampers), W; rings in oil first, then
+        rubber.
+
+    Raises:
+        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
-    work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
-    size = max(_AT_A_TIME // max(work, 1), 1)
-    curves, heat = [], []
-    for start in range(0, max(len(rpm), 1), size):
-        motion = move(system, rpm[start : start + size])
-        parts = motion.torque, motion.angle[:, :, system.ends[:1]], motion.pendulums
-        curves.append(np.concatenate(parts, axis=-1))
-        heat.append(motion.heat.sum(axis=0))
+    curves, heat = zip(*compute_in_parts(system, rpm), strict=True)
     return np.concatenate(curves, axis=1), np.concatenate(heat)
 
 
@@ -288,13 +277,10 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
             mode that is driven at its own frequency.
     """
     excitation = system.require_excitation()
-    orders, shafts = len(excitation.orders), len(system.shafts)
-    if orders * len(rpm) * shafts > MOST_TORSION_TORQUES:
-        raise BalcliError(
-            f"{orders} orders at {len(rpm)} speeds in {shafts} shafts are "
-            f"{orders * len(rpm) * shafts} torques, and at most {MOST_TORSION_TORQUES} are kept: "
-            "take fewer speeds or orders"
-        )
+    count = len(excitation.orders) * len(rpm) * len(system.shafts)
+    if count > MOST_TORSION_TORQUES:
+        text = f"{count} torques by order, speed and shaft, and at most {MOST_TORSION_TORQUES} are"
+        raise BalcliError(f"{text} kept: take fewer speeds or orders")
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
         return
@@ -310,4 +296,4 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
         met = met[(met >= rpm[0] * (1 - _EDGE)) & (met <= rpm[-1] * (1 + _EDGE))]
         if len(met):  # raises where the order drives the mode
             alone = excitation.only(np.array([order]))
-            move(replace(system, damping=none, rings=(), excitation=alone), met)
+            compute_curves(replace(system, damping=none, rings=(), excitation=alone), met)

@@ -109,8 +109,8 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
             style = (0, (1, 2)) if np.isinf(stiffness) else line
-            angles = mode.shape[[start, end]]
-            ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
+            ends = [start, end]
+            ax.plot(ends, mode.shape[ends], color=colour, linestyle=style, linewidth=1.4)
         label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
         ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
         ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
@@ -143,10 +143,9 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            label = f"{number(mode.frequency_Hz, 4)} Hz"
-            ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
-    excitation = result.system.excitation
-    orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
+            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz, 4)} Hz"
+            ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
+    orders = sorted({c.order for c in drawn}) or result.orders or ()
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
     for order in orders:
         end = min(top, 60 * ceiling / order)
@@ -172,10 +171,9 @@ def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: Sys
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
     with a diameter where the file limits it.
     """
-    limit = result.system.limit_pa
-    by_torque: Real = np.ones(len(result.shafts))
-    if by_stress := limit is not None and any(result.system.stress_by_torque):
-        by_torque = result.system.stress_by_torque
+    limit, stress = result.system.limit_pa, result.system.stress_by_torque
+    by_stress = limit is not None and any(stress)
+    by_torque: Real = stress if by_stress else np.ones(len(stress))
     values = curves.swings[:, : len(by_torque)] * by_torque
     peaks = values.max(axis=0)
     unit = (system.stress if by_stress else system.moment).fit(peaks.max())

@@ -16,9 +16,9 @@ from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
 from ..forces.quantity import TargetQuantity, refuse_stranger
-from .build import build_engine_system, excite_engine
+from .build import build_engine_system, excite_engine, require_torsion
 from .modes import find_chain_modes
-from .response import count_columns, find_largest
+from .response import find_largest
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
@@ -42,10 +42,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         BalcliError: The quantity does not exist; the error lists those there are.
         InputError: contradictions in [torsion].
     """
-    if model.torsion is None:
-        raise BalcliError(
-            f"{quantities[0].name}: the file has no [torsion]; see balcli torsion --help"
-        )
+    require_torsion(model, quantities[0].name)
     system = _build(model)
     modes = [str(number) for number, _ in enumerate(_find_frequencies(system), 1)]
     for q in quantities:
@@ -82,11 +79,18 @@ class Variants:
         )
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
-        frequencies = _find_frequencies(system)
-        speeds = choose_speeds(engine, values, choose_torsion_speeds)
-        largest = _find_largest(system, speeds, self._quantities)
+        frequencies, shafts = _find_frequencies(system), system.shafts
+        looked_at = {q.target for q in self._quantities if q.kind == "shaft"}
+        torques: Real = np.zeros(len(shafts))
+        if looked_at:
+            speeds = choose_speeds(engine, values, choose_torsion_speeds)
+            weights = np.isin(shafts, list(looked_at)).astype(float)
+            _, torques = find_largest(system, speeds, weights)
+        largest = {"torque": torques, "stress": torques[: len(shafts)] * system.stress_by_torque}
         return [
-            largest[q] if q.kind == "shaft" else float(frequencies[int(q.target) - 1])
+            float(frequencies[int(q.target) - 1])
+            if q.kind == "torsion"
+            else float(largest[q.part][shafts.index(q.target)])
             for q in self._quantities
         ]
 
@@ -95,21 +99,6 @@ def _find_frequencies(system: TorsionalSystem) -> Real:
     """Return the natural frequencies of the modes in which shafts twist, Hz, lowest first."""
     modes = find_chain_modes(system.chain)
     return np.asarray(modes.omega[modes.rigid :] / (2 * np.pi))
-
-
-def _find_largest(
-    system: TorsionalSystem, speeds: Real, quantities: Sequence[TargetQuantity]
-) -> dict[TargetQuantity, float]:
-    """Return torque and stress of shafts, those quantities that are one of them."""
-    places = {q: system.shafts.index(q.target) for q in quantities if q.kind == "shaft"}
-    if not places:
-        return {}
-    weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
-    _, largest = find_largest(system, speeds, weights)
-    return {
-        q: float(largest[shaft] * (system.stress_by_torque[shaft] if q.part == "stress" else 1))
-        for q, shaft in places.items()
-    }
 
 
 def choose_torsion_speeds(engine: Engine) -> Real:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,12 +21,11 @@ from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, refuse_unbounded
+from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
 _ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_AT_ONCE = 256  # speeds
 _NEAR = 0.9  # of the largest value at the speeds looked at: a peak beside them may exceed this
 
 
@@ -41,56 +41,40 @@ def find_largest(
     Args:
         system: With an excitation.
         rpm: (speeds,) rising.
-        weights: (columns,) factor of each column; 0: it is not looked at. Default: 1.
+        weights: Factors of the first columns; those without a factor, or with 0, are not looked
+            at. Default: 1 for all.
         together: whether only the highest of all columns is wanted, which takes less time.
 
     Raises:
         BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
-    orders, columns = system.require_excitation().orders, np.arange(count_columns(system))
+    orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
+    parts = compute_in_parts(system, speeds)
+    heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
+    columns = np.arange(heights.shape[1])
     weights = np.ones(len(columns)) if weights is None else weights
+    factors = np.pad(weights, (0, len(columns) - len(weights)))
 
     def judge(at: Real, which: Indices) -> Real:
         """Return the values at speeds, each of one of the columns."""
         speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
         rpm, point = np.unique(speeds, return_inverse=True)
         phasors, heat = compute_curves(system, rpm)
-        values, swings, count = np.zeros(len(speeds)), column < phasors.shape[2], phasors.shape[2]
+        values, count = np.zeros(len(speeds)), phasors.shape[2]
+        swings = column < count
         curves = phasors[:, point[swings], column[swings]]
         values[swings] = find_swing(orders, curves).half
         values[~swings] = heat[point[~swings], column[~swings] - count]
-        return (values * weights[column]).reshape(at.shape)
+        return (values * factors[column]).reshape(at.shape)
 
-    speeds = _add_resonances(system, rpm)
-    heights = _sum_amplitudes(system, speeds) * weights  # the values are at most so high
+    heights *= factors  # the values are at most so high
     level = judge(speeds[heights.argmax(axis=0)], columns)
-    near = np.nonzero((heights > 0) & (heights >= _NEAR * _join(level, together)))
+    least = _NEAR * (level.max() if together else level)
+    near = np.nonzero((heights > 0) & (heights >= least))
     heights[near] = judge(speeds[near[0]], near[1])
-    return find_highest(judge, speeds, heights, _join(heights.max(axis=0), together), _NEAR)
-
-
-def _sum_amplitudes(system: TorsionalSystem, speeds: Real) -> Real:
-    """Return the columns of `find_largest` at speeds, of curves the sum of the amplitudes of all
-    orders, (speeds, columns).
-    """
-    parts = (compute_curves(system, speeds[some]) for some in _split(len(speeds)))
-    return np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
-
-
-def _split(count: int) -> list[Indices]:
-    """Return the places of so many speeds in parts, which bounds the memory."""
-    return np.array_split(np.arange(count), count // _AT_ONCE + 1)
-
-
-def _join(level: Real, together: bool) -> Real:
-    """Return the level (columns,) that a value has to reach."""
-    return np.full(len(level), level.max(initial=0)) if together else level
-
-
-def count_columns(system: TorsionalSystem) -> int:
-    """Return the number of columns of `find_largest`."""
-    return len(system.shafts) + 1 + len(system.pendulums) + len(system.dampers)
+    level = heights.max() if together else heights.max(axis=0)
+    return find_highest(judge, speeds, heights, level, _NEAR)
 
 
 def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
@@ -112,8 +96,7 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     return np.unique(np.clip(np.append(rpm, about), rpm[0], rpm[-1]))
 
 
-@dataclass(frozen=True)
-class OrderTorque:
+class OrderTorque(NamedTuple):
     """Torque of one order.
 
     Attributes:
@@ -166,8 +149,7 @@ class ShaftResponse:
     worst: WorstTorque
 
 
-@dataclass(frozen=True)
-class WorstSwing:
+class WorstSwing(NamedTuple):
     """Largest swing over the range of speeds, between the speeds as well.
 
     Attributes:
@@ -179,8 +161,7 @@ class WorstSwing:
     half_swing_deg: float
 
 
-@dataclass(frozen=True)
-class WorstHeat:
+class WorstHeat(NamedTuple):
     """Largest power that a damper turns to heat, over the range of speeds.
 
     Attributes:
@@ -192,8 +173,7 @@ class WorstHeat:
     heat_W: float
 
 
-@dataclass(frozen=True, eq=False)
-class DamperHeat:
+class DamperHeat(NamedTuple):
     """Power that a damper turns to heat.
 
     Attributes:
@@ -207,8 +187,7 @@ class DamperHeat:
     worst: WorstHeat
 
 
-@dataclass(frozen=True, eq=False)
-class PendulumSwing:
+class PendulumSwing(NamedTuple):
     """Swing of pendulums against their node.
 
     Attributes:
@@ -258,11 +237,11 @@ def find_response(
     """
     refuse_unbounded(system, speeds_rpm)
     orders, end = system.require_excitation().orders, len(system.shafts)
-    phasors, heat = compute_curves(system, speeds_rpm)
-    swings, sums = np.zeros(phasors.shape[1:]), sum_amplitudes(phasors)
-    for some in _split(len(swings)):
-        swings[some] = find_swing(orders, phasors[:, some]).half
-        tell((some[-1] + 1) / len(swings))
+    found = []
+    for phasors, lost in compute_in_parts(system, speeds_rpm):
+        found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
+        tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
+    swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
     at, value = find_largest(system, speeds_rpm)
     there, _ = compute_curves(system, at[:end])
     by_order = np.abs(there[:, range(end), range(end)])  # of each shaft where it is largest
@@ -289,7 +268,7 @@ def find_response(
         PendulumSwing(system.nodes[each.node], degrees[:, k], worst_swings[k])
         for k, each in enumerate(system.pendulums, end + 1)
     )
-    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[phasors.shape[2] :]
+    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
     names = (name.removesuffix(" ring") for name in system.dampers)
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
@@ -326,10 +305,10 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     def measure(some: Real) -> Real:
         """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
         found = []
-        for part in _split(len(some)):
-            curves = compute_curves(system, some[part])[0][:, :, : len(weights)] * weights
+        for phasors, _ in compute_in_parts(system, some):
+            curves = phasors[:, :, : len(weights)] * weights
             speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
-            highest = np.zeros(len(part))
+            highest = np.zeros(curves.shape[1])
             np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
             found.append(highest)
         return np.concatenate(found)

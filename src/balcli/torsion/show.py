@@ -18,14 +18,13 @@ from ..show.formats import Renderer
 from ..show.sheet import Facts, Grid, Sheet, Text, assumed_facts, number, order_name, size_text
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
-from .dampers import DAMPER_KEYS, SizedDamper
+from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import ShaftResponse, TorsionResponse
 from .system import TorsionalSystem
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
-_MOST_LISTED = 8  # orders of the excitation: of more the first and the last are named
-_MOST_BARE = 8  # shafts without a diameter that are named
+_MOST_LISTED = 8  # orders of the excitation, shafts without a diameter
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
 
 
@@ -45,8 +44,8 @@ class Line(NamedTuple):
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Return CSV: one figure a row."""
-    lines, units = _list_lines(to_document(result)), _choose_units(system)
-    return Rows(Line._fields, lines if system == SI else (_convert(line, units) for line in lines))
+    units = {} if system == SI else _choose_units(system)
+    return Rows(Line._fields, (_convert(line, units) for line in _list_lines(to_document(result))))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
@@ -144,9 +143,8 @@ def _list_response(response: Node) -> Iterator[Line]:
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Return the sheet: modes first, then the requested parts."""
-    parts: list[Grid | Facts | Text] = []
-    if silent := list_silent(result.system.silent):
-        parts.append(Facts(tuple(silent)))
+    silent = tuple(list_silent(result.system.silent))
+    parts: list[Grid | Facts | Text] = [Facts(silent)] if silent else []
     parts += assumed_facts(result.assumed)
     if result.damper is not None:
         parts.append(_show_damper(result.damper, system))
@@ -158,11 +156,7 @@ def sheet(result: TorsionAnalysis, system: System) -> Sheet:
         parts.append(_show_response(result, result.response, system))
         if limits := tuple(_judge_limits(result, system)):
             parts.append(Facts(limits, "Limits"))
-    return Sheet(f"{_name(result)}: torsion", tuple(parts))
-
-
-def _name(result: TorsionAnalysis) -> str:
-    return result.name or "shafts without a name"
+    return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
@@ -181,7 +175,7 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
         (figure,) = list_figures({name: value})
         shown = units.get(figure.unit, ShownUnit("", 1)).fit(value)
         text = size_text(value, shown, 6).rstrip()
-        if key == sized.figure:
+        if key == FIGURES[sized.kind]:
             alone = number(shown.of(sized.start / size))
             text += f" (best for mode {sized.mode} alone: {alone})"
         pairs.append((label, text))
@@ -208,8 +202,7 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
         for mode in result.modes
     )
     note = "Node in: the shafts whose ends turn against each other."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}."
+    note += _name_left_out(result.system, ".")
     heads = ("mode", "Hz", "1/min", "nodes", "node in")
     return Grid("Natural modes", heads, rows, note, words=(0, 4))
 
@@ -256,8 +249,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 def _name_scope(result: TorsionAnalysis) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
     rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}, which shift them."
+    note += _name_left_out(result.system, ", which shift them.")
     if result.response is not None:
         return note
     note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
@@ -271,10 +263,10 @@ def _list_orders(orders: Sequence[float]) -> str:
     return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
 
 
-def _list_left_out(system: TorsionalSystem) -> str:
+def _name_left_out(system: TorsionalSystem, end: str) -> str:
     """Return the dampers that modes and criticals are without."""
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
-    return " and ".join(dampers)
+    return f" Without {' and '.join(dampers)}{end}" if dampers else ""
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
@@ -289,8 +281,8 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
             number(_settle(row.angle, angles), 6),
             number(unit.of(_settle(row.torque_Nm, torques))),
             number(unit.of(_settle(row.sum_Nm, torques))),
-            _show_stiffness(stiffness.of(row.stiffness_Nm_per_rad)),
-            number(row.twist, 4) if row.stiffness_Nm_per_rad else "–",
+            number(stiffness.of(row.stiffness_Nm_per_rad or math.nan)).replace("inf", "rigid"),
+            number(row.twist if row.stiffness_Nm_per_rad else math.nan, 4),
         )
         for row in table.rows
     )
@@ -307,10 +299,6 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     )
 
 
-def _show_stiffness(value: float) -> str:
-    return "rigid" if math.isinf(value) else number(value) if value else "–"
-
-
 def _settle(value: float, others: Sequence[float]) -> float:
     """Return an angle or torque, 0 where it is a rounding error of others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
@@ -319,20 +307,20 @@ def _settle(value: float, others: Sequence[float]) -> float:
 def _show_response(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Grid | Text:
-    span, swings = _name_span(response.speeds_rpm), _describe_swings(result, response)
+    span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
     if not response.shafts:
-        return Text(f"Vibration, {span}", (swings,))
+        return Text(f"Vibration, {span}", (worst,))
     unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
     stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
     rows = []
     for shaft in response.shafts:
-        worst = shaft.worst
-        known = math.nan if worst.stress_Pa is None else worst.stress_Pa
+        most = shaft.worst
+        known = math.nan if most.stress_Pa is None else most.stress_Pa
         cells = [
             shaft.name,
-            number(unit.of(worst.half_peak_to_peak_Nm)),
-            number(worst.speed_rpm),
-            number(unit.of(worst.sum_of_amplitudes_Nm)),
+            number(unit.of(most.half_peak_to_peak_Nm)),
+            number(most.speed_rpm),
+            number(unit.of(most.sum_of_amplitudes_Nm)),
             *[number(stress.of(known), 4)] * stressed,
         ]
         rows.append((*cells, _name_orders(shaft, unit)))
@@ -340,15 +328,8 @@ def _show_response(
     heads += [*[stress.name] * stressed, "largest orders"]
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {swings}"
+        f"do not peak together. {worst}{_name_gas(result, ' Gas as in the file at every speed.')}"
     )
-    note += _name_gas(result, " Gas as in the file at every speed.")
-    for damper in response.dampers or ():
-        note += (
-            f" The damper of {damper.node} turns up to "
-            f"{size_text(damper.worst.heat_W, system.heat)} to heat, at "
-            f"{number(damper.worst.speed_rpm)} rpm."
-        )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
 
@@ -367,15 +348,15 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
     return where_counted if excitation.steady.any() else alone
 
 
-def _describe_swings(result: TorsionAnalysis, response: TorsionResponse) -> str:
-    """Return the largest swing of the free end and of pendulums, and where."""
-    parts = [(result.system.free_end, "swings", response.free_end_worst)]
-    for each in response.pendulums or ():
-        parts.append((f"The pendulums of {each.node}", "swing", each.worst))
-    return " ".join(
-        f"{name} {verb} by ±{number(worst.half_swing_deg, 4)} deg at {number(worst.speed_rpm)} rpm."
-        for name, verb, worst in parts
-    )
+def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
+    """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
+    swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
+    swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
+    parts = [(f"{what} by ±{number(w.half_swing_deg, 4)} deg", w.speed_rpm) for what, w in swings]
+    for each in response.dampers or ():
+        heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
+        parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))
+    return " ".join(f"{what} at {number(speed)} rpm." for what, speed in parts)
 
 
 def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
@@ -401,13 +382,10 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
     if limits:
         yield "limit", " and ".join(limits)
     if result.barred_rpm is not None:
-        text = ", ".join(map(_name_span, result.barred_rpm)) or "none in this range"
-        own = system.rated_rpm or 0.0
-        if any(low <= own <= high for low, high in result.barred_rpm):
-            text += f"; the file's own speed, {number(own)} rpm, is barred"
-        yield "barred speeds", text
+        spans = ", ".join(map(_name_span, result.barred_rpm))
+        yield "barred speeds", spans or "none in this range"
     if bare:
-        named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
+        named = ", ".join(bare[:_MOST_LISTED]) + ", ..." * (len(bare) > _MOST_LISTED)
         yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 

@@ -53,10 +53,6 @@ class Excitation(NamedTuple):
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
-    def on_nodes(self, speeds: Real, count: int) -> Complex:
-        """Return the torques added up node by node, (orders, speeds, nodes)."""
-        return self.at(speeds) @ np.equal.outer(self.nodes, np.arange(count))
-
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
@@ -166,8 +162,8 @@ class TorsionalSystem:
         """Angles of pendulums against their nodes (orders, speeds, pendulums), where these swing by
         `angle` (orders, speeds, nodes) at orders (orders,) of the reference.
         """
-        found = np.zeros((*angle.shape[:2], len(self.pendulums)), complex)
-        for k, swung in enumerate(self.pendulums):
+        found = [angle[..., :0]]
+        for swung in self.pendulums:
             ratio = pendulum_swing(swung.radius, swung.length, orders / self.gears[swung.node])
-            found[..., k] = ratio[:, None] * angle[..., swung.node]
-        return found
+            found.append((ratio[:, None] * angle[..., swung.node])[..., None])
+        return np.concatenate(found, axis=-1)
