@@ -93,9 +93,11 @@ def report_mounts(
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
-    of_engine = (engine and engine.list_assumed("gas", without=idle)) or ()
-    of_others = ((label, each.list_assumed("gas", without=idle)) for label, each in others)
-    told = (f"{label}: {tell_assumed(lines)}" for label, lines in of_others if lines)
+    assumed = [*((engine and engine.list_assumed("gas", without=idle)) or ())]
+    assumed += choose_assumed(list_chapter_defaults(model), _OF_BODY)
+    for label, each in others:
+        if lines := each.list_assumed("gas", without=idle):
+            assumed.append(f"{label}: {tell_assumed(lines)}")
     response = found.pop(0) if found else None
     forces, travel = settle(mounted, response.loads.mean if response else 0.0)
     rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
@@ -106,8 +108,7 @@ def report_mounts(
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
     return MountReport(
         name=title,
-        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
-        or None,
+        assumed=tuple(assumed) or None,
         modes=tuple(
             mode._replace(meets=tuple(one for n, one in meetings if n == k))
             for k, mode in enumerate(modes.each)

@@ -139,14 +139,11 @@ def find_mounting_faults(
     for key, tables in lists.items():
         if len(tables) > MOST_MOUNTS:
             yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
-        met: dict[str, int] = {}
-        for number, table in enumerate(tables if key in legible else (), 1):
-            if (first := met.setdefault(table.name, number)) != number:
-                message = (
-                    f"{shorten(printable(table.name))} is also the name of {key}.{first}; each "
-                    "needs one of its own"
-                )
-                yield Problem(f"{key}.{number}.name", message)
+        names = [table.name for table in tables if key in legible]
+        for number, name in enumerate(names, 1):
+            if (first := names.index(name) + 1) < number:
+                text = f"{shorten(printable(name))} is also the name of {key}.{first}"
+                yield Problem(f"{key}.{number}.name", f"{text}; each needs one of its own")
 
 
 # ------------------------------------------------------------------ equations of motion

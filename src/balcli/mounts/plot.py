@@ -13,7 +13,6 @@ import numpy as np
 from ..show.plot_style import (
     BLUE,
     FAINT,
-    INK,
     MANY_LOOKS,
     PAPER,
     RED,
@@ -92,19 +91,13 @@ def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> Non
         width = np.maximum(_WIDEST * force / largest, _THINNEST)
         ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
         ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
-        inside = np.flatnonzero(hertz < 0.97 * highest)
-        if len(inside):
-            place = (rpm[inside[-1]], hertz[inside[-1]])
-            ax.text(*place, f" {order_name(order)}", color=INK, va="bottom")
+        end = min(rpm[-1], 0.97 * highest * 60 / order)
+        ax.text(end, order * end / 60, f" {order_name(order)}", va="bottom", clip_on=True)
     for mode in result.modes:
         ax.axhline(mode.frequency_Hz, color=RED, linewidth=0.8)
-    ax.set(
-        xlim=(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1),
-        ylim=(0, highest),
-        title="Orders (blue) meet modes (red)",
-        xlabel=f"rpm; width: force of {fit_name(mount.name, 20)}",
-        ylabel="Hz",
-    )
+    ax.set(xlim=(rpm[0], max(rpm[-1], rpm[0] + 1)), ylim=(0, highest), ylabel="Hz")
+    ax.set_xlabel(f"rpm; width: force of {fit_name(mount.name, 20)}")
+    ax.set_title("Orders (blue) meet modes (red)")
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:

@@ -38,13 +38,7 @@ def parse_quantity(text: str) -> TargetQuantity:
     Raises:
         BalcliError: There is no such quantity.
     """
-    found = parse_target_quantity(text, _SUBJECTS)
-    if found.kind == "mode" and found.target not in _MODES:
-        raise BalcliError(
-            f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
-            f"{', '.join(_MOTIONS)}"
-        )
-    return found
+    return parse_target_quantity(text, _SUBJECTS)
 
 
 def list_names(model: EngineFile) -> Iterator[str]:

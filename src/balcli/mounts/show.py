@@ -103,21 +103,12 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
     for kind in kinds[1:]:
         place = kind.find_highest(response)
         yield f"Largest motion: {kind.tell_worst(place)} at point {place.name}."
-    orders = [order_name(order) for order in response.orders]
-    speeds = [number(speed, 4) for speed in response.speeds_rpm]
-    yield (
-        f"Orders included: {_tell_range(orders)}, {len(orders)} in all; "
-        f"speed{'s' * (len(speeds) > 1)}: {_tell_range(speeds)} rpm."
-    )
+    yield f"Orders included: {', '.join(map(order_name, response.orders))}."
     yield (gas := _tell_gas(response))
     for other in result.beside:
         changes = "; ".join(_compare(response, other.response, kind) for kind in kinds)
         other_gas = _tell_gas(other.response)
         yield f"With {other.name} {changes}." + f" {other_gas}" * (other_gas != gas)
-
-
-def _tell_range(values: Sequence[str]) -> str:
-    return " to ".join(dict.fromkeys((values[0], values[-1])))
 
 
 def _tell_gas(response: BodyResponse) -> str:
@@ -292,10 +283,9 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
         for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
             yield *head, f"force {axis}", clean(force.unit.of(own)), force.unit.name
             yield *head, f"travel {axis}", clean(motion.unit.of(travel)), motion.unit.name
-    labels = [] if result.response is None else [""]
-    labels += [] if result.fitted is None else ["with scheme "]
+    labels = ["", *["with scheme "] * (result.fitted is not None)]
     labels += [f"{name_cell(other.name)}: " for other in result.others or ()]
-    for label, response in zip(labels, result.responses, strict=True):
+    for label, response in zip(labels, result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
         for kind in (force, motion):
