@@ -159,7 +159,7 @@ def analyze_mounts(
         >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    beside = {} if others is None else others
+    beside = others or {}
     check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
@@ -175,5 +175,5 @@ def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
         return take_model(source), source, ""
     wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
     tables, name = take_tables("analyze_mounts", source, wanted)
-    found = check_mounted(check_tables(tables, Path(name).parent, name, bare=True), name)
-    return found.model, found.engine, name
+    draft = check_tables(tables, Path(name).parent, name, bare=True)
+    return (*check_mounted(draft, name)[:2], name)

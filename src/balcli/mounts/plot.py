@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, FigureBase
 
+    from ..show.plot_style import Look
+
 
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
 _SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
@@ -46,14 +48,12 @@ def make_mounts(result: MountReport, system: System) -> Figure:
         if response is not None:
             (upper,), (lower,) = fig.subfigures(2, 1, squeeze=False, height_ratios=(2.1, 1))
             meet = any(mode.meets for mode in result.modes)
-            count = 1 + meet + bool(response.points)
-            axes = iter(upper.subplots(1, count, squeeze=False)[0])
-            force, motion = list_kinds(system)
-            _draw_curves(next(axes), result, force)
+            kinds = list_kinds(system)[: 1 + bool(response.points)]
+            axes = upper.subplots(1, len(kinds) + meet, squeeze=False)[0]
+            for ax, kind in zip(axes, kinds, strict=False):
+                _draw_curves(ax, result, kind)
             if meet:
-                _draw_meetings(next(axes), result, response)
-            if response.points:
-                _draw_curves(next(axes), result, motion)
+                _draw_meetings(axes[-1], result, response)
         for k, (ax, mode) in enumerate(zip(lower.subplots(1, 6), result.modes, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
@@ -67,14 +67,10 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
     for label, response in zip(labels, result.responses, strict=True):
         looks = zip(kind.places(response), MANY_LOOKS, strict=False)
         for (name, _, peak, _), (line, colour) in looks:
-            ax.plot(
-                response.speeds_rpm,
-                peak / kind.unit.size,
-                color=colour,
-                linestyle="-." if label else line,
-                linewidth=1.0 if label else 1.8,
-                label=f"{fit_name(name, 20)}{label}",
-            )
+            look: Look = {"color": colour, "linestyle": "-." if label else line}
+            width, shown = 1.0 if label else 1.8, f"{fit_name(name, 20)}{label}"
+            heights = peak / kind.unit.size
+            ax.plot(response.speeds_rpm, heights, label=shown, linewidth=width, **look)
     ax.set_ylim(bottom=0)
     title = "Force of each mount" if kind.part == "mount" else "Motion of points"
     ax.set(xlabel="rpm", ylabel=f"{kind.unit.name}, all orders", title=title)

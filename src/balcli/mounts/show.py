@@ -79,8 +79,8 @@ def sheet(result: MountReport, system: System) -> Sheet:
         kinds = (force, motion) if response.points else (force,)
         parts.append(Text("Forces on the frame", tuple(_answer(result, response, kinds))))
         parts += [_grid_worst(result, kind) for kind in kinds]
-    length = motion.unit
-    parts += [_grid_modes(result), _tell_body(result, length), _grid_rest(result, system, length)]
+    parts += [_grid_modes(result), _tell_body(result, motion.unit)]
+    parts.append(_grid_rest(result, system, motion.unit))
     if response is not None:
         if any(mode.meets for mode in result.modes):
             parts += [_grid_meetings(result)]
@@ -134,8 +134,8 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     mode = result.modes[k]
     named = f"mode {k + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
     if met:
-        at = f"{number(met.speed_rpm, 4)} rpm"
-        return f"Order {order_name(met.order)} meets {named} at {at}: resonance."
+        order, at = order_name(met.order), number(met.speed_rpm, 4)
+        return f"Order {order} meets {named} at {at} rpm: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"That is the {end} speed of the range; most of the force is {named}."
@@ -209,15 +209,14 @@ def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
 def _grid_meetings(result: MountReport) -> Grid:
     met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
     every = sorted({order for each in met for order in each})
-    orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
     columns = [
         ("mode", [str(k) for k, _ in enumerate(met, 1)]),
         ("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
     ]
-    for order in orders:
+    for order in every[:_COLUMNS]:
         speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
         columns.append((f"order {order_name(order)}", speeds))
-    note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
+    note = "JSON has all orders." if len(every) > _COLUMNS else ""
     return Grid.of_columns("Where orders meet modes, rpm", columns, note)
 
 
