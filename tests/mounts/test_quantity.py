@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_csv, ask_json, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal
 from support.mounts import ENGINE, block
 from support.paths import write
 
@@ -108,14 +108,6 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
     told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
     assert told.startswith('mount.lef.force: the file has no mount "lef"')
-
-
-@pytest.mark.stress
-def test_normal_deviations_of_mounts(four):
-    args = ("-q", "mode.1.Hz,mount.left.force", "--samples", "20", "--seed", "1")
-    out = run_here("scatter", four, *args, "--distribution", "normal").out
-    assert "Spread of 20 random sets of mounts" in out
-    assert "normal" in out
 
 
 # ------------------------------------------------------------------ with gas

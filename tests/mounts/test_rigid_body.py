@@ -7,7 +7,7 @@ import pytest
 from support import high_precision
 from support.rigid_bodies import apply_couplings, respond_body
 
-from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies, modal_loss
+from balcli.core.vibration import frequencies
 from balcli.mounts.rigid_body import (
     Body,
     Mounts,
@@ -213,31 +213,3 @@ def test_forces_balance_and_power_too(loss, damping):
     lost = w / 2 * np.sum(forces * travel.conj(), axis=(1, 2)).imag
     assert fed == pytest.approx(lost, rel=1e-9)
     assert np.all(lost > 0)
-
-
-def test_soft_mounts_leave_a_free_body():
-    mounts = mounts_of(3)
-    soft = mounts._replace(stiffness=1e-12 * mounts.stiffness)
-    load, w = random_load(7), 100.0
-    motion = respond_body(BODY, soft, w, load).motion
-    assert -(w**2) * mass_matrix(BODY) @ motion == pytest.approx(load, rel=1e-8)
-
-
-def test_undamped_resonance_is_an_error_with_its_frequency():
-    mounts = mounts_of(3)
-    modes = find_body_modes(BODY, mounts)
-    with pytest.raises(UndampedResonanceError) as at:
-        respond_body(BODY, mounts, modes.omega[2:3], random_load(10, 1))
-    assert at.value.frequency == pytest.approx(modes.omega[2])
-
-
-def test_undamped_resonances_between_speeds_and_what_damping_does():
-    orders, speeds, load = np.array([1.0]), np.array([1.0, 500]), random_load(11)
-    counts = []
-    for loss in (0, 0.05):
-        mounts = mounts_of(3, loss=loss)
-        modes = find_body_modes(BODY, mounts)
-        lost = modal_loss(modes, stiffness_matrix(BODY, mounts), damping_matrix(BODY, mounts))
-        assert lost == pytest.approx(np.full(6, loss), abs=1e-15)
-        counts.append(len(find_resonances(modes, lost, orders, speeds, load)))
-    assert counts == [6, 0]
