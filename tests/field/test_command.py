@@ -12,7 +12,7 @@ import tomllib
 import pytest
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.paths import write
-from support.rotors import three_runs
+from support.rotors import run, three_runs
 
 from balcli.field.read import parse_runs
 from balcli.file.examples import template
@@ -247,22 +247,8 @@ def test_readings_at_several_speeds_are_of_no_one_run():
     """A correction was tried at 1500 rpm alone: at 3000 rpm the rotor was last read as found."""
     text = 'planes = ["disc"]\n'
     for speed, scale in ((1500, 1), (3000, 4)):
-        text += f"""
-            [[run]]
-            speed = {speed}
-            readings = ["{5 * scale} @ 0"]
-            [[run]]
-            speed = {speed}
-            readings = ["{7 * scale} @ 0"]
-            weights = {{ disc = "2 @ 0" }}
-            """
-    text += """
-        [[run]]
-        name = "trim"
-        speed = 1500
-        readings = ["1 @ 0"]
-        weights = { disc = "4 @ 180" }
-        """
+        text += run([5 * scale], [], f"speed = {speed}") + run([7 * scale], [("disc", 2)], f"speed = {speed}")
+    text += run([1], [("disc", -4)], 'speed = 1500\nname = "trim"')
     out = run_here("field", "-", stdin=text).out
     assert re.search(r"\nreading +as found +at, deg +last read +at, deg +after", out)
     assert re.search(r"\nsensor 1, 3000 rpm +20 +0\.0 +20 +0\.0 +0 ", out)

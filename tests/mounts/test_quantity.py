@@ -54,15 +54,6 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         assert row["force.2.major"] > 1000
 
 
-def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
-    rows = sweep(four, "--vary", "rod.length=130,180", "-q", "mount.left.force")
-    for row in rows:
-        text = NAMED.replace("length = 150", f"length = {row['rod.length']}")
-        said = said_by(tmp_path / "one.toml", text)
-        largest = said["response"]["mounts"][0]["worst"]["force_N"]
-        assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
-
-
 @cases("mounts/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(four, quantity, message):
     told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)

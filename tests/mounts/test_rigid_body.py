@@ -59,25 +59,15 @@ def test_axes_from_two_or_from_angles():
     assert turn_axes(0.1, 0.2, 0.3) == pytest.approx(one_by_one)
 
 
-def test_points_move_with_the_body():
-    motion = np.array([1, 2, 3, 0.1, 0.2, 0.3])
-    point = CENTRE + np.eye(3)[0]
+def test_points_move_with_the_body_and_their_forces_are_its_load():
+    motion, point = np.array([1, 2, 3, 0.1, 0.2, 0.3]), CENTRE + np.eye(3)[0]
     assert apply_couplings(carry_points([point], CENTRE), motion)[0] == pytest.approx([1, 2 + 0.3, 3 - 0.2])
-
-
-def test_forces_at_points_make_loads():
-    """The transposed matrix is force and moment about the centre."""
-    points = np.random.default_rng(2).normal(size=(3, 3))
-    forces = np.random.default_rng(3).normal(size=(3, 3))
+    points, forces = np.random.default_rng(2).normal(size=(2, 3, 3))
     load = np.einsum("pij,pi->j", carry_points(points, CENTRE), forces)
     moments = np.cross(points - CENTRE, forces)
     assert load == pytest.approx(np.concatenate([forces.sum(0), moments.sum(0)]))
-
-
-def test_a_load_moves_to_the_centre():
-    force, moment = np.array([[0, 0, 2.0]]), np.array([[1.0, 0, 0]])
-    load = load_at_centre(force, moment, [0, 3, 0], [0, 0, 0])
-    assert load == pytest.approx(np.array([[0, 0, 2, 1 + 6, 0, 0]]))
+    moved = load_at_centre(np.array([[0, 0, 2.0]]), np.array([[1.0, 0, 0]]), [0, 3, 0], [0, 0, 0])
+    assert moved == pytest.approx(np.array([[0, 0, 2, 1 + 6, 0, 0]]))
 
 
 # ------------------------------------------------------------------ free motions

@@ -257,14 +257,6 @@ def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
     assert refusal(*refused) == "gas.2.amplitude: the engine file has no [gas]"
 
 
-@pytest.mark.stress
-@pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
-def test_pictures_of_gas(four, tmp_path, what):
-    target = tmp_path / "x.svg"
-    ask("plot", four, "--what", what, "-o", target)
-    assert target.read_text().startswith("<?xml")
-
-
 # ------------------------------------------------------------------ other commands
 @pytest.mark.slow
 def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
