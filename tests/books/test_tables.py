@@ -98,9 +98,7 @@ def test_bad_ranges(text):
     [("tsinghua-1-2", sc.displacement), ("tsinghua-1-3", sc.velocity), ("tsinghua-1-6", sc.acceleration)],
 )
 def test_other_angles_and_ratios(name, function):
-    """The print stands beside the exact values wherever it has the angle and the ratio, and only
-    there.
-    """
+    """The print stands beside the exact values wherever it has the angle and the ratio, and only there."""
     table = recompute(name, ratios="0.3,0.35", angles="70,71.5")
     place = table.columns.index("0.35")
     assert table.exact[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)

@@ -1,6 +1,4 @@
-"""`balcli field`: every format says the same figures; files to start from, the schema, pictures and
-exit statuses.
-"""
+"""`balcli field`: every format says the same figures; files to start from, the schema, pictures and exit statuses."""
 
 from __future__ import annotations
 

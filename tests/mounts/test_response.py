@@ -1,6 +1,4 @@
-"""A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of
-the tests' own.
-"""
+"""A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of the tests' own."""
 
 from __future__ import annotations
 
@@ -360,9 +358,7 @@ def test_a_dashpot_alone_holds_a_mount(report):
 
 
 def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report):
-    """An engine that lies on its side shakes along y: the mode that makes most of the largest force
-    moves that way.
-    """
+    """An engine that lies on its side shakes along y: the mode that makes most of the largest force moves that way."""
     found = report(ENGINE + "[layout]\nbanks = [90]\n" + block(), orders=[2])
     for mount in found.response.mounts:
         shape = np.abs(found.modes[mount.worst.mode].shape[:3])

@@ -75,9 +75,7 @@ def test_a_misfire_takes_a_quarter_of_the_work():
 
 @pytest.mark.parametrize("strokes", [2, 4])
 def test_inertia_that_cancels_makes_no_torque(strokes):
-    """Twenty-four cylinders: what is left of orders 24 (two strokes) and 12 is nothing or little,
-    and does no work.
-    """
+    """Twenty-four cylinders: what is left of orders 24 (two strokes) and 12 is nothing or little, and does no work."""
     throws = [15 * strokes // 2 * k % 360 for k in range(24)]
     order = ", ".join(map(str, [1, *range(24, 1, -1)]))
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}")
