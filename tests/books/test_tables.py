@@ -190,13 +190,6 @@ def test_errata_as_text():
     assert (first["row"], first["label"], first["class"]) == (10, "50", "rounding")
 
 
-def test_the_slider_of_liu_is_four_times_too_heavy():
-    (found,) = (e for e in document("--kind", "error") if e["label"] == "liu, (5.6)")
-    assert found["printed"].startswith("m_zh r_zh = 4 lambda m_h r |Zx|max")
-    assert found["exact"].startswith("m_zh r_zh = lambda m_h r |Zx|max")
-    assert "four times too heavy" in found["kind"]
-
-
 @cases("books/tables", "wrong_names_and_options_are_refused")
 def test_wrong_names_and_options_are_refused(arguments, message):
     assert refusal("tables", *arguments).startswith(message)

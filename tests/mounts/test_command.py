@@ -51,6 +51,9 @@ def test_json_and_csv_are_what_they_promise(four):
     assert found["mount", "3", "2", "900.0", "force"] == (str(mount["orders"][1]["force_N"][3]), "N")
     assert found["mount", "3", "", "3000.0", "peak force"][0] == str(mount["peak_N"][-1])
     assert found["mode", "mode 6", "", "", "frequency"] == (str(said["modes"][5]["frequency_Hz"]), "Hz")
+    imperial = run_here("mounts", four, "--units", "imperial").out
+    assert "lbf" in imperial
+    assert "Largest motion of each point, in" in imperial
     said = ask_json("mounts", four, "--speeds", "700:702:0.1")  # as they were asked for
     assert said["response"]["speeds_rpm"] == [k / 10 for k in range(7000, 7021)]
 
@@ -190,12 +193,6 @@ def test_the_page_rocks_the_body(four):
         path += q[:3] + np.cross(q[3:].T, arm).T
     largest = np.linalg.norm(path, axis=0).max()
     assert largest == pytest.approx(said["points"][0]["peak_mm"][place], rel=1e-3)
-
-
-def test_units(four):
-    imperial = run_here("mounts", four, "--units", "imperial").out
-    assert "lbf" in imperial
-    assert "Largest motion of each point, in" in imperial
 
 
 @cases("mounts/command", "speeds_that_are_none")

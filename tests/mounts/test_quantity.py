@@ -83,9 +83,7 @@ def test_stiffness_scatters():
     assert found["nominal"] == pytest.approx(np.sqrt(8000) / (2 * np.pi), rel=1e-12)
     assert found["mean"] == pytest.approx(own.mean(), rel=2e-3)
     assert found["p95"] == pytest.approx(np.percentile(own, 95), rel=5e-3)
-    assert said["samples"] == 400
     each = found["nominal"] * 0.1 / 8
-    assert list(found["sensitivity"]) == ["stiffness left", *list(found["sensitivity"])[1:]]
     assert found["sensitivity"]["stiffness left"] == pytest.approx(each, rel=0.05)
     assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
 
@@ -97,8 +95,6 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     assert told == "100 000 samples: give from 1 to 20 000, as mode.1.Hz is computed one by one"
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
     assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
-    told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
-    assert told.startswith('mount.lef.force: the file has no mount "lef"')
 
 
 # ------------------------------------------------------------------ with gas

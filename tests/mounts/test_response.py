@@ -7,6 +7,7 @@ import pytest
 from oracle import momentum
 from support.cases import slow
 from support.engines import build_text
+from support.in_time import run_in_time
 from support.mounts import ENGINE, RandomBody, block
 from support.paths import write
 
@@ -310,31 +311,20 @@ RIPPLE = ENGINE.replace(
 )
 
 
-def find_phasors_in_time(curve, orders):
-    """Of a curve over the crank angle, at the uneven speed of RIPPLE: over equal steps of time."""
-    fine = np.arange(1 << 16) * (2 * np.pi / (1 << 16))
-    pace = 1 + 0.2 * np.cos(2 * fine - np.radians(30)) + 0.05 * np.cos(fine)
-    done = np.concatenate([[0], np.cumsum((1 / pace + 1 / np.roll(pace, -1)) / 2)])
-    steps = np.arange(1 << 12) / (1 << 12)
-    angle = np.interp(steps, done / done[-1], np.append(fine, 2 * np.pi))
-    waves = np.fft.fft(curve, norm="forward")
-    n = np.fft.fftfreq(len(curve), 1 / len(curve))
-    few = np.abs(n) < 40
-    values = np.exp(1j * np.outer(angle, n[few])) @ waves[few]
-    return 2 * np.fft.fft(values.real, norm="forward")[list(orders)], done[-1] / len(fine)
-
-
 def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(report):
-    """What shakes the mounts is a frequency: forces over the crank angle are not yet those over the
-    time, and the speed is revolutions in a minute.
+    """What shakes the mounts is a frequency: forces over the crank angle are not yet those over the time, and the speed is
+    revolutions in a minute.
     """
+    theta, period = run_in_time(lambda a: 1 + 0.2 * np.cos(2 * a - np.radians(30)) + 0.05 * np.cos(a), 1)
+    few, longer = np.r_[-39:40], period / (2 * np.pi)
+    to_time = np.exp(1j * np.outer(theta, few))
     body, orders = RandomBody(8, 4), [1, 2, 3, 4]
     result = report(RIPPLE + body.text, orders=orders)
     curves = momentum.Engine.read(RIPPLE).curves()
     parts = [curves.force.real, curves.force.imag, 0 * curves.roll]
     parts += [curves.moment.real, curves.moment.imag, curves.roll]
-    found = [find_phasors_in_time(part, orders) for part in parts]
-    loads, longer = np.array([phasors for phasors, _ in found]).T, found[0][1]
+    values = to_time @ np.array([np.fft.fft(part, norm="forward")[few] for part in parts]).T
+    loads = 2 * np.fft.fft(values.real, axis=0, norm="forward")[orders]
     loads[:, 3:] += np.cross(-body.centre, loads[:, :3])
     for n, order in enumerate(orders):
         for s, rpm in enumerate(SPEEDS):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -233,10 +234,8 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert lines.err == ""
     header, *rows = lines.out.splitlines()
     assert header == f"gas.imep,cylinder.3.gas,{asked}"
-    other = tmp_path / "other.toml"
-    with open(four) as file:
-        text = file.read().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
-    other.write_text(text)
+    text = Path(four).read_text().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
+    other = write(tmp_path / "other.toml", text)
     found = ask_json("torque", other, "--orders", "0.5-2")
     by_order = {entry["order"]: entry for entry in found["orders"]}
     row = [float(cell) for cell in rows[0].split(",")]
@@ -247,14 +246,9 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert row[5] == pytest.approx(found["mean_torque_Nm"], rel=1e-12)
     assert row[6] == pytest.approx(found["torque"]["max_Nm"], rel=1e-12)
     assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
-
-
-def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
-    bare = write(tmp_path / "bare.toml", FOUR)
-    out = ask("sweep", bare, "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude")
-    assert out.startswith("rod.length,torque.2.amplitude")
-    refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert refusal(*refused) == "gas.2.amplitude: the engine file has no [gas]"
+    bare, asked = write(tmp_path / "bare.toml", FOUR), ("--vary", "rod.length=140,150", "--quantity")
+    assert ask("sweep", bare, *asked, "torque.2.amplitude").startswith("rod.length,torque.2.amplitude")
+    assert refusal("sweep", bare, *asked, "gas.2.amplitude") == "gas.2.amplitude: the engine file has no [gas]"
 
 
 # ------------------------------------------------------------------ other commands
