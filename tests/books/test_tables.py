@@ -199,13 +199,13 @@ def test_layouts_at_a_glance():
     """The same by either command; figures are the handbook's."""
     out = run_here("layouts").out
     assert out == run("layouts").out
-    (five,) = (line.split() for line in out.splitlines() if line.startswith("in-line five"))
-    assert five[2:] == ["0", "0", "0.449", "4.98", "144"]
-    (twin,) = (line.split() for line in out.splitlines() if line.startswith("90-degree V-twin"))
-    assert twin[-5:] == ["1", "1.414", "0", "0", "270/450"]
-    # Yamaha's cross-plane four fires after 270, 180, 90 and 180 degrees
-    cross = next(line for line in out.splitlines() if line.startswith("in-line four, cross"))
-    assert cross.split()[-1] == "90/180/270"
-    single = next(line for line in out.splitlines() if line.startswith("single"))
-    assert single.split()[-1] == "720"  # every other turn, and in no order
+    wanted = {
+        "in-line five": ["0", "0", "0.449", "4.98", "144"],
+        "90-degree V-twin": ["1", "1.414", "0", "0", "270/450"],
+        "in-line four, cross": ["90/180/270"],  # Yamaha's fires after 270, 180, 90 and 180 degrees
+        "single": ["720"],  # every other turn, and in no order
+    }
+    for name, cells in wanted.items():
+        line = next(line for line in out.splitlines() if line.startswith(name))
+        assert line.split()[-len(cells) :] == cells
     assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

@@ -150,16 +150,12 @@ def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):
 
 
 @pytest.mark.stress
-@pytest.mark.parametrize("form", ["svg", "png"])
-def test_picture(four, tmp_path, form):
-    picture = tmp_path / f"mounts.{form}"
+def test_picture(four, tmp_path):
+    picture = tmp_path / "mounts.svg"
     done = run_here("mounts", four, "--speeds", "300:900:50", "--scheme", "two-shaft", "--plot", picture)
     assert (done.status, done.err) == (0, "")
-    content = picture.read_bytes()
-    assert content.startswith({"svg": b"<?xml", "png": b"\x89PNG"}[form])
-    if form == "svg":
-        for words in ("Force of each mount", "Motion of points", "1, two-shaft", "4: 17.4 Hz", "roll"):
-            assert words.encode() in content
+    for words in ("Force of each mount", "Motion of points", "1, two-shaft", "4: 17.4 Hz", "roll"):
+        assert words in picture.read_text(encoding="utf-8")
 
 
 def test_of_a_body_alone_nothing_of_an_engine_can_be_told(tmp_path):
@@ -200,12 +196,9 @@ def test_speeds_that_are_none(four, text, message):
     assert refusal("mounts", four, "--speeds", text).startswith(message)
 
 
-def test_an_engine_that_shakes_nothing(tmp_path):
-    path = tmp_path / "still.toml"
-    text = ENGINE.replace("0.7", "0").replace("mass = 0.6", "mass = 0").replace("inertia = 2500", "inertia = 0")
-    text = text.replace("mass = 0.5\n", "mass = 0\n").replace("0.55", "0")
-    path.write_text(text + block("loss = 0.1"), encoding="utf-8")
-    status, out, _ = run_here("mounts", path)
+def test_an_engine_that_shakes_nothing():
+    weightless = re.sub(r"((throw_|piston_)?mass|inertia) = [\d.]+", r"\1 = 0", ENGINE)
+    status, out, _ = run_here("mounts", "-", stdin=weightless + block("loss = 0.1"))
     assert status == 0
     assert "The orders included put no force on the mounts." in out
 

