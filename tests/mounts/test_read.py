@@ -12,15 +12,19 @@ from balcli.mounts.build import read_mounted
 
 
 def mistakes(tmp_path, text):
-    path = write(tmp_path / "x.toml", text)
     with pytest.raises(InputError) as caught:
-        read_mounted(path)
+        read_mounted(write(tmp_path / "x.toml", text))
     return [str(problem) for problem in caught.value.problems]
 
 
 @cases("mounts/read", "mistakes_are_told", ENGINE=ENGINE, BLOCK=block("# more"))
 def test_mistakes_are_told(tmp_path, text, message):
     assert message in mistakes(tmp_path, text)
+
+
+@cases("mounts/read", "doubts", BLOCK=block())
+def test_doubts(tmp_path, text, doubt):
+    assert read_mounted(write(tmp_path / "x.toml", text))[2] == ((doubt,) if doubt else ())
 
 
 def test_half_an_engine_is_not_none(tmp_path):

@@ -245,18 +245,15 @@ def test_friction_does_not_lean_on_the_mounts(report, share, leans):
         assert found == pytest.approx(-leans * MEAN, rel=1e-6)
 
 
-def test_orders_meet_modes_where_their_frequencies_agree(report):
+def test_modes_of_a_block_and_where_orders_meet_them(report):
     result = report(ENGINE + block("loss = 0.05"), speeds=np.array([200.0, 2000.0]))
+    upright = [mode.frequency_Hz for mode in result.modes if mode.motion == "up and down"]
+    assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
     met = [(mode, one) for mode in result.modes for one in mode.meets]
     assert met
     for mode, one in met:
         assert one.speed_rpm * one.order / 60 == pytest.approx(mode.frequency_Hz)
         assert 200 <= one.speed_rpm <= 2000
-
-
-def test_the_mode_along_the_weight_is_up_and_down(report):
-    upright = [mode.frequency_Hz for mode in report(block()).modes if mode.motion == "up and down"]
-    assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
 
 
 # ------------------------------------------------------------------ what cannot be

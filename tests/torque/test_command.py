@@ -20,14 +20,13 @@ WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 @pytest.fixture
 def four(tmp_path):
-    path = write(tmp_path / "four.toml", FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
-    return str(path)
+    more = "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n"
+    return str(write(tmp_path / "four.toml", FOUR + WIEBE + more))
 
 
 @pytest.fixture
 def curve(tmp_path):
-    path = write(tmp_path / "press.csv", TORQUE)
-    return str(path)
+    return str(write(tmp_path / "press.csv", TORQUE))
 
 
 def test_json_and_csv_have_what_the_file_allows(four):
