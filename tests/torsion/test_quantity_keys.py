@@ -14,6 +14,7 @@ from balcli.engine.engine import Engine
 from balcli.engine.load import EngineVariants
 from balcli.engine.parse import parse
 from balcli.file.model import EngineFile
+from balcli.forces.quantity import TargetQuantity
 from balcli.studies.parameters import find_numbers
 from balcli.torsion.build import build_engine_system, excite_engine
 from balcli.torsion.modes import find_natural_modes

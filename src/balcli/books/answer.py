@@ -54,8 +54,8 @@ def find_gaps(name: str) -> tuple[float, ...]:
     where the file of several cylinders gives no firing order.
     """
     _, engine = _load(name)
-    alone = len(engine.numbers) == 1  # and has no order
-    fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
+    several = len(engine.numbers) > 1  # a single cylinder has no order
+    fires = map(float, engine.fires_deg.values()) if several else [0.0]
     instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
 
@@ -124,7 +124,10 @@ def select_tables(
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
     ranges = Ranges(lams, angles, power)
-    names = NAMES if name is None else [_find_name(name)]
+    if name is not None and name not in TABLES:
+        near = suggest_nearest(name, NAMES, f"there are {', '.join(NAMES)}")
+        raise BalcliError(f"no table {name!r}; {near}")
+    names = NAMES if name is None else (name,)
     for (option, takers), value in zip(TAKES.items(), ranges, strict=True):
         if value is not None and (name is None or names[0] not in takers):
             raise BalcliError(f"--{option}: name a table that takes it: {', '.join(takers)}")
@@ -135,15 +138,7 @@ def find_errata(
     tables: Sequence[Table], category: ErratumClass | None = None
 ) -> list[tuple[str, Erratum]]:
     """Return the errata of these tables, of one class or of all, each with its table's name."""
-    every = [(table.name, erratum) for table in tables for erratum in table.errata]
-    return [each for each in every if category in (None, each[1].category)]
-
-
-def _find_name(name: str) -> str:
-    if name in TABLES:
-        return name
-    hint = suggest_nearest(name, NAMES, "choose one")
-    raise BalcliError(f"no table {name!r}; {hint}. Tables: {', '.join(NAMES)}")
+    return [(t.name, e) for t in tables for e in t.errata if category in (None, e.category)]
 
 
 @tell_arguments(**{"lambda": "ratios", "angle": "angles"})

@@ -172,11 +172,11 @@ def _explain(
     if printed is None or not isinstance(value, (int, float)):
         return "misprint", "misprint"
     for (kind, _, category), other in supposed:
-        if isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value):
-            found = _derive(other, printed)
-            if found is not None:
-                whose = "author's approximation: " if category == "approximation" else ""
-                return category, whose + kind + found
+        if not isinstance(other, (int, float)) or abs(other - value) <= 1e-9 * abs(value):
+            continue
+        if (found := _derive(other, printed)) is not None:
+            whose = "author's approximation: " if category == "approximation" else ""
+            return category, whose + kind + found
     unit = Decimal(f"1e{printed.as_tuple().exponent}")  # of the last digit
     near = abs(round_like(value, printed) - printed) <= unit
     category, kind = ("rounding", "last digit") if near else ("misprint", "misprint")
@@ -266,21 +266,20 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     """Return the equations and sentences that are wrong: exact is the right form, every row an
     erratum. The tests compute both forms of each.
     """
-    cells, words, stated = [], list[Words](), []
-    for i, row in enumerate(printed.rows):
-        source, place, wrong, right, category, known = map(str, row)
-        cells.append((source, place, right, category, known))
-        words.append((source, place, wrong, None, None))
-        label, name = f"{source}, {place}", cast("ErratumClass", category)
-        stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
+    rows = [tuple(map(str, row)) for row in printed.rows]
+    cells = [(source, place, *others) for source, place, _, *others in rows]
+    words = [(source, place, wrong, None, None) for source, place, wrong, *_ in rows]
+    errata = [
+        Erratum(i, STATEMENT, wrong, right, known, f"{source}, {place}", cast("ErratumClass", name))
+        for i, (source, place, wrong, right, name, known) in enumerate(rows)
+    ]
     columns = ("source", "place", STATEMENT, "class", "known")
-    return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(stated), stub=2)
+    return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(errata), stub=2)
 
 
 def load_print(name: str) -> Print:
     """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""
-    text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
-    lines = text.splitlines()
+    lines = files(__package__).joinpath("data", f"{name}.csv").read_text("utf-8").splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
     rows = tuple(tuple(cell or None for cell in row) for row in body)

@@ -62,12 +62,8 @@ def rows(table: Table, _system: System) -> Rows:
 def count_deviations(table: Table) -> str:
     """Return a sentence on how many of the printed figures are not the exact ones rounded."""
     printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
-    wrong = len(table.errata)
-    if not printed:
-        return "no printed source"
-    if not wrong:
-        return f"all {printed} printed figures agree"
-    return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)"
+    wrong = f"{len(table.errata)} of {printed} printed figures deviate (exact ≠ printed)"
+    return wrong if printed else "no printed source"
 
 
 # ------------------------------------------------------------------ cells
@@ -79,18 +75,14 @@ def _shown(table: Table, i: int, j: int) -> str:
     """Return a cell as the print would have it, followed by the print where that deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
     like = text or next((row[j] for row in table.printed if row[j]), None)
+    as_whole = (like or "").lstrip("+-").isdigit()  # such as an angle
     if not isinstance(value, (int, float)):
         shown = value or ""
-    elif table.digits is not None and j >= table.stub and not _is_whole(like, value):
+    elif table.digits is not None and j >= table.stub and not (as_whole and value % 1 == 0):
         shown = f"{value:.{table.digits}f}"
     else:
         shown = _round_as_printed(value, text or "")
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
-
-
-def _is_whole(text: str | None, value: float) -> bool:
-    """Return whether a whole number is printed as one, such as an angle."""
-    return text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
 
 
 def _round_as_printed(value: float, text: str) -> str:
@@ -166,10 +158,8 @@ ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_erra
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return one row a table, their sources, and further commands."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
-    errata = [e for t in tables for e in t.errata]
-    misprints = sum(e.category == "misprint" for e in errata)
-    counted = f"{len(errata)} errata, {misprints} of them misprints"
-    note = f"{counted}; --errata lists them, tables NAME a table"
+    errata = sum(len(t.errata) for t in tables)
+    note = f"{errata} errata; --errata lists them, tables NAME a table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))

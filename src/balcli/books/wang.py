@@ -35,8 +35,7 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    explained = [Explanation(SEARCH, search_rows)]
-    return printed.compare(columns, rows, explanations=explained)
+    return printed.compare(columns, rows, explanations=[Explanation(SEARCH, search_rows)])
 
 
 def _true(lam: float) -> Row:

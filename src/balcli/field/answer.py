@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import cycle
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -168,8 +168,7 @@ _AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
 _G_MM = 1e-6  # kg m
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sensor:
+class Sensor(NamedTuple):
     """Identity of a reading: a sensor at a speed.
 
     Attributes:
@@ -243,8 +242,7 @@ class PlanePermitted:
         return "uncertain" if near else "not reached"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Permitted:
+class Permitted(NamedTuple):
     """Permitted residual unbalance of the rotor (ISO 21940-11).
 
     Attributes:

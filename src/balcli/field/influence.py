@@ -253,11 +253,12 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
     lacking = [f"with a trial weight in {join_words(bare)}"] if bare else []
     if series.weights.any(axis=1).all():
         lacking.insert(0, "of the rotor as found, without weights")
-    named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
-    apart = f"in which the trial weights in {join_words(named)} are apart"
-    needed = f"{_count_unknowns(series, used)} that differ are needed: one as found, and one for"
+    if not lacking:
+        named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
+        lacking = [f"in which the trial weights in {join_words(named)} are apart"]
     return Problem(
         "run",
-        f"add a run{at} {' and one '.join(lacking) or apart}; of {len(series.numbers)} runs here, "
-        f"{needed} each plane; or give influence, or leave a plane out with --without",
+        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} that differ "
+        f"are needed, and {len(series.numbers)} are here: one as found, and one for each plane; "
+        "or give influence, or leave a plane out (--without)",
     )

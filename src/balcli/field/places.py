@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -23,8 +22,7 @@ from .tables import RunsFile
 _ROUNDING = 1e-9  # share of a weight that is rounding
 
 
-@dataclass(frozen=True, kw_only=True)
-class Piece:
+class Piece(NamedTuple):
     """Weight at a place, or a drilled hole: a part of a correction.
 
     Attributes:
@@ -100,7 +98,7 @@ class PlaneLimits(NamedTuple):
             raise AssertionError(f"{amount} is not in the region of {self.places_deg}")
         if (find := self.find_depth) is None:
             return pieces
-        return tuple(replace(piece, depth_mm=1e3 * find(piece.weight)) for piece in pieces)
+        return tuple(piece._replace(depth_mm=1e3 * find(piece.weight)) for piece in pieces)
 
 
 def split_weight(

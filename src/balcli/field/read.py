@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 
 from ..errors import Problem
 from ..file.fields import counted, printable, shorten, suggest_nearest
-from ..file.messages import RUNS, describe_finding, join_path, refuse_other_kind
+from ..file.messages import RUNS, describe_finding, refuse_other_kind
 from ..file.read import TableReader
 from ..file.table import FileTable
 from ..file.toml import name_file, parse_toml, read_bytes
@@ -70,9 +70,6 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
         value = shorten(finding["input"])
         text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
         return Problem(last, text)
-    if finding["type"] == "dict_type":
-        text = f'{shorten(finding["input"])} is not a table; write it like {{ front = "1.15 @ 0" }}'
-        return Problem(join_path(path, finding["loc"]), text)
     return describe_finding(path, finding, table)
 
 

@@ -93,9 +93,11 @@ def report_mounts(
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
-    of_engine = (engine and engine.list_assumed("gas", without=idle)) or ()
-    of_others = ((label, each.list_assumed("gas", without=idle)) for label, each in others)
-    told = (f"{label}: {tell_assumed(lines)}" for label, lines in of_others if lines)
+    assumed = [*((engine and engine.list_assumed("gas", without=idle)) or ())]
+    assumed += choose_assumed(list_chapter_defaults(model), _OF_BODY)
+    for label, each in others:
+        if lines := each.list_assumed("gas", without=idle):
+            assumed.append(f"{label}: {tell_assumed(lines)}")
     response = found.pop(0) if found else None
     forces, travel = settle(mounted, response.loads.mean if response else 0.0)
     rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
@@ -106,8 +108,7 @@ def report_mounts(
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
     return MountReport(
         name=title,
-        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
-        or None,
+        assumed=tuple(assumed) or None,
         modes=tuple(
             mode._replace(meets=tuple(one for n, one in meetings if n == k))
             for k, mode in enumerate(modes.each)
@@ -158,7 +159,7 @@ def analyze_mounts(
         >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    beside = {} if others is None else others
+    beside = others or {}
     check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
@@ -174,5 +175,5 @@ def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
         return take_model(source), source, ""
     wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
     tables, name = take_tables("analyze_mounts", source, wanted)
-    found = check_mounted(check_tables(tables, Path(name).parent, name, bare=True), name)
-    return found.model, found.engine, name
+    draft = check_tables(tables, Path(name).parent, name, bare=True)
+    return (*check_mounted(draft, name)[:2], name)

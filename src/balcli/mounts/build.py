@@ -138,14 +138,11 @@ def find_mounting_faults(
     for key, tables in lists.items():
         if len(tables) > MOST_MOUNTS:
             yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
-        met: dict[str, int] = {}
-        for number, table in enumerate(tables if key in legible else (), 1):
-            if (first := met.setdefault(table.name, number)) != number:
-                message = (
-                    f"{shorten(printable(table.name))} is also the name of {key}.{first}; each "
-                    "needs one of its own"
-                )
-                yield Problem(f"{key}.{number}.name", message)
+        names = [table.name for table in tables if key in legible]
+        for number, name in enumerate(names, 1):
+            if (first := names.index(name) + 1) < number:
+                text = f"{shorten(printable(name))} is also the name of {key}.{first}"
+                yield Problem(f"{key}.{number}.name", f"{text}; each needs one of its own")
 
 
 # ------------------------------------------------------------------ equations of motion
@@ -205,6 +202,7 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
     modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
     stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
     mass, loss = mass_matrix(body), modal_loss(modes, stiffness, damping)
+    energy = share_energy(modes, body)
     shapes = drop_rounding(modes.shapes, 1 / np.sqrt(np.diag(mass)))
     each = tuple(
         BodyMode(
@@ -215,9 +213,7 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
             float(lost),
             (),
         )
-        for omega, share, shape, lost in zip(
-            modes.omega, share_energy(modes, body), shapes, loss, strict=True
-        )
+        for omega, share, shape, lost in zip(modes.omega, energy, shapes, loss, strict=True)
     )
     return BodyModes(stiffness, damping, mass, modes, loss, each)
 
@@ -239,16 +235,8 @@ SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
 SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
-class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine if it has one, and warnings."""
-
-    model: EngineFile
-    engine: Engine | None
-    doubts: tuple[str, ...]
-
-
-def read_mounted(path: str | Path) -> MountedFile:
-    """Read the file at a path, or standard input for "-".
+def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+    """Return the file at a path, or standard input for "-", its engine if it has one, and warnings.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -258,8 +246,19 @@ def read_mounted(path: str | Path) -> MountedFile:
     return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
 
 
-def check_mounted(draft: Draft, name: str) -> MountedFile:
-    """Check the readable part of a file; `name` is the name of the file for messages."""
+def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+    """Check the readable part of a file.
+
+    Args:
+        draft: Readable part, with the mistakes of the text.
+        name: Name of the file, for messages.
+
+    Returns:
+        The file, its engine if it has one, and warnings.
+
+    Raises:
+        InputError: The file has mistakes; the error lists all of them.
+    """
     faults = list(find_mounting_faults(draft.model, draft.readable))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
@@ -267,7 +266,7 @@ def check_mounted(draft: Draft, name: str) -> MountedFile:
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     doubts = () if engine is None else engine.unlikely
-    return MountedFile(draft.model, engine, (*doubts, *_find_doubts(draft.model)))
+    return draft.model, engine, (*doubts, *_find_doubts(draft.model))
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:

@@ -24,7 +24,6 @@ _PARTS = {"mode": ("Hz", "share", "damping"), "mount": ("force", "static"), "poi
 _MOTIONS = (*AXES, "roll")
 _MODES = (*"123456", *_MOTIONS)
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
-_RUNS = ("force", "motion")  # what takes an engine that runs
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -49,9 +48,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         raise BalcliError(
             f"{quantities[0].name}: the file has no [body] on a [[mount]]; see balcli mounts --help"
         )
-    names = _name_targets(model)
     for q in quantities:
-        refuse_stranger(q, names[q.kind])
+        refuse_stranger(q, _name_targets(model)[q.kind])
 
 
 class Variants:
@@ -66,7 +64,7 @@ class Variants:
         targets = _name_targets(model)
         places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
-        self._curves = sorted({self._place[q] for q in quantities if q.part in _RUNS})
+        self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
         # The mean torque of the gas, less friction, leans on the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)

@@ -288,12 +288,12 @@ class MountReport(Result):
         springs = np.abs(stiffness * (1 + 1j * loss) + 1j * frequency * damping).max(axis=1)
         travels = np.array([each.force_N for each in worst]) / springs
         farthest = int(travels.argmax())
-        if travels[farthest] <= TRAVEL_MOST:
+        if (travel := travels[farthest]) <= TRAVEL_MOST:
             return ()
-        mount = self.response.mounts[farthest]
         told = (
-            f"the mount {printable(mount.name)} would travel by {1e3 * travels[farthest]:.3g} mm "
-            f"or more at {mount.worst.speed_rpm:.4g} rpm, where stops hold others at 10 to 20; are "
-            "loss and damping right, and does it run at that speed, or pass it?"
+            f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
+            f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, where stops "
+            "hold others at 10 to 20; are loss and damping right, and does it run at that speed, "
+            "or pass it?"
         )
         return (told,)

@@ -28,6 +28,7 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
+from ..show.figures import silent_entries
 from .build import BodyModes, MountedBody
 from .loads import BodyLoads, find_loads
 from .records import (
@@ -213,10 +214,9 @@ def find_worst(
     """
     if not between:
         return omega[peaks.argmax(axis=0)], peaks.max(axis=0)
-    met = list_meetings(running.modes, running.loads, omega / RPM)
-    loss = running.modes.loss
+    loss, met = running.modes.loss, list_meetings(running.modes, running.loads, omega / RPM)
     about = [rpm * RPM * (1 + loss[k] * _BESIDE) for k, _, rpm in met if loss[k] > UNDAMPED]
-    near = np.concatenate([*about, omega[:0]])
+    near = np.array(about).ravel()
     near = np.setdiff1d(near[(near > omega[0]) & (near < omega[-1])], omega)
     speeds = np.concatenate([omega, near])
     rising = np.argsort(speeds)
@@ -303,8 +303,7 @@ def respond(
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
     rigid, arm = np.abs(loads.at(omega)), float(np.abs(arms).max(initial=1.0))
     return BodyResponse(
-        no_gas_in=loads.silent.without_gas or None,
-        no_burning_in=loads.silent.without_burning or None,
+        **silent_entries(loads.silent),
         orders=numbers,
         speeds_rpm=rpm,
         mounts=tuple(places[: len(mounts)]),

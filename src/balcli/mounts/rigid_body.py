@@ -58,11 +58,6 @@ class Mounts(NamedTuple):
 
 
 # ------------------------------------------------------------------ geometry
-def cross_matrix(vectors: ArrayLike) -> Real:
-    """Return matrices (..., 3, 3) with `cross_matrix(a) @ b = a x b` for vectors (..., 3)."""
-    return np.cross(np.eye(3), np.asarray(vectors, float)[..., None, :])
-
-
 def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
     """Return unit vectors along two perpendicular axes of any length, and the third by the
     right-hand rule, as columns (3, 3).
@@ -87,7 +82,7 @@ def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
     """
     arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
     still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
-    return np.concatenate([still, -cross_matrix(arms)], axis=-1)
+    return np.concatenate([still, np.cross(arms[:, None], np.eye(3))], axis=-1)
 
 
 def load_at_centre(
@@ -165,18 +160,12 @@ def _add_up(body: Body, mounts: Mounts, forces: Complex | Real) -> Complex:
 
 # ------------------------------------------------------------------ properties
 def find_free_motions(body: Body, mounts: Mounts) -> Real:
-    """Return independent motions that no mount holds, shape (count, 6), each as simple as possible:
-    displacements first, then turns. Empty for a body that is held.
+    """Return independent motions that no mount holds, shape (count, 6); empty for a body that is
+    held.
     """
     springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
-    root = np.linalg.cholesky(mass_matrix(body))
-    held = np.linalg.solve(root, springs.reshape(-1, 6).T).T
-    _, values, rows = np.linalg.svd(np.concatenate([held, np.zeros((6, 6))]))
-    free = rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
-    motions = np.linalg.solve(root.T, free.T).T
-    turns, sizes, _ = np.linalg.svd(motions[:, 3:])
-    sizes = np.append(sizes, np.zeros(len(motions)))[: len(motions)]
-    return (turns.T @ motions)[np.argsort(sizes, kind="stable")]
+    _, values, rows = np.linalg.svd(np.concatenate([springs.reshape(-1, 6), np.zeros((6, 6))]))
+    return rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
 
 
 def find_body_modes(body: Body, mounts: Mounts) -> Modes:

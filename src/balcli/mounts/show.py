@@ -79,8 +79,8 @@ def sheet(result: MountReport, system: System) -> Sheet:
         kinds = (force, motion) if response.points else (force,)
         parts.append(Text("Forces on the frame", tuple(_answer(result, response, kinds))))
         parts += [_grid_worst(result, kind) for kind in kinds]
-    length = motion.unit
-    parts += [_grid_modes(result), _tell_body(result, length), _grid_rest(result, system, length)]
+    parts += [_grid_modes(result), _tell_body(result, motion.unit)]
+    parts.append(_grid_rest(result, system, motion.unit))
     if response is not None:
         if any(mode.meets for mode in result.modes):
             parts += [_grid_meetings(result)]
@@ -103,21 +103,12 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
     for kind in kinds[1:]:
         place = kind.find_highest(response)
         yield f"Largest motion: {kind.tell_worst(place)} at point {place.name}."
-    orders = [order_name(order) for order in response.orders]
-    speeds = [number(speed, 4) for speed in response.speeds_rpm]
-    yield (
-        f"Orders included: {_tell_range(orders)}, {len(orders)} in all; "
-        f"speed{'s' * (len(speeds) > 1)}: {_tell_range(speeds)} rpm."
-    )
+    yield f"Orders included: {', '.join(map(order_name, response.orders))}."
     yield (gas := _tell_gas(response))
     for other in result.beside:
         changes = "; ".join(_compare(response, other.response, kind) for kind in kinds)
         other_gas = _tell_gas(other.response)
         yield f"With {other.name} {changes}." + f" {other_gas}" * (other_gas != gas)
-
-
-def _tell_range(values: Sequence[str]) -> str:
-    return " to ".join(dict.fromkeys((values[0], values[-1])))
 
 
 def _tell_gas(response: BodyResponse) -> str:
@@ -143,8 +134,8 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     mode = result.modes[k]
     named = f"mode {k + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
     if met:
-        at = f"{number(met.speed_rpm, 4)} rpm"
-        return f"Order {order_name(met.order)} meets {named} at {at}: resonance."
+        order, at = order_name(met.order), number(met.speed_rpm, 4)
+        return f"Order {order} meets {named} at {at} rpm: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"That is the {end} speed of the range; most of the force is {named}."
@@ -218,15 +209,14 @@ def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
 def _grid_meetings(result: MountReport) -> Grid:
     met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
     every = sorted({order for each in met for order in each})
-    orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
     columns = [
         ("mode", [str(k) for k, _ in enumerate(met, 1)]),
         ("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
     ]
-    for order in orders:
+    for order in every[:_COLUMNS]:
         speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
         columns.append((f"order {order_name(order)}", speeds))
-    note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
+    note = "JSON has all orders." if len(every) > _COLUMNS else ""
     return Grid.of_columns("Where orders meet modes, rpm", columns, note)
 
 
@@ -292,10 +282,9 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
         for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
             yield *head, f"force {axis}", clean(force.unit.of(own)), force.unit.name
             yield *head, f"travel {axis}", clean(motion.unit.of(travel)), motion.unit.name
-    labels = [] if result.response is None else [""]
-    labels += [] if result.fitted is None else ["with scheme "]
+    labels = ["", *["with scheme "] * (result.fitted is not None)]
     labels += [f"{name_cell(other.name)}: " for other in result.others or ()]
-    for label, response in zip(labels, result.responses, strict=True):
+    for label, response in zip(labels, result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
         for kind in (force, motion):
