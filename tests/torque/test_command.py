@@ -247,7 +247,7 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
     bare, asked = write(tmp_path / "bare.toml", FOUR), ("--vary", "rod.length=140,150", "--quantity")
     assert ask("sweep", bare, *asked, "torque.2.amplitude").startswith("rod.length,torque.2.amplitude")
-    assert refusal("sweep", bare, *asked, "gas.2.amplitude") == "gas.2.amplitude: the engine file has no [gas]"
+    assert refusal("sweep", bare, *asked, "gas.2.amplitude") == f"{bare}: gas.2.amplitude: the engine file has no [gas]"
 
 
 # ------------------------------------------------------------------ other commands

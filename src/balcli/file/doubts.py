@@ -202,8 +202,9 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
         least, most = (share * mass * length**2 for share in INERTIA)
         about = "it is taken about the centre of mass, in kg mm^2"
         if rod.cg is not None and 0 < rod.cg < length:
-            most = min(most, TWO_MASSES * mass * rod.cg * (length - rod.cg))
-            about += ", and belongs to this mass, cg and length"
+            two_masses = TWO_MASSES * mass * rod.cg * (length - rod.cg)
+            if two_masses < rod.inertia <= most:
+                most, about = two_masses, "does it belong to this mass, cg and length?"
         yield Figure("rod.inertia is", rod.inertia, least, most, " kg mm^2", about)
 
 

@@ -146,9 +146,7 @@ def template(kind: str) -> str:
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
-        raise BalcliError(
-            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
-        )
+        raise BalcliError(f'"{kind[:60]}" is no kind of file; there are {", ".join(KINDS)}.{hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
     return _read_template(kind)

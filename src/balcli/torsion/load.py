@@ -92,10 +92,11 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
-    engine = build_named(model, name)
+    engine = firing = build_named(model, name)
     for number in misfires:
         engine = silence(engine, number)
-    return make_source(model, engine, name, orders)._replace(text=text)
+    source = make_source(model, engine, name, orders)
+    return source._replace(text=text, doubts=firing.unlikely)
 
 
 def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
