@@ -12,7 +12,8 @@ from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.paths import write
 
 from balcli.core.cylinder_pressure import find_highest
-from balcli.engine.load import load
+from balcli.engine.build import build
+from balcli.engine.load import EngineVariants, load
 from balcli.errors import InputError
 
 TWO_STROKE = FOUR.replace("firing_order = [1, 3, 4, 2]", "strokes = 2")
@@ -223,3 +224,15 @@ def test_cylinders_that_turn_have_gas_too(strokes):
     fires = [c.nominal_deg for c in found.gas.cylinders]
     assert fires == pytest.approx([found.fires_deg[number] for number in found.numbers])
     assert sorted(fires) == pytest.approx([0, 60 * strokes, 120 * strokes])
+
+
+@pytest.mark.parametrize(
+    "figures",
+    [{"crank.stroke": 80}, {"rod.length": 180}, {"piston.bore": 80}, {"gas.imep": 8}, {"cylinder.1.piston_offset": 2}],
+)
+def test_the_gas_of_another_variant_serves_where_it_is_the_same(figures):
+    model = load(FOUR + WIEBE).model
+    variants = EngineVariants(model)
+    variants.build({})
+    found, own = (e.gas.cylinders[0].torque for e in (variants.build(figures), build(model, figures)))
+    assert (found.work, found.pressure.mean) == (own.work, own.pressure.mean)
