@@ -216,7 +216,7 @@ def test_the_true_unbalance_lies_within_its_scatter_as_often_as_promised(case):
     states = [[]] + [[(name, 1 + 0.3j)] for name in names(2)] * (case != "given")
     states += [list(zip(names(2), -0.97 * excess, strict=True))] * (case != "as found")
     there, within, rng = excess * (1 if case == "as found" else 0.03), [], np.random.default_rng(1)
-    for _ in range(300):
+    for _ in range(150 if case == "as found" else 400):
         text = start
         for state in states:
             on = excess + np.array([dict(state).get(name, 0) for name in names(2)])

@@ -350,7 +350,7 @@ def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report
 
 @pytest.mark.parametrize("seed", [1, *slow(0, 2, 3, 4, 5)])
 def test_gas_orders_that_resonate_are_found(report, seed):
-    """Peak of a slow engine against a dense grid of speeds with orders to 120."""
+    """Peak of a slow engine against a dense grid of speeds with orders to 80."""
     rng = np.random.default_rng(seed)
     gas = (
         f'[layout]\nfiring_order = [1, 3, 4, 2]\n[gas]\ncycle = "wiebe"\n'
@@ -362,6 +362,6 @@ def test_gas_orders_that_resonate_are_found(report, seed):
     low = float(rng.uniform(60, 300))
     found = report(text, speeds=np.linspace(low, 1.5 * low, 9)).response
     assert found.orders[-1] >= 12
-    every = report(text, speeds=np.linspace(low, 1.5 * low, 1501), orders=np.arange(1, 241) / 2)
+    every = report(text, speeds=np.linspace(low, 1.5 * low, 601), orders=np.arange(1, 161) / 2)
     for mount, dense in zip(found.mounts, every.response.mounts, strict=True):
         assert mount.worst.force_N == pytest.approx(dense.peak_N.max(), rel=1e-3)
