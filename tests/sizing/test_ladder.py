@@ -265,3 +265,10 @@ def test_an_engine_of_rotating_masses_alone_has_a_ladder(command, tmp_path):
     assert found["scale"] == {"force_N": 0.0, "moment_Nm": 0.0}
     assert [step["step"] for step in found["steps"]] == [AS_DRAWN, WEIGHTS_AT_THROWS]
     assert "What balances it" in run_here(command, path).out
+
+
+def test_a_scheme_is_not_told_to_take_what_is_small():
+    """With --small 50% most is: then no other scheme is named for it."""
+    told = refusal("balance", ROOT / "engines" / "i5.toml", "--scheme", "couple-shaft", "--small", "50%")
+    assert "small compared with one cylinder's" in told
+    assert " takes the " not in told

@@ -107,3 +107,10 @@ def test_weights_at_throws_need_known_positions():
     unknown = build_text(FOUR.replace("spacing = 94\n", ""))
     with pytest.raises(BalcliError, match="--planes throws: moments are not known"):
         size(unknown, "counterweights", AT_THROWS)
+
+
+def test_no_weight_at_a_throw_where_none_is_needed():
+    engine = build_text(FOUR)
+    fitted = fit_devices(engine, size(engine, "counterweights", AT_THROWS))
+    again = size(fitted, "counterweights", AT_THROWS)
+    assert (again.devices, again.note) == ((), "Forces turning with the crank are balanced already")

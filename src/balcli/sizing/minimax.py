@@ -32,6 +32,7 @@ from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 _SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
 _TOUCHING = 1e-11  # the same for the angles that are reported
 _APART = 1e-3  # rad; angles nearer than this are one peak
+_FIXED = 1e-9  # share of a radius by which a point may lie within the circle that it fixes
 _ROUNDS = 60
 
 
@@ -92,8 +93,11 @@ def enclose_points(points: Complex) -> tuple[complex, list[int]]:
     b, c, middle = b - a, c - a, (a + c) / 2
     across = 2 * (b.conj() * c).imag
     rise = 1j * (b * np.abs(c) ** 2 - c * np.abs(b) ** 2)
-    centres = np.where(across, a + rise / np.where(across, across, 1), middle)
-    best = int(np.abs(points[:, None] - centres).max(axis=0).argmin())
+    with np.errstate(all="ignore"):  # of three points in line
+        centres = np.where(across, a + rise / across, middle)
+        farthest = np.abs(points[:, None] - centres).max(axis=0)
+        fixed = np.abs(a - centres) >= farthest * (1 - _FIXED)  # by its own points
+    best = int(np.where(fixed, farthest, np.inf).argmin())
     return complex(centres[best]), sorted({*triples[best].tolist()})
 
 
