@@ -173,7 +173,7 @@ def test_mounts_of_an_engine_a_dict_or_a_body_alone():
 
 # ------------------------------------------------------------------ what is wrong, in words
 ENGINE = "give an Engine; load(...) makes one of a path or a dict"
-NAMES = 'give names, such as ["force.2.major", "moment.1.backward"]'
+NAMES = 'give words, such as ["force.2.major", "moment.1.backward"]'
 
 
 THERE = {"V8": V8, "FOUR": FOUR, "MOUNTS": MOUNTS, "DIESEL": DIESEL, "GAS": GAS, "RATIO": {"rod.ratio": 0.3}}
