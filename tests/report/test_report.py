@@ -18,7 +18,7 @@ from support.pictures import without_pictures
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance_engine as balance
 from balcli.forces.kinds import KINDS
-from balcli.report.page import page
+from balcli.report.page import Answers, page
 from balcli.show.units import IMPERIAL, SI
 
 pytestmark = pytest.mark.slow
@@ -31,7 +31,7 @@ ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 7", "radial = 7
 def report(text: str, system=SI) -> str:
     """The page of an engine file, which many tests look at."""
     engine = build_text(text)
-    return page(analyze(engine, None, {*KINDS, "peak"}), balance(engine), system)
+    return page(Answers(analyze(engine, None, {*KINDS, "peak"}), balance(engine)), system)
 
 
 class Outline(HTMLParser):
@@ -292,7 +292,7 @@ def test_the_page_switches_between_the_steps_of_the_ladder():
     for scheme, more in (("auto", []), ("two-shaft", ["scheme two-shaft"])):
         balanced = balance(engine, scheme)
         with without_pictures():
-            text = page(analyze(engine), balanced, SI)
+            text = page(Answers(analyze(engine), balanced), SI)
         variants = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])["variants"]
         assert [variant["label"] for variant in variants] == names + more
         for variant, step in zip(variants, ladder.steps, strict=False):

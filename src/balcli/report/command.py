@@ -85,7 +85,7 @@ def report(
         book = live.describe_one(
             model, engine, system, text.decode(), name_file(path), options.read_small()
         )
-        page = pages.page(found.result, found.balanced, system, *found[2:], tell, live=book)
+        page = pages.page(found, system, tell, live=book)
     emit(page, output)
 
 

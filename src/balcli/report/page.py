@@ -195,9 +195,9 @@ class Answers(NamedTuple):
 
     result: Analysis
     balanced: Balance
-    mounted: MountReport | None
-    twisted: TorsionAnalysis | None
-    turning: Engine | None
+    mounted: MountReport | None = None
+    twisted: TorsionAnalysis | None = None
+    turning: Engine | None = None
 
 
 def find_answers(
@@ -245,25 +245,21 @@ def _warning(chapter: str) -> Iterator[None]:
 
 
 def page(
-    result: Analysis,
-    balanced: Balance,
-    system: System,
-    mounted: MountReport | None = None,
-    twisted: TorsionAnalysis | None = None,
-    turning: Engine | None = None,
-    tell: Tell = tell_nobody,
-    *,
-    live: Node | None = None,
+    found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
-    gas. All text from the engine file is escaped. `tell` is called with the share of the pictures
-    of forces and moments that is drawn; `live` has the numbers to change on the page
-    (`live.make_book`).
+    gas. All text from the engine file is escaped.
+
+    Args:
+        found: Results to show.
+        system: Units of figures and pictures.
+        tell: Called with the share of the pictures of forces and moments that is drawn.
+        live: Numbers to change on the page, as of `live.make_book`; None: none.
     """
+    result, balanced, mounted, twisted, turning = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
-    fitted = bool(balanced.remedy.reasons)
-    compared = _COMPARED if fitted else ()
+    compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
@@ -282,7 +278,6 @@ def page(
         verdict=next((part for part in own.parts if part.title == "Verdict"), None),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
-        fitted=fitted,
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
         compared=pictures[len(alone) :],
@@ -321,7 +316,7 @@ def explore(engine: Engine) -> Explorer:
     model = take_model(engine)
     found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
     live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
-    return Explorer(page(found.result, found.balanced, SI, *found[2:], live=live))
+    return Explorer(page(found, SI, live=live))
 
 
 def make_play_page() -> str:

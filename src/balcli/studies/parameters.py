@@ -230,20 +230,18 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
     """Return the message for an unknown name, with `rod.length` for rod_length, all numbers of a
-    table, those with the same beginning, or the nearest name.
+    table, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path}: changes nothing of the gas in this file"
-    dotted, first = path.replace("_", ".", 1), path.partition(".")[0]
+    dotted = path.replace("_", ".", 1)
     meant = [name for name in known if name == dotted or name.startswith(f"{path}.")]
     meant = meant or [name for name in known if f".{path}_" in f"{name}_"]
-    if near := " or ".join(meant[:6]) or nearest(path, known):
-        return f"{path}: unknown parameter; did you mean {near}?"
-    alike = [name for name in known if name.partition(".")[0] == first] or list(known)
-    some = f"{', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
-    return f"{path}: unknown parameter; there are {some}"
+    near = " or ".join(meant[:6]) or nearest(path, known)
+    hint = f"did you mean {near}?" if near else "balcli numbers lists them"
+    return f"{path}: unknown parameter; {hint}"
 
 
 def _read_values(text: str, number: Number) -> NDArray[np.float64]:
