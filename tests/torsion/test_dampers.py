@@ -61,8 +61,7 @@ def test_houdaille_optimum(ratio):
     """
     options = ("--damper", "viscous", "--damper-inertia", f"{ratio} kg m^2", *RANGE)
     damper = ask_torsion(SINGLE, *options)["damper"]
-    assert damper["node"] == "disc"
-    assert damper["before_Nm"] is None, "nothing else damps it: no bound"
+    assert (damper["node"], damper["before_Nm"]) == ("disc", None), "nothing else damps it: no bound"
     assert damper["after_Nm"] == pytest.approx(100 * (1 + 2 / ratio), rel=2e-4)
     exact = 2 * ratio * (1000 * np.pi / 30) / np.sqrt(2 * (1 + ratio) * (2 + ratio))
     assert damper["damping_Nms_per_rad"] == pytest.approx(exact, rel=0.02)
@@ -350,9 +349,8 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
 
 
 def test_pictures_over_speed_need_a_range(tmp_path):
-    assert refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE) == (
-        "--what response: give the range, such as --speeds 1000:2500"
-    )
+    told = refusal("plot", "-", "--what", "response", "-o", tmp_path / "x.svg", stdin=SINGLE)
+    assert told == "--what response: give the range, such as --speeds 1000:2500"
 
 
 @pytest.mark.parametrize(("times", "ring", "heat"), [(1, r"100000 kg·mm²", "W"), (1e4, r"1000 kg·m²", "MW")])

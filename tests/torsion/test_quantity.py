@@ -71,9 +71,7 @@ def test_what_is_no_quantity(diesel, quantity, message):
 
 def test_files_without_torsion_have_none(tmp_path):
     path = write(tmp_path / "plain.toml", write_diesel().partition("[torsion]")[0])
-    told = (
-        "torsion.1.Hz: has no [torsion]; write it with throw_stiffness, throw_inertia and [[torsion.rear]] for the "
-        "flywheel, or a chain of [[node]] and [[shaft]]"
-    )
-    assert refusal("scatter", path, "-q", "torsion.1.Hz") == told
-    assert refusal("sweep", path, "--vary", "rod.length=200,210", "-q", "torsion.1.Hz") == (f"{path}: {told}")
+    told = "torsion.1.Hz: has no [torsion]; write it with throw_stiffness"
+    assert refusal("scatter", path, "-q", "torsion.1.Hz").startswith(told)
+    asked = ("--vary", "rod.length=200,210", "-q", "torsion.1.Hz")
+    assert refusal("sweep", path, *asked).startswith(f"{path}: {told}")

@@ -4,21 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.chains import (
-    KINDS,
-    balance_power,
-    chain_of,
-    exact_response,
-    no_damping,
-    random_chain,
-    random_damping,
-)
+from support.chains import KINDS, balance_power, chain_of, exact_response, no_damping, random_chain, random_damping
 
-from balcli.core.vibration import (
-    UndampedResonanceError,
-    find_resonances,
-    frequencies,
-)
+from balcli.core.vibration import UndampedResonanceError, find_resonances, frequencies
 from balcli.torsion.chain import ChainShaft, Damping, join_chain
 from balcli.torsion.modes import chain_loss, find_chain_modes
 from balcli.torsion.motion import respond_chain

@@ -120,7 +120,7 @@ class SizedDamper:
     after_Pa: float | None = None
     before_Nm: float | None = None
     after_Nm: float | None = None
-    heat_W: float
+    heat_W: float = 0.0  # until the whole system is computed
     heat_rpm: float
     doubts: tuple[str, ...] | None = None
     damper: Annotated[Damper, HIDDEN]
@@ -178,7 +178,6 @@ def size_damper(
         node=node,
         kind=damper.kind,
         mode=mode.number,
-        heat_W=0.0,  # until the whole system is computed
         heat_rpm=float(speeds[0]),
         damper=damper,
         start=start,

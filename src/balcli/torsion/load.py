@@ -23,8 +23,7 @@ from .read import describes_chain, read_chain_tables
 from .system import TorsionalSystem
 from .tables import ChainFile
 
-_LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
-_THIN = 1.0  # mm
+_SMALL = 1.0  # kg mm2, mm: a steel disc of 10 mm across and 10 mm thick has 0.08 kg mm2
 
 
 class Source(NamedTuple):
@@ -61,15 +60,15 @@ def make_chain_source(
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
     """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
-    nodes, shafts = enumerate(model.node, 1), enumerate(model.shaft, 1)
-    inertias = [(f"node.{k}.inertia of '{node.name}'", node.inertia) for k, node in nodes]
-    diameters = [(f"shaft.{k}.diameter", shaft.diameter) for k, shaft in shafts]
-    kinds = (inertias, _LIGHT, "kg mm^2", "kg m^2"), (diameters, _THIN, "mm", "m")
-    for figures, least, unit, larger in kinds:
-        for path, value in figures:
-            if value is not None and value < least:
-                meant = ask_unit(unit, f"{value:.4g} {larger}")
-                yield f"{path} is {value:.4g} {unit}; {meant}"
+    figures = [
+        (f"node.{k}.inertia of '{node.name}'", node.inertia, "kg mm^2")
+        for k, node in enumerate(model.node, 1)
+    ]
+    figures += [(f"shaft.{k}.diameter", s.diameter, "mm") for k, s in enumerate(model.shaft, 1)]
+    for path, value, unit in figures:
+        if value is not None and value < _SMALL:
+            larger = ask_unit(unit, f"{value:.4g} {unit.replace('mm', 'm')}")
+            yield f"{path} is {value:.4g} {unit}; {larger}"
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
@@ -92,11 +91,11 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
         return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
-    engine = firing = build_named(model, name)
+    engine = build_named(model, name)
+    doubts = engine.unlikely
     for number in misfires:
         engine = silence(engine, number)
-    source = make_source(model, engine, name, orders)
-    return source._replace(text=text, doubts=firing.unlikely)
+    return make_source(model, engine, name, orders)._replace(text=text, doubts=doubts)
 
 
 def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:

@@ -78,9 +78,8 @@ def make_torsion(
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
         for place, draw in enumerate(parts, 1):
             draw(fig.add_subplot(rows, columns, place))
-        name = fit_name(result.name or "") or "shafts without a name"
         if titled:
-            put_title(fig, f"{name}: torsion")
+            put_title(fig, f"{fit_name(result.name or '') or 'shafts without a name'}: torsion")
         return fig
 
 

@@ -124,11 +124,6 @@ class WorstTorque:
     stress_Pa: float | None = None
     orders: tuple[OrderTorque, ...]
 
-    @property
-    def sum_of_amplitudes_Nm(self) -> float:
-        """Sum of the amplitudes of all orders."""
-        return sum(each.amplitude_Nm for each in self.orders)
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ShaftResponse:

@@ -310,17 +310,18 @@ def _show_response(
     span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
     if not response.shafts:
         return Text(f"Vibration, {span}", (worst,))
-    unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
+    sums = [sum(each.amplitude_Nm for each in s.worst.orders) for s in response.shafts]
+    unit = system.moment.fit(max(sums))
     stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
     rows = []
-    for shaft in response.shafts:
+    for shaft, total in zip(response.shafts, sums, strict=True):
         most = shaft.worst
         known = math.nan if most.stress_Pa is None else most.stress_Pa
         cells = [
             shaft.name,
             number(unit.of(most.half_peak_to_peak_Nm)),
             number(most.speed_rpm),
-            number(unit.of(most.sum_of_amplitudes_Nm)),
+            number(unit.of(total)),
             *[number(stress.of(known), 4)] * stressed,
         ]
         rows.append((*cells, _name_orders(shaft, unit)))
