@@ -29,8 +29,8 @@ from ..shell.values import read_angle, read_share
 from ..show.result import Result
 from ..show.sheet import count_name
 from .deviations import THROW_MASS, Source, Tolerances, find_sources
-from .evaluator import Evaluator
 from .quantities import (
+    Evaluator,
     NamedEngine,
     choose_of_engine,
     list_assumed,

@@ -38,9 +38,15 @@ from ..process import count_cores
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..show.result import Result
 from ..show.sheet import count_name
-from .evaluator import Evaluator, naming_variant
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
-from .quantities import AnyQuantity, list_assumed, parse_quantities, refuse_unknown
+from .quantities import (
+    AnyQuantity,
+    Evaluator,
+    list_assumed,
+    naming_variant,
+    parse_quantities,
+    refuse_unknown,
+)
 
 if TYPE_CHECKING:
     from concurrent.futures import Future

@@ -35,9 +35,8 @@ from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
 from ...process import Tell
-from ..evaluator import Evaluator
 from ..parameters import tell_variant
-from ..quantities import AnyQuantity, parse_quantities
+from ..quantities import AnyQuantity, Evaluator, parse_quantities
 
 # One arrangement: what differs from the file, by key: a key of PATHS, or the dotted name of a
 # number. Throws (deg) and firing orders are lists.
