@@ -1,5 +1,5 @@
-"""README.md and docs/*.md: what they show is what is printed, their links lead somewhere, and every
-command is described.
+"""README.md and docs/**/*.md: what they show is what is printed, their links lead somewhere, and
+every command is described.
 """
 
 from __future__ import annotations
@@ -16,11 +16,19 @@ from balcli.cli import COMMANDS
 
 README = guide.ROOT / "README.md"
 TOUR = guide.ROOT / "docs" / "tour.md"
+RECIPES = sorted((guide.ROOT / "docs" / "recipes").glob("*.md"))
+
+
+def name_document(path: Path) -> str:
+    return path.relative_to(guide.ROOT).as_posix()
 
 
 @pytest.mark.parametrize(
     "document",
-    [pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=path.name) for path in guide.DOCUMENTS],
+    [
+        pytest.param(path, marks=[] if path == README else pytest.mark.stress, id=name_document(path))
+        for path in guide.DOCUMENTS
+    ],
 )
 def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> None:
     text, folder = document.read_text(encoding="utf-8"), guide.project(tmp_path)
@@ -32,7 +40,7 @@ def test_everything_shown_is_what_is_printed(document: Path, tmp_path: Path) -> 
         if not guide.agrees(one.expected, found := guide.printed(one, folder))
     ]
     assert not wrong, (
-        f"{document.name} shows something else (python tools/docs_examples.py {document.name} "
+        f"{document.name} shows something else (python tools/docs_examples.py {name_document(document)} "
         "renews it):\n" + "\n\n".join(wrong)
     )
 
@@ -58,10 +66,39 @@ def test_comparison_sees_a_changed_figure_and_passes_over_what_is_left_out() -> 
     assert not guide.agrees(["bound  0"], ["bound  4.5424e-12"])
 
 
-@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=name_document)
 def test_nothing_shown_is_rounding(document: Path) -> None:
     lines = [line for one in guide.shown(document.read_text(encoding="utf-8")) for line in one.expected]
     assert [line for line in lines if re.search(r"\de-(1[3-9]|[2-9]\d)\b", line)] == []
+
+
+def test_front_page_begins_with_a_picture_and_a_result() -> None:
+    text = (guide.ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    parts = [text.index(part) for part in ("![", "```console", "## I want to …", "## Install")]
+    assert parts == sorted(parts)
+
+
+def test_a_recipe_is_a_page_of_one_task() -> None:
+    overview = (guide.ROOT / "docs" / "recipes" / "index.md").read_text(encoding="utf-8")
+    for recipe in RECIPES:
+        text = recipe.read_text(encoding="utf-8")
+        assert len(text.splitlines()) <= 75, recipe.name
+        if recipe.name != "index.md":
+            title = text.splitlines()[0].removeprefix("# ")
+            assert f"[{title}]({recipe.name})" in overview, recipe.name
+            assert "\nNext: " in text, recipe.name
+
+
+def test_glossary_has_every_term_in_four_languages() -> None:
+    glossary = (guide.ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+    rows = [row.strip("| ").split(" | ") for row in re.findall(r"^\| .+", glossary, re.MULTILINE)]
+    terms = [row for row in rows if row[0] != "English" and not row[0].startswith("---")]
+    assert len({row[0] for row in terms}) == len(terms) > 50
+    for _, meaning, chinese, russian, german in terms:
+        assert meaning.endswith("."), meaning
+        assert re.search("[\u4e00-\u9fff]", chinese), chinese
+        assert re.search("[а-я]", russian), russian
+        assert re.search("[A-Za-z]", german), german
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -102,10 +139,10 @@ def test_picture_of_the_readme_is_what_its_command_draws(tmp_path: Path) -> None
     assert picture.stat().st_size < 60_000
 
 
-@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", guide.DOCUMENTS, ids=name_document)
 def test_links_lead_to_files_and_headings_that_exist(document: Path) -> None:
     for target in re.findall(r"\]\(([^)\s]+)\)", document.read_text(encoding="utf-8")):
-        if target.startswith("http"):
+        if target.startswith("http") or target == "play.html":  # which the site makes
             continue
         file, _, heading = target.partition("#")
         there = document.parent / file if file else document

@@ -47,7 +47,7 @@ def test_index_links_of_the_readme_lead_into_the_repository():
 def test_where_the_project_lives_is_said_in_one_place():
     addresses = PROJECT["tool"]["hatch"]["metadata"]["hooks"]["custom"]
     owner = re.match(r"https://[^/]+/[^/]+/", addresses["repository"])[0]
-    written = [*ROOT.glob("*.*"), *ROOT.glob("docs/*.md"), *ROOT.glob(".github/**/*.*")]
+    written = [*ROOT.glob("*.*"), *ROOT.glob("docs/**/*.md"), *ROOT.glob(".github/**/*.*")]
     assert [file.name for file in written if file.is_file() and owner in file.read_text("utf-8", "replace")] == [
         "pyproject.toml"
     ]
@@ -109,6 +109,16 @@ def test_hook_takes_engine_files_alone():
 
 def test_citation_is_of_this_version():
     assert f"\nversion: {balcli.__version__}\n" in text("CITATION.cff")
+
+
+def test_conda_recipe_has_our_version_and_dependencies():
+    recipe = text("tools/conda/recipe.yaml").replace("matplotlib-base", "matplotlib")
+    needed = re.findall(r"    - (\S+ >=\S+)", recipe.partition("  run:\n")[2].partition("\ntests:")[0])
+    assert [each.replace(" ", "") for each in needed] == [
+        f"python{PROJECT['project']['requires-python']}",
+        *PROJECT["project"]["dependencies"],
+    ]
+    assert f'version: "{balcli.__version__}"' in recipe
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -57,6 +57,7 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
         lambda: balcli.search(load("i4"), "throws", SPREAD),
         ("search", FILES["i4"], "--over", "throws", "--minimise", SPREAD),
     ),
+    "Pistons": (lambda: balcli.analyze_pistons(load("i4")), ("piston", FILES["i4"])),
     "Swept": (
         lambda: balcli.sweep(load("i4"), {"rod.ratio": [0.25, 0.3], "piston.mass": "0.4:0.5:0.05"}, ROUND),
         (

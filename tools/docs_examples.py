@@ -1,4 +1,4 @@
-"""What README.md and docs/*.md show, and how to run it.
+"""What README.md and docs/**/*.md show, and how to run it.
 
 In a ```console block a line that begins with `$ ` is a command, the lines below are all that it
 prints, and a line `…` stands for any lines left out. A ```toml block whose first line is `#
@@ -29,7 +29,7 @@ from typing import NamedTuple
 from unittest.mock import patch
 
 ROOT = Path(__file__).resolve().parent.parent
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LEFT_OUT = "…"
 WIDTH = patch.dict(os.environ, {"COLUMNS": "80"})
 FUNCTION = (

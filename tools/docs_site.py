@@ -1,7 +1,7 @@
 """What the documentation site has beyond docs/, as a hook of MkDocs (mkdocs.yml).
 
 - the addresses of the project, from pyproject.toml;
-- README.md as the first page, and the pages beside it, with their links turned to the site's;
+- the pages at the root of the repository, with their links turned to the site's;
 - the pictures of docs/gallery.md, made by the commands that it shows;
 - the notebooks of docs/notebooks as pages, as they were run last;
 - formulas (`$$` … `$$`) as MathML, which browsers show by themselves: no script, no network.
@@ -18,7 +18,6 @@ from typing import Any
 from docs_examples import ROOT, Shown, blocks, printed, project
 
 PAGES = {  # of the repository's root, by their names on the site
-    "README.md": "index.md",
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
     "SECURITY.md": "security.md",
@@ -55,6 +54,9 @@ def on_files(files: Any, config: Any) -> Any:
     for source, target in PAGES.items():
         text = (ROOT / source).read_text(encoding="utf-8")
         made[target] = link_here(text, config.extra["repository"])
+    from balcli.report.page import make_play_page
+
+    made["play.html"] = make_play_page()
     for notebook in NOTEBOOKS:
         made |= _convert_notebook(notebook)
     with TemporaryDirectory() as folder:
@@ -79,8 +81,8 @@ def link_here(text: str, repository: str) -> str:
         path, heading = found[1], found[2] or ""
         if path.startswith("docs/"):
             return f"]({path.removeprefix('docs/').replace('.ipynb', '.md')}{heading})"
-        if path in PAGES:
-            return f"]({PAGES[path]}{heading})"
+        if path in PAGES or path == "README.md":
+            return f"]({PAGES.get(path, 'index.md')}{heading})"
         return f"]({repository}/blob/main/{path}{heading})"
 
     return re.sub(r"\]\((?!#|[a-z]+:)([^)\s#]+)(#[^)\s]*)?\)", target, text)

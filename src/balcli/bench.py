@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from itertools import product
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -153,15 +154,14 @@ def measure() -> Bench:
 def list_cases() -> Iterator[Case]:
     """Yield every method of every task."""
     cylinder, v8 = build(parse(CYLINDER)), build(parse(V8))
-    tasks = {
-        "one cylinder, order 2": (cylinder, [2]),
-        "one cylinder, order 8": (cylinder, [8]),
-        "one V8, force and moment": (v8, ORDERS),
-    }
-    for task, (engine, orders) in tasks.items():
+    for task, engine, orders in (
+        ("one cylinder, order 2", cylinder, [2]),
+        ("one cylinder, order 8", cylinder, [8]),
+        ("one V8, force and moment", v8, ORDERS),
+    ):
         for name, way in WAYS.items():
-            run = partial(way, engine, orders)
-            yield Case(task, name, run, find_error(engine, way, orders))
+            error = find_error(engine, way, orders)
+            yield Case(task, name, partial(way, engine, orders), error)
     yield from _list_sweeps()
 
 
@@ -297,23 +297,16 @@ WAYS: dict[str, Way] = {
 # ------------------------------------------------------------------ a sweep
 def _list_sweeps() -> Iterator[Case]:
     """Yield methods for a V8 over bank angles and rod ratios, orders 1 and 2."""
-    task, few = "sweep of a V8, a variant", _grid(2, 2)
+    task, few, grid = "sweep of a V8, a variant", _grid(2, 2), _grid(1024, 512)
     engines = list(_list_engines(few))
-    grid = _grid(1024, 512)
-    ways = {
-        "closed form": use_balcli,
-        "FFT, 16 points": WAYS["FFT, 16 points"],
-        "time stepping, 360 steps": WAYS["time stepping, 360 steps"],
-    }
-    errors = {
-        name: max(find_error(engine, way, SWEPT_ORDERS) for engine in engines)
-        for name, way in ways.items()
-    }
-    run = partial(run_sweep, grid)
-    yield Case(task, "closed form, as arrays", run, errors["closed form"], grid.variants)
-    for name, way in ways.items():
-        run = partial(_run_one_by_one, few, way)
-        yield Case(task, f"{name}, engine by engine", run, errors[name], few.variants)
+    for name in ("closed form", "FFT, 16 points", "time stepping, 360 steps"):
+        way = WAYS[name]
+        error = max(find_error(engine, way, SWEPT_ORDERS) for engine in engines)
+        if way is use_balcli:
+            run = partial(run_sweep, grid)
+            yield Case(task, f"{name}, as arrays", run, error, grid.variants)
+        alone = partial(_run_one_by_one, few, way)
+        yield Case(task, f"{name}, engine by engine", alone, error, few.variants)
 
 
 def _grid(banks: int, ratios: int) -> Sweep:
@@ -336,11 +329,8 @@ def _run_one_by_one(sweep: Sweep, way: Way) -> None:
 
 
 def _list_engines(sweep: Sweep) -> Iterator[Engine]:
-    angles, ratios = sweep.parameters
-    for angle in angles.values:
-        for ratio in ratios.values:
-            file = sweep.file.with_table("layout", bank_angle=float(angle))
-            yield build(file.with_table("rod", ratio=float(ratio)))
+    for angle, ratio in product(*(p.values.tolist() for p in sweep.parameters)):
+        yield build(sweep.file, {"layout.bank_angle": angle, "rod.ratio": ratio})
 
 
 # ------------------------------------------------------------------ run times

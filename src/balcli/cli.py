@@ -44,6 +44,8 @@ GROUPS = {
         "effect of a given torque curve.",
         "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
         "motion of one piston.",
+        "piston": "Motion of the pistons: strokes, dead centres, speeds and accelerations, exact "
+        "and by two terms.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
         "report": "Write one self-contained page: the engine in motion, its free forces and "
@@ -89,7 +91,7 @@ COMMANDS = {name: text for group in GROUPS.values() for name, text in group.item
 
 # The commands of each module; their functions are called like them.
 _COMMANDS_OF = {
-    "analysis.command": ("analyze", "compare", "sum", "curves"),
+    "analysis.command": ("analyze", "compare", "sum", "curves", "piston"),
     "balancing.command": ("balance",),
     "books.command": ("layouts", "tables"),
     "commands": ("new", "engines", "schema", "check", "bench"),
@@ -216,7 +218,7 @@ def _options(
             "--quiet",
             callback=_quiet,
             expose_value=False,
-            help="Results and errors alone: no warnings, no progress.",
+            help="No warnings and no progress.",
         ),
     ] = False,
     verbose: Annotated[
@@ -226,7 +228,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Print also what was read and assumed, and the run time, on standard error.",
+            help="Print also what was read, and the run time.",
         ),
     ] = False,
     digits: Annotated[
@@ -240,7 +242,7 @@ def _options(
             envvar="BALCLI_DIGITS",
             show_envvar=False,
             show_default=False,
-            help=f"Significant digits of figures in tables; default: {USUAL_DIGITS}.",
+            help=f"Significant digits in tables; default: {USUAL_DIGITS}.",
         ),
     ] = None,
 ) -> None:

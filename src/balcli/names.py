@@ -10,44 +10,34 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-# What `import balcli` offers: the module of each name.
-PUBLIC = {
-    "Analysis": "analysis.answer",
-    "analyze": "analysis.answer",
-    "Balance": "balancing.answer",
-    "balance": "balancing.answer",
-    "BalcliError": "errors",
-    "InputError": "errors",
-    "Combined": "analysis.two_engines",
-    "combine": "analysis.two_engines",
-    "Comparison": "analysis.comparison",
-    "compare": "analysis.comparison",
-    "Curves": "analysis.curves",
-    "curves": "analysis.curves",
-    "Engine": "engine.engine",
-    "load": "engine.load",
-    "load_example": "engine.load",
-    "FieldBalance": "field.answer",
-    "balance_rotor": "field.answer",
-    "MountReport": "mounts.records",
-    "plot": "report.plot",
-    "analyze_mounts": "mounts.answer",
-    "Result": "show.result",
-    "Scatter": "studies.scatter",
-    "scatter": "studies.scatter",
-    "SchemeOptions": "sizing.options",
-    "Search": "studies.search.answer",
-    "search": "studies.search.answer",
-    "Swept": "studies.sweep",
-    "sweep": "studies.sweep",
-    "Table": "books.recomputed",
-    "tables": "books.answer",
-    "Tools": "sizing.workshop",
-    "TorqueAnalysis": "torque.records",
-    "analyze_torque": "torque.answer",
-    "TorsionAnalysis": "torsion.answer",
-    "analyze_torsion": "torsion.answer",
+# What `import balcli` offers: the names of each module.
+_ROOMS = {
+    "analysis.answer": "Analysis analyze",
+    "analysis.comparison": "Comparison compare",
+    "analysis.curves": "Curves curves",
+    "analysis.piston": "Pistons analyze_pistons",
+    "analysis.two_engines": "Combined combine",
+    "balancing.answer": "Balance balance",
+    "books.answer": "tables",
+    "books.recomputed": "Table",
+    "engine.engine": "Engine",
+    "engine.load": "load load_example",
+    "errors": "BalcliError InputError",
+    "field.answer": "FieldBalance balance_rotor",
+    "mounts.answer": "analyze_mounts",
+    "mounts.records": "MountReport",
+    "report.plot": "plot",
+    "show.result": "Result",
+    "sizing.options": "SchemeOptions",
+    "sizing.workshop": "Tools",
+    "studies.scatter": "Scatter scatter",
+    "studies.search.answer": "Search search",
+    "studies.sweep": "Swept sweep",
+    "torque.answer": "analyze_torque",
+    "torque.records": "TorqueAnalysis",
+    "torsion.answer": "TorsionAnalysis analyze_torsion",
 }
+PUBLIC = {name: module for module, names in _ROOMS.items() for name in names.split()}
 
 # What shows a kind of result: the module with its RENDERER.
 RENDERERS = {
@@ -58,6 +48,7 @@ RENDERERS = {
     "Curves": "analysis.curves",
     "FieldBalance": "field.show",
     "MountReport": "mounts.show",
+    "Pistons": "analysis.piston",
     "Scatter": "studies.scatter_command",
     "Search": "studies.search.command",
     "Swept": "studies.sweep_show",
@@ -78,12 +69,13 @@ DOCUMENTS = {
     "marine": "analysis.speeds:MarineSheet",
     "mounts": "mounts.records:MountReport",
     "numbers": "studies.quantities:NamedNumbers",
+    "piston": "analysis.piston:Pistons",
     "scatter": "studies.scatter:Scatter",
     "search": "studies.search.answer:Search",
     "speeds": "analysis.speeds:SpeedSeries",
     "sum": "analysis.two_engines:Combined",
     "sweep": "studies.sweep_show:SweepDocument",
-    "table": "books.show:TableDocument",
+    "table": "books.recomputed:Table",
     "torque": "torque.records:TorqueAnalysis",
     "torsion": "torsion.answer:TorsionAnalysis",
 }
@@ -108,6 +100,7 @@ QUANTITIES = {
 }
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
+EXPLORE = "report.page:explore"
 
 
 def import_name(place: str) -> Any:

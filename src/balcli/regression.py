@@ -2,8 +2,9 @@
 
 A record is the JSON document of `analyze` (orders, peaks, displacement, dead centers) with the
 main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
-Two records agree if every leaf agrees: texts, whole numbers and flags exactly, figures within a
-share of the largest figure of their group, and angles within what such a share turns them by.
+Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
+the largest figure of their group. Axes, phases and peak angles of an order, and whether it is
+balanced, follow from its vectors, which are compared; they are not compared again.
 """
 
 from __future__ import annotations
@@ -14,12 +15,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import NoneType
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
 from .analysis.answer import Analysis, analyze
-from .analysis.curves import compute_engine_curves
 from .core.records import Node, to_document
 from .engine.engine import Engine
 from .errors import BalcliError
@@ -33,9 +33,10 @@ from .torsion.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
 PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
+DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # by which members of lists are matched
-_ANGLES = ("axis_deg", "phase_deg", "peak_deg")
+_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced", "force_deg", "moment_deg")
 _BROKEN = (
     OSError,
     ValueError,
@@ -106,36 +107,20 @@ class Check:
     engines: tuple[CheckedEngine, ...]
 
 
-class _Leaf(NamedTuple):
-    """A value of a record.
+_Path = tuple[str, ...]  # keys from the top of the document, and labels such as `order 2`
 
-    Attributes:
-        path: Keys from the top of the document, and labels of list items such as `order 2`.
-        value: The value.
-        parent: The object in which the value stands.
-    """
 
-    path: tuple[str, ...]
-    value: Any
-    parent: Node
+def _find_group(path: _Path) -> str:
+    """Return the first key with a unit: figures of a group are compared with the largest of it."""
+    units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
+    return next((key for key in path if key.endswith(units)), path[-1])
 
-    @property
-    def group(self) -> str:
-        """The first key with a unit: figures of one group are compared with the largest of them."""
-        units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
-        return next((key for key in self.path if key.endswith(units)), self.path[-1])
 
-    @property
-    def cause(self) -> str:
-        """The quantity or chapter, as messages name it."""
-        names = {kind.key: kind.name for kind in (*KINDS.values(), *GAS_KINDS.values())}
-        found = [names[key] for key in self.path if key in names]
-        return found[0] if found else next((k for k in self.path if k != "orders"), "")
-
-    @property
-    def figure(self) -> str:
-        """The path in words."""
-        return " ".join(part for part in self.path if part != "orders")
+def _name_cause(path: _Path) -> str:
+    """Return the quantity or chapter of a figure, as messages name it."""
+    names = {kind.key: kind.name for kind in (*KINDS.values(), *GAS_KINDS.values())}
+    found = [names[key] for key in path if key in names]
+    return found[0] if found else next((key for key in path if key != "orders"), "")
 
 
 # ------------------------------------------------------------------ files
@@ -218,29 +203,23 @@ def _describe_chapters(engine: Engine) -> Node:
     model: EngineFile | None = engine.model
     found: Node = {}
     if engine.gas is not None:
+        left_out = {"orders", "format", "version", "speed_rpm"}
         torque = analyze_torque(engine).to_dict()
-        found["torque"] = {
-            k: v for k, v in torque.items() if k not in ("orders", "format", "version", "speed_rpm")
-        }
+        found["torque"] = {key: torque[key] for key in torque if key not in left_out}
     if model is not None and model.body is not None and model.mount:
         mounts = analyze_mounts(engine).to_dict()
-        found["mounts"] = {
-            "modes": [
-                {"mode": n, "frequency_Hz": m["frequency_Hz"]}
-                for n, m in enumerate(mounts["modes"], 1)
-            ],
-            "largest": [{"name": m["name"], **m["worst"]} for m in mounts["response"]["mounts"]],
-        }
+        largest = [{"name": m["name"], **m["worst"]} for m in mounts["response"]["mounts"]]
+        found["mounts"] = {"modes": _number_modes(mounts), "largest": largest}
     if model is not None and model.torsion is not None:
         torsion = analyze_torsion(engine).to_dict()
-        found["torsion"] = {
-            "modes": [
-                {"mode": n, "frequency_Hz": m["frequency_Hz"]}
-                for n, m in enumerate(torsion["modes"], 1)
-            ],
-            "criticals": torsion.get("criticals", []),
-        }
+        criticals = torsion.get("criticals", [])
+        found["torsion"] = {"modes": _number_modes(torsion), "criticals": criticals}
     return found
+
+
+def _number_modes(document: Node) -> list[Node]:
+    modes = enumerate(document["modes"], 1)
+    return [{"mode": n, "frequency_Hz": mode["frequency_Hz"]} for n, mode in modes]
 
 
 # ------------------------------------------------------------------ comparison
@@ -266,12 +245,11 @@ def find_differences(
         orders = {entry["order"] for entry in recorded["orders"]}
         if not orders <= set(spectra.orders):
             document, spectra = _describe(engine, {*orders, *spectra.orders})
-        old = {leaf.path: leaf for leaf in _list_leaves(recorded)}
-        numbers = [leaf.value for leaf in old.values() if isinstance(leaf.value, (int, float))]
+        old, new = dict(_list_leaves(recorded)), dict(_list_leaves(document))
+        numbers = [value for value in old.values() if isinstance(value, (int, float))]
         if not all(map(math.isfinite, numbers)):
             raise BalcliError("a figure is not finite")
-        new = {leaf.path: leaf for leaf in _list_leaves(document)}
-        return list(_compare(engine, old, new, spectra, tolerance))
+        return list(_compare(old, new, _find_roundings(spectra), tolerance))
     except _BROKEN as error:
         broken = f"the result recorded in {where} cannot be read ({_describe_error(error)})"
         return [Difference.of_record(f"{broken}; check --update records it anew")]
@@ -287,119 +265,60 @@ def _describe_error(error: Exception) -> str:
     return str(error) if isinstance(error, BalcliError) else "it is no result of balcli analyze"
 
 
-def _list_leaves(
-    value: object, path: tuple[str, ...] = (), parent: Node | None = None
-) -> Iterator[_Leaf]:
+def _list_leaves(value: object, path: _Path = ()) -> Iterator[tuple[_Path, Any]]:
+    """Yield the values of a record that are compared, with their paths."""
     if isinstance(value, dict):
         for key, part in value.items():
-            yield from _list_leaves(part, (*path, key), value)
+            if key not in _DERIVED:
+                yield from _list_leaves(part, (*path, key))
     elif isinstance(value, list):
         for number, part in enumerate(value, 1):
-            labels = (
-                [f"{key} {part[key]}" for key in _LABELS if key in part]
-                if isinstance(part, dict)
-                else []
-            )
-            pair = path[-1] in ("forward", "backward")
-            yield from _list_leaves(
-                part,
-                (*path, " ".join(labels) or ("xy"[number - 1] if pair else str(number))),
-                parent,
-            )
+            label = "xy"[number - 1] if path[-1] in ("forward", "backward") else str(number)
+            if isinstance(part, dict):
+                labels = (f"{key} {part[key]}" for key in _LABELS if key in part)
+                label = " ".join(labels) or label
+            yield from _list_leaves(part, (*path, label))
     else:
-        yield _Leaf(path, value, parent or {})
+        yield path, value
 
 
 def _compare(
-    engine: Engine,
-    old: Mapping[tuple[str, ...], _Leaf],
-    new: Mapping[tuple[str, ...], _Leaf],
-    spectra: Spectra,
+    old: Mapping[_Path, Any],
+    new: Mapping[_Path, Any],
+    roundings: Mapping[tuple[str, str], float],
     tolerance: float,
 ) -> Iterator[Difference]:
     largest: dict[str, float] = {}
-    for leaf in (*old.values(), *new.values()):
-        if isinstance(leaf.value, float) and not leaf.path[-1].endswith("_deg"):
-            largest[leaf.group] = max(largest.get(leaf.group, 0.0), abs(leaf.value))
-    roundings = _find_roundings(spectra)
+    for path, value in (*old.items(), *new.items()):
+        if isinstance(value, float) and not path[-1].endswith("_deg"):
+            group = _find_group(path)
+            largest[group] = max(largest.get(group, 0.0), abs(value))
     for path in dict.fromkeys((*new, *old)):
-        leaf = new.get(path) or old[path]
-        before, after = (table[path].value if path in table else None for table in (old, new))
-        scale = largest.get(leaf.group, 0.0)
+        before, after, shared = old.get(path), new.get(path), path in old and path in new
+        group, is_angle = _find_group(path), path[-1].endswith("_deg")
+        scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
-        allowed = tolerance * scale + roundings.get((leaf.group, order), 0.0)
+        allowed = tolerance * scale + roundings.get((group, order), 0.0)
         figures = [
             value or 0.0 for value in (before, after) if isinstance(value, (float, NoneType))
         ]
-        shared = path in old and path in new
-        if path[-1] in _ANGLES:
-            same = _are_same_angles(path[-1], old.get(path), new.get(path), order, allowed)
-        elif path[-1] == "balanced":  # another processor may round an order to exactly balanced
-            same = before == after or _differ_by_rounding(old.get(path), new.get(path), allowed)
-        elif path[-1].endswith("_deg") and isinstance(before, float) and isinstance(after, float):
-            flat = 1e-6 if path[0] == "travel" else PEAK_ANGLE_DEG
-            same = abs(after - before) <= flat or _reach_same_peak(engine, path, figures, allowed)
-        elif len(figures) == 2 and (None not in (before, after) or not shared):
+        if is_angle and isinstance(before, float) and isinstance(after, float):
+            allowed = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
+        if len(figures) == 2 and (None not in (before, after) or not shared):
             same = abs(figures[1] - figures[0]) <= allowed
         else:  # an order that only one of them has is judged by its figures
             same = before == after or (
-                path[-1] == "order" and not shared and leaf.value > 2
+                path[-1] == "order" and not shared and (before or after or 0) > 2
             )  # 1 and 2 are always recorded
         if not same:
-            sized = len(figures) == 2 and scale and not path[-1].endswith("_deg")
+            sized = len(figures) == 2 and scale and not is_angle
             yield Difference(
-                cause=leaf.cause,
-                figure=leaf.figure,
+                cause=_name_cause(path),
+                figure=" ".join(part for part in path if part != "orders"),
                 recorded=before,
                 now=after,
                 share=abs(figures[1] - figures[0]) / scale if sized else None,
             )
-
-
-def _differ_by_rounding(old: _Leaf | None, new: _Leaf | None, allowed: float) -> bool:
-    """Return whether the amplitudes of two leaves differ, and are all rounding errors."""
-    sizes = [() if leaf is None else _find_sizes(leaf) for leaf in (old, new)]
-    return sizes[0] != sizes[1] and all(abs(size) <= allowed for each in sizes for size in each)
-
-
-def _find_sizes(leaf: _Leaf) -> tuple[float, ...]:
-    return tuple(
-        leaf.parent.get(key) or 0.0 for key in ("major", "amplitude") if key in leaf.parent
-    )
-
-
-def _are_same_angles(
-    key: str, old: _Leaf | None, new: _Leaf | None, order: str, allowed: float
-) -> bool:
-    """Return whether two angles agree as far as the sizes of their phasors decide it."""
-    if old is None or new is None:
-        return _differ_by_rounding(old, new, allowed)
-    weights = [
-        _ellipticity(leaf) if key == "axis_deg" else sum(_find_sizes(leaf)) for leaf in (old, new)
-    ]
-    if old.value is None or new.value is None:
-        return old.value == new.value or (weights[0] != weights[1] and max(weights) <= 4 * allowed)
-    number = float(order.removeprefix("order ") or 1)
-    turn = {"axis_deg": 180.0, "phase_deg": 360.0, "peak_deg": 360.0 / (number or 1)}[key]
-    move = abs(math.remainder(new.value - old.value, turn))
-    phase = math.radians(move) * (number if key == "peak_deg" else 1)
-    return move <= 1e-9 or phase * min(weights) <= 4 * allowed
-
-
-def _ellipticity(leaf: _Leaf) -> float:
-    return float((leaf.parent.get("major") or 0.0) - abs(leaf.parent.get("minor") or 0.0))
-
-
-def _reach_same_peak(
-    engine: Engine, path: tuple[str, ...], degrees: list[float], allowed: float
-) -> bool:
-    """Return whether the curve is as large at one angle as at the other."""
-    if path[0] != "peak":
-        return False
-    kind, unit = ("force", "N") if path[-1] == "force_deg" else ("moment", "Nm")
-    values = compute_engine_curves(engine, np.array(degrees)).curves
-    sizes = np.hypot(values[f"{kind}_x_{unit}"], values[f"{kind}_y_{unit}"])
-    return bool(abs(sizes[0] - sizes[1]) <= 4 * allowed)
 
 
 def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:

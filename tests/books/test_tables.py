@@ -7,36 +7,21 @@ import io
 import json
 from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
+from math import comb
 
 import numpy as np
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here
 
-from balcli.books.answer import NAMES, recompute, select_tables
-from balcli.books.recomputed import CLASSES, Explanation, Table, deviates, parse_crank_ratios, parse_range
+from balcli.books.answer import NAMES, select_tables, tables as recompute
+from balcli.books.recomputed import CLASSES, Explanation, Print, deviates, parse_crank_ratios, parse_range
 from balcli.core.mechanisms import slidercrank as sc
 from balcli.errors import BalcliError
 
-ERRATA = {  # printed figures that are not the exact ones rounded
-    "tsinghua-1-1": 1,
-    "tsinghua-1-2": 6,
-    "tsinghua-1-3": 6,
-    "tsinghua-1-4": 6,
-    "tsinghua-1-5": 0,
-    "tsinghua-1-6": 10,
-    "liu-1": 4,
-    "liu-2": 0,
-    "liu-3": 58,
-    "wang-1": 19,
-    "kvasnikov-1": 2,
-    "kvasnikov-2": 3,
-    "liang-examples": 4,
-    "torque-examples": 3,
-    "series": 3,
-    "statements": 47,  # each of them is one
-    "layouts": 0,
-}
+ERRATA = dict(  # printed figures that are not the exact ones rounded; each of the statements is one
+    zip(NAMES, [1, 6, 6, 6, 0, 10, 4, 0, 58, 19, 2, 3, 4, 3, 3, 47, 0], strict=True)
+)
 
 
 def run(*arguments):
@@ -48,19 +33,15 @@ def document(*arguments):
 
 
 # ---------------------------------------------------------------- form
-@pytest.mark.parametrize("name", NAMES)
-def test_rows_and_print_have_one_shape(name):
-    table = recompute(name)
-    assert len(set(table.columns)) == len(table.columns)
-    assert {len(row) for row in (*table.exact, *table.printed)} == {len(table.columns)}
-    assert len(table.exact) == len(table.printed)
-    assert table.source
-    assert table.title
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_numbers_of_errata(name):
-    assert len(recompute(name).errata) == ERRATA[name]
+def test_rows_and_print_have_one_shape():
+    tables = select_tables(None)
+    assert {table.name: len(table.errata) for table in tables} == ERRATA
+    for table in tables:
+        assert len(set(table.columns)) == len(table.columns)
+        assert {len(row) for row in (*table.exact, *table.printed)} == {len(table.columns)}
+        assert len(table.exact) == len(table.printed)
+        assert table.source
+        assert table.title
 
 
 @pytest.mark.parametrize("name", [n for n in NAMES if n not in ("series", "statements", "layouts")])
@@ -83,17 +64,16 @@ def test_when_a_printed_figure_deviates(value, text, wrong):
     assert deviates(value, text) is wrong
 
 
+def kinds(exact, text, *explanations):
+    print_ = Print("t", "", "", ("a", "b"), (("row", text),))
+    return [e.kind for e in print_.compare(("a", "b"), [("row", exact)], explanations=explanations).errata]
+
+
 @cases("books/tables", "kinds")
 def test_kinds(exact, text, kind):
-    """An explanation counts only where it leads to the printed figure."""
-    doubled = Explanation("doubled by mistake", ((None, 2 * exact),))
-    table = Table("t", "", "", ("a", "b"), (("row", exact),), (("row", text),), (doubled,))
-    assert [e.kind for e in table.errata] == [kind]
-
-
-def test_an_explanation_that_says_the_same_as_the_exact_value_is_none():
-    same = Explanation("nothing", ((0.7071,),))
-    assert [e.kind for e in Table("t", "", "", ("a",), ((0.7071,),), (("0.706",),), (same,)).errata] == ["last digit"]
+    """An explanation counts only where it leads to the printed figure, and not if it is the exact one."""
+    assert kinds(exact, text, Explanation("doubled by mistake", ((None, 2 * exact),))) == [kind]
+    assert kinds(0.7071, "0.706", Explanation("nothing", ((None, 0.7071),))) == ["last digit"]
 
 
 # ---------------------------------------------------------------- other ranges
@@ -118,10 +98,8 @@ def test_bad_ranges(text):
     [("tsinghua-1-2", sc.displacement), ("tsinghua-1-3", sc.velocity), ("tsinghua-1-6", sc.acceleration)],
 )
 def test_other_angles_and_ratios(name, function):
-    """The print stands beside the exact values wherever it has the angle and the ratio, and only
-    there.
-    """
-    table = recompute(name, lam="0.3,0.35", angle="70,71.5")
+    """The print stands beside the exact values wherever it has the angle and the ratio, and only there."""
+    table = recompute(name, ratios="0.3,0.35", angles="70,71.5")
     place = table.columns.index("0.35")
     assert table.exact[1][place] == pytest.approx(float(function(np.radians(71.5), 0.35)), rel=1e-14)
     assert table.printed[0][place - 1] is not None
@@ -129,67 +107,51 @@ def test_other_angles_and_ratios(name, function):
 
 
 def test_the_acceleration_goes_on_to_180_degrees():
-    table = recompute("tsinghua-1-6", angle="0:180:5")
+    table = recompute("tsinghua-1-6", angles="0:180:5")
     assert len(table.exact) == 37
     assert len(table.errata) == ERRATA["tsinghua-1-6"]
     assert table.exact[-1][table.columns.index("0.32")] == pytest.approx(-(1 - 0.32), rel=1e-14)
     assert table.printed[-1] == (None,) * len(table.columns)
 
 
-def test_series_to_a_higher_power():
-    """Leading coefficient of A_16: binomial series, (16)^2 (-1)^9 binom(16, 8)/(15 2^31)."""
-    from math import comb
-
+def test_series():
+    """133 printed coefficients are compared. Leading coefficient of A_16: binomial series, 16^2 (-1)^9 binom(16, 8)/(15
+    2^31).
+    """
+    assert sum(words[3] is not None for words in recompute("series").printed) == 133
     table = recompute("series", power=15)
     leading = [row[3] for row in table.exact if row[:3] == ("acceleration A_n (r w^2)", 16, 15)]
     assert leading == [str(Fraction(-(16**2) * comb(16, 8), 15 * 2**31))]
 
 
-def test_all_133_printed_coefficients_are_compared():
-    assert sum(words[3] is not None for words in recompute("series").printed) == 133
-
-
 # ---------------------------------------------------------------- the command
 def test_list_of_tables():
-    result = run()
-    assert result.status == 0
-    for name in NAMES:
-        assert name in result.out
-    assert {t["name"]: t["errata"] for t in document()} == ERRATA
-
-
-def test_words_are_folded_in_a_pipe_and_figures_are_not():
     listed = run().out
+    assert {t["name"]: t["errata"] for t in document()} == ERRATA
     assert max(map(len, listed.splitlines())) <= 80
-    printed = ((t["title"], t["source"].partition(", Table ")[0]) for t in document())
+    printed = ((t["name"], t["title"], t["source"].partition(", Table ")[0]) for t in document())
     words = {word for texts in printed for text in texts for word in text.split()}
     assert words <= set(listed.split())
-    figures = run("layouts", "--digits", "4").out.splitlines()
+    figures = run("layouts", "--digits", "4").out.splitlines()  # are not folded
     assert len([line for line in figures if line.startswith("i4 ")]) == 1
     assert max(map(len, figures)) > 150
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("form", ["table", "json", "csv", "markdown"])
-def test_every_table_in_every_format(name, form):
-    result = run(name, "--format", form)
-    assert result.status == 0
-    assert result.out.strip()
-    assert "nan" not in result.out.split()
+def test_every_table_in_every_format(name):
+    for form in ("table", "json", "csv", "markdown"):
+        result = run(name, "--format", form)
+        assert result.status == 0
+        assert result.out.strip()
+        assert "nan" not in result.out.split()
 
 
-def test_csv_is_in_full_precision():
+def test_figures_are_marked_counted_and_rounded():
     rows = list(csv.reader(io.StringIO(run("tsinghua-1-2", "--format", "csv").out)))
-    assert float(rows[4][rows[0].index("0.29")]) == sc.displacement(np.radians(15), 0.29)
-
-
-def test_deviating_figures_are_marked_and_counted():
+    assert float(rows[4][rows[0].index("0.29")]) == sc.displacement(np.radians(15), 0.29), "in full precision"
     text = run("tsinghua-1-2").out
     assert ".4313 ≠ .4312" in text
     assert "6 of 370 printed figures deviate (exact ≠ printed)" in text
-
-
-def test_digits():
     assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").out
     first = next(line for line in run("tsinghua-1-2", "--digits", "2").out.splitlines() if line.startswith("0 "))
     assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
@@ -203,42 +165,28 @@ def test_a_lambda_that_cannot_be_is_told_what_it_would_be(given):
     assert message.endswith("turns only with 0 < lambda < 1; give crank radius over rod length, such as 0.25 or 1/3.5")
 
 
-def test_errata_of_one_table_and_of_all():
-    assert [e["name"] for e in document("kvasnikov-1", "--errata")] == ["kvasnikov-1"] * 2
-    assert len(document("--errata")) == sum(ERRATA.values())
-    assert "cos 45° taken as 0.706" in run("liu-3", "--errata").out
-
-
 def test_errata_by_class():
     """22 printed figures of 125 are misprints; each class is explained under the errata."""
     every = document("--errata")
+    assert len(every) == sum(ERRATA.values())
     of_figures = [e["class"] for e in every if e["name"] != "statements"]
     assert len(of_figures) == 125
     assert of_figures.count("misprint") == 22
     assert {e["class"] for e in every} == set(CLASSES)
-    for name, meaning in CLASSES.items():
-        assert document("--kind", name) == [e for e in every if e["class"] == name]
-        words = " ".join(run("--kind", name).out.split())
-        assert all(word in words for word in meaning.split())
+    assert document("--kind", "error") == [e for e in every if e["class"] == "error"]
+    words = " ".join(run("--errata").out.split())
+    assert all(word in words for meaning in CLASSES.values() for word in meaning.split())
     assert run("--kind", "typo").status == 2
 
 
-def test_errata_fit_into_80_columns():
-    assert max(map(len, run("--errata").out.splitlines())) <= 80
-    assert max(map(len, run("statements").out.splitlines())) <= 80
-
-
-def test_errata_name_their_rows():
-    """A crank angle, not the number of the row."""
+def test_errata_as_text():
+    """They name their rows, a crank angle and not the number of the row, and fit into 80 columns."""
+    assert [e["name"] for e in document("kvasnikov-1", "--errata")] == ["kvasnikov-1"] * 2
+    assert "cos 45° taken as 0.706" in run("liu-3", "--errata").out
+    for asked in (("--errata",), ("statements",)):
+        assert max(map(len, run(*asked).out.splitlines())) <= 80
     first = document("tsinghua-1-2", "--errata")[0]
     assert (first["row"], first["label"], first["class"]) == (10, "50", "rounding")
-
-
-def test_the_slider_of_liu_is_four_times_too_heavy():
-    (found,) = (e for e in document("--kind", "error") if e["label"] == "liu, (5.6)")
-    assert found["printed"].startswith("m_zh r_zh = 4 lambda m_h r |Zx|max")
-    assert found["exact"].startswith("m_zh r_zh = lambda m_h r |Zx|max")
-    assert "four times too heavy" in found["kind"]
 
 
 @cases("books/tables", "wrong_names_and_options_are_refused")
@@ -246,21 +194,17 @@ def test_wrong_names_and_options_are_refused(arguments, message):
     assert refusal("tables", *arguments).startswith(message)
 
 
-def test_select_without_a_name_gives_all():
-    assert tuple(t.name for t in select_tables(None)) == NAMES
-
-
 def test_layouts_at_a_glance():
     """The same by either command; figures are the handbook's."""
     out = run_here("layouts").out
     assert out == run("layouts").out
-    (five,) = (line.split() for line in out.splitlines() if line.startswith("in-line five"))
-    assert five[2:] == ["0", "0", "0.449", "4.98", "144"]
-    (twin,) = (line.split() for line in out.splitlines() if line.startswith("90-degree V-twin"))
-    assert twin[-5:] == ["1", "1.414", "0", "0", "270/450"]
-    # Yamaha's cross-plane four fires after 270, 180, 90 and 180 degrees
-    cross = next(line for line in out.splitlines() if line.startswith("in-line four, cross"))
-    assert cross.split()[-1] == "90/180/270"
-    single = next(line for line in out.splitlines() if line.startswith("single"))
-    assert single.split()[-1] == "720"  # every other turn, and in no order
+    wanted = {
+        "in-line five": ["0", "0", "0.449", "4.98", "144"],
+        "90-degree V-twin": ["1", "1.414", "0", "0", "270/450"],
+        "in-line four, cross": ["90/180/270"],  # Yamaha's fires after 270, 180, 90 and 180 degrees
+        "single": ["720"],  # every other turn, and in no order
+    }
+    for name, cells in wanted.items():
+        line = next(line for line in out.splitlines() if line.startswith(name))
+        assert line.split()[-len(cells) :] == cells
     assert run_here("layouts", "--format", "json").out == run("layouts", "--format", "json").out

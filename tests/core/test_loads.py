@@ -141,19 +141,6 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
         assert np.all(max(p.noise.max() for p in each) <= whole.noise.max()), quantity
 
 
-@pytest.mark.parametrize(
-    "device",
-    [
-        {"shaft": [{"ratio": -2, "unbalance": 1e7}]},
-        {"shaft": [{"ratio": 2, "unbalance": 1e7}]},
-        {"slider": [{"order": 2, "unbalance": 1e7, "direction": 30}]},
-    ],
-)
-def test_a_heavy_device_has_a_bound_of_its_rounding(device):
-    force = compute_spectra(engine(**device), [2.0], ("force",)).force
-    assert force.noise >= EPS * force.major
-
-
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 @pytest.mark.parametrize("size", [0.0, 1e-6])
 def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):

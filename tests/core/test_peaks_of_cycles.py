@@ -60,13 +60,6 @@ def test_two_orders_in_closed_form():
     assert swing.lowest.angle == pytest.approx(np.arccos(-1 / (4 * a)))
 
 
-def test_a_flat_top():
-    """cos t - cos(2t)/4 has neither slope nor curvature nor a third derivative at 0: 3/4."""
-    swing = find_swing([1, 2], np.array([1, -0.25], complex))
-    assert swing.highest.value == pytest.approx(0.75, rel=RELATIVE)
-    assert swing.lowest.value == pytest.approx(-1.25, rel=RELATIVE)
-
-
 def test_a_peak_that_no_sample_shows_as_highest():
     """Two tops of nearly equal height, the higher one farther from a sample."""
     orders = [1, 7, 8]
@@ -77,20 +70,10 @@ def test_a_peak_that_no_sample_shows_as_highest():
         assert top.angle == pytest.approx([shift], abs=1e-6)
 
 
-def test_of_equal_peaks_the_first():
-    assert find_swing([3], np.array([np.exp(-0.3j)])).highest.angle == pytest.approx(0.1)
-
-
 def test_a_mean_counts_with_its_real_part():
     swing = find_swing([0, 1], np.array([2 + 9j, 1]))
     assert (swing.highest.value, swing.lowest.value) == pytest.approx((3, 1))
     assert find_longest([0, 1], np.array([[2 + 9j], [1]])).value == pytest.approx(3)
-
-
-def test_nothing_is_nothing():
-    swing = find_swing([0.5, 1], np.zeros((2, 3), complex))
-    assert not swing.half.any()
-    assert not find_longest([0.5, 1], np.zeros((2, 4, 3), complex)).value.any()
 
 
 @pytest.mark.parametrize("components", [1, 2, 3])
@@ -107,23 +90,11 @@ def test_longest_vector(components):
         assert found.value == pytest.approx(both, rel=RELATIVE)
 
 
-def test_longest_of_one_order_is_the_semi_axis():
-    phasors = random_phasors(7, 1, 20, 3)
-    assert find_longest([2.5], phasors).value == pytest.approx(largest_of_ellipse(phasors[0]), rel=RELATIVE)
-
-
 def test_ellipse_of_a_circle_and_of_a_line():
     circle, line = np.array([3, 3j, 0]), np.array([3, 0, 4]) * np.exp(1.2j)
     assert largest_of_ellipse(circle) == pytest.approx(3)
     assert largest_of_ellipse(line) == pytest.approx(5)
     assert largest_of_ellipse(np.array([circle, line])) == pytest.approx([3, 5])
-
-
-def test_sum_of_amplitudes_is_a_bound():
-    orders = np.arange(1, 9) / 2
-    phasors = random_phasors(11, 8, 30)
-    assert np.all(find_swing(orders, phasors).half <= sum_amplitudes(phasors))
-    assert sum_amplitudes(np.abs(phasors)) == pytest.approx(find_swing(orders, np.abs(phasors) + 0j).highest.value)
 
 
 @pytest.mark.parametrize("orders", [[0.25, 1], [-1, 1], [1, 1]])

@@ -10,7 +10,7 @@ import pytest
 
 from balcli.core.cylinders import Cylinders
 from balcli.core.mechanisms.closed_form import Series
-from balcli.core.phases import Phases, SeparatePhases, Vectors
+from balcli.core.phases import Phases, SeparatePhases
 
 ORDERS = np.array([0.0, 1.0, 2.0, 5.0])
 AXES, PINS = [-20.0, 70.0], [0.0, 130.0, 250.0, 10.0, 140.0]
@@ -58,7 +58,7 @@ def turned(n: float, cylinder: int, first: int) -> tuple[complex, complex, compl
 def test_vectors_and_scalars_are_turned_and_added_up(columns, arms, first):
     """Equal vectors are taken out of the sum, others not; the result is the same."""
     forward, mirrored = random(1, columns), random(2, columns)
-    vectors = Vectors(np.array((forward, mirrored)), np.zeros((len(ORDERS), 1)))
+    vectors = Series(np.array((forward, mirrored)), np.zeros((len(ORDERS), 1)))
     phases = Phases(cylinders(first), ORDERS)
     found, scalar = phases.add_vectors(vectors, arms, arms), phases.add_scalars(Series(forward))
     for row, n in enumerate(ORDERS):
@@ -80,7 +80,7 @@ def test_vectors_and_scalars_are_turned_and_added_up(columns, arms, first):
 @pytest.mark.parametrize("arms", [None, ARMS])
 def test_what_is_not_summed_are_the_terms_of_the_sum(columns, arms):
     sides = np.array((random(3, columns), random(4, columns)))
-    vectors = Vectors(sides, np.ones((len(ORDERS), columns)))
+    vectors = Series(sides, np.ones((len(ORDERS), columns)))
     whole = Phases(cylinders(), ORDERS).add_vectors(vectors, arms, arms)
     each = SeparatePhases(cylinders(), ORDERS).add_vectors(vectors, arms, arms)
     assert each.forward.shape == each.backward.shape == (len(ORDERS), 5)

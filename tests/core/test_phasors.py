@@ -24,7 +24,7 @@ def one(forward: complex, backward: complex, order: float = 2, noise: float = 0.
 SINES = {0: 0.0, 30: 0.5, 45: math.sqrt(0.5), 60: math.sqrt(0.75), 90: 1.0}
 
 
-@pytest.mark.parametrize("turns", [0, 1, -1, 7, -1000, 123_456])
+@pytest.mark.parametrize("turns", [0, -1, 123_456])
 @pytest.mark.parametrize("angle", [*range(0, 360, 30), *range(45, 360, 90)])
 def test_unit_is_exact_at_multiples_of_30_and_45_degrees(angle, turns):
     def sine(x: int) -> float:
@@ -40,11 +40,6 @@ def test_unit_elsewhere_is_within_two_ulp():
     assert np.abs(unit(degrees) - exact).max() < 4 * EPS
     assert np.abs(np.abs(unit(degrees)) - 1).max() <= 2 * EPS
     assert unit(degrees.reshape(5, 100)).shape == (5, 100)
-
-
-def test_roots_of_unity_sum_to_zero_where_they_stand_on_the_table():
-    for count in (2, 3, 4, 6, 8, 12):
-        assert abs(unit(np.arange(count) * 360 / count).sum()) <= EPS, count
 
 
 # ------------------------------------------------------------------ the ellipse
@@ -81,16 +76,6 @@ def test_axis_lies_above_minus_90_up_to_90(forward, backward, axis):
     assert one(forward, backward).axis_deg[0] == pytest.approx(axis, abs=1e-12)
 
 
-@pytest.mark.parametrize("slip", [-1e-15, -1e-16, 0, 1e-16, 1e-15])
-def test_an_axis_across_is_at_90_degrees_whatever_the_rounding(slip):
-    assert one(cmath.exp(1j * (math.pi / 3 + slip)), cmath.exp(2j * math.pi / 3)).axis_deg[0] == pytest.approx(
-        90, abs=1e-9
-    )
-    assert one(cmath.exp(-1j * (math.pi / 3 + slip)), cmath.exp(-2j * math.pi / 3)).axis_deg[0] == pytest.approx(
-        90, abs=1e-9
-    )
-
-
 @pytest.mark.parametrize("turn", [180, 360])
 def test_a_direction_is_reduced_to_half_a_turn_either_way(turn):
     barely = math.nextafter(turn / 2, math.inf)  # its remainder rounds to a whole turn
@@ -121,15 +106,6 @@ def test_a_scalar_is_a_real_curve():
     assert np.array_equal(phasors.x, c)
     assert phasors.major == pytest.approx(np.abs(c), rel=RELATIVE)
     assert np.abs(phasors.y).max() == 0
-
-
-def test_order_0_holds_its_mean_in_forward_alone():
-    mean = Phasors.from_scalar(np.array([0.0]), np.array([5 + 0j]), np.zeros(1))
-    assert (mean.forward[0], mean.backward[0], mean.x[0]) == (5, 0, 5)
-    vector = one(3 - 4j, 0, 0)
-    assert (vector.x[0], vector.y[0], vector.major[0], vector.minor[0]) == (3, -4, 5, 5)
-    assert math.isnan(vector.axis_deg[0])
-    assert vector.values([0.0, 1.0]) == pytest.approx([3 - 4j, 3 - 4j])
 
 
 # ------------------------------------------------------------------ arithmetic
@@ -163,15 +139,6 @@ def test_settled_clears_each_vector_for_itself():
     assert list(phasors.forward) == [0, 1.1e-3j, 0]
     assert list(phasors.backward) == [7, 0, 0]
     assert list(phasors.balanced) == [False, False, True]
-
-
-def test_at_takes_rows_in_any_order():
-    orders = np.array([0.0, 1.0, 2.0, 5.0])
-    phasors = Phasors.of(orders, orders + 1j, -orders + 0j, np.zeros(1))
-    rows = phasors.select_orders([5, 1])
-    assert list(rows.orders) == [5, 1]
-    assert list(rows.forward) == [5 + 1j, 1 + 1j]
-    assert rows.noise.shape == (2,)
 
 
 def test_trailing_axes_are_variants():

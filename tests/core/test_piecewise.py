@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.piecewise import PiecewiseCurve, merged_breaks, polyline, resolved
+from balcli.core.piecewise import merged_breaks, polyline, resolved
 
 RELATIVE = 1e-13
 TURN = 2 * np.pi
@@ -63,21 +63,6 @@ def test_a_branch_point_at_a_breakpoint(power):
     np.testing.assert_allclose(curve.at(angle), angle**power, rtol=0, atol=1e-11)
 
 
-def test_panels_end_where_the_function_is_no_better_than_its_own_noise():
-    noise = np.random.default_rng(1)
-    rough = resolved(lambda x: np.sin(x) + 1e-11 * noise.uniform(-1, 1, x.shape), [0, TURN])
-    assert len(rough.breaks) < 500
-    np.testing.assert_allclose(rough.harmonics(np.arange(4)), [0, -1j, 0, 0], rtol=0, atol=1e-10)
-
-
-def test_many_pieces_lose_nothing():
-    breaks = np.linspace(0, TURN, 1001)
-    curve = resolved(smooth, breaks)
-    np.testing.assert_allclose(
-        curve.harmonics(np.arange(25))[1:], [2 * bessel(k) for k in range(1, 25)], rtol=0, atol=1e-14
-    )
-
-
 # ---------------------------------------------------------------- extremes
 def test_extremes_are_found_between_the_nodes():
     lowest, highest = resolved(lambda x: np.sin(x) + 0.3 * np.cos(2 * x), [0, TURN]).extremes()
@@ -93,21 +78,6 @@ def test_an_extreme_that_is_rounding_is_0():
     assert curve.extremes()[0].value == 0.0
     lifted = resolved(lambda x: 1 + 1e-12 - np.cos(x), [0, TURN])
     assert lifted.extremes()[0].value == pytest.approx(1e-12, rel=1e-3)
-
-
-@pytest.mark.parametrize("shift", [0.0, 0.1, 2.0])
-def test_of_equal_extremes_the_first(shift):
-    lowest, highest = resolved(lambda x: np.cos(4 * (x - shift)), [0, TURN]).extremes()
-    assert highest.angle == pytest.approx(shift % (np.pi / 2), abs=1e-7)
-    assert lowest.angle == pytest.approx((shift + np.pi / 4) % (np.pi / 2), abs=1e-7)
-
-
-def test_an_extreme_in_the_middle_of_a_panel():
-    """Where a node is, and the derivative exactly 0."""
-    curve = PiecewiseCurve(np.array([0.0, 2.0]), np.array([[0.0], [0.0], [-1.0]]))
-    lowest, highest = curve.extremes()
-    assert highest == (1.0, 0.5)
-    assert lowest == (0.0, -1.0)
 
 
 def test_a_jump_has_its_extremes_at_both_sides():
@@ -141,13 +111,6 @@ def test_harmonics_of_a_triangle_wave():
     found = polyline([0, np.pi, TURN], [1, -1, 1]).harmonics(np.arange(10))
     expected = [8 / (np.pi * k) ** 2 if k % 2 else 0 for k in range(10)]
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-14)
-
-
-def test_harmonics_are_those_asked_for_in_their_order():
-    curve = resolved(smooth, [0, TURN])
-    every = curve.harmonics(np.arange(61))
-    for wanted in ([], [0], [60], [3, 4, 5, 0, 5, 60, 6]):
-        np.testing.assert_allclose(curve.harmonics(wanted), every[wanted], rtol=0, atol=1e-14)
 
 
 def test_harmonics_of_thousands_of_waves_within_a_panel():

@@ -55,20 +55,6 @@ def test_it_is_proved_by_linear_programming(case):
     assert found.bound == pytest.approx(largest_of(found, weights), rel=2e-8)
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_largest_residuals_are_equal_and_no_step_makes_them_smaller(case):
-    """Equioscillation."""
-    matrix, target, weights = problem(*case)
-    found = minimise(matrix, target, weights, largest=True)
-    sizes = weights * np.abs(found.residual)
-    assert np.sum(sizes > (1 - 1e-6) * sizes.max()) >= 2
-    rng = np.random.default_rng(0)
-    for _ in range(200):
-        step = rng.normal(size=(2, matrix.shape[1])) * 10.0 ** rng.uniform(-6, 0)
-        moved = target - matrix @ (found.x + step[0] + 1j * step[1])
-        assert (weights * np.abs(moved)).max() > found.bound * (1 - 1e-12)
-
-
 def test_a_textbook_case():
     """3x - 2y = -1, 5x - 2y = 1, 5x - 3y = 0 in real numbers: all three residuals 0.4 at (1, 1.8)."""
     matrix = np.array([[3, -2], [5, -2], [5, -3]], dtype=complex)
@@ -113,14 +99,6 @@ def test_least_squares_within_limits_meets_the_conditions_of_the_optimum(case):
     assert price.real > 0
     assert abs(price.imag) < 1e-9 * price.real
     assert np.all(np.abs(pull[1:]) < 1e-9 * size[1:])
-
-
-def test_limits_that_do_not_bind_change_nothing():
-    matrix, target, weights = problem(9, 8, 2)
-    free = solve(matrix, target, weights).x
-    regions = [Region(0j, 1.01 * abs(x)) for x in free]
-    found = minimise(matrix, target, weights, regions)
-    assert found.x == pytest.approx(free, rel=1e-13)
 
 
 # ------------------------------------------------------------------ regions with corners
@@ -170,18 +148,6 @@ def test_largest_in_polygons(case):
         x = np.array([a @ g for a, g in zip(amounts, generators, strict=True)])
         near = found.x + rng.uniform(0, 1) ** 4 * (x - found.x)
         assert (weights * np.abs(target - matrix @ near)).max() >= found.bound * (1 - 1e-12)
-
-
-@pytest.mark.parametrize("seed", [1, 2, 3, 22, 40, 57])
-def test_regions_of_very_different_size(seed):
-    """Each is a tenth or a hundred times as large as another: the bound is reached all the same."""
-    rng = np.random.default_rng(seed)
-    matrix, target, weights = problem(seed, 5, 4)
-    sizes = np.abs(solve(matrix, target, weights).x) * 10 ** rng.uniform(-2, 1, 4)
-    _, most, regions = regions_of(rng, sizes)
-    found = minimise(matrix, target, weights, regions, largest=True)
-    assert found.bound == pytest.approx(largest_of(found, weights), rel=1e-5)
-    assert all(abs(r.project(x)[0] - x) < 1e-9 * m for r, x, m in zip(regions, found.x, most, strict=True))
 
 
 def test_one_unknown_in_a_wedge():

@@ -116,12 +116,6 @@ def test_the_least_speed_is_that_of_a_dense_grid(lines):
     assert speed(lines, at) == pytest.approx(least, abs=1e-12)
 
 
-def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
-    """0.7 cos t + 0.4 cos 2t: where the first is -0.7 the second is +0.4."""
-    lines = [{"order": 1, "amplitude": 0.7, "angle": 0}, {"order": 2, "amplitude": 0.4, "angle": 0}]
-    assert len(engine(operation={"speed": 60, "speed_ripple": lines}).ripple) == 2  # least: 0.4469 at 116 deg
-
-
 @pytest.mark.parametrize(
     ("lines", "what"),
     [
@@ -133,26 +127,9 @@ def test_amplitudes_of_more_than_one_may_leave_the_crank_turning():
 def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
     tables = [{"order": n, "amplitude": a, "angle": angle} for n, a, angle in lines]
     assert refused(operation={"speed": 60, "speed_ripple": tables}) == (
-        f"engine: operation.speed_ripple: the crank would {what}; it must stay above 0: make the "
-        "amplitudes smaller, they are shares of the mean speed (0.01 is one per cent)"
+        f"engine: operation.speed_ripple: the crank would {what}: make the amplitudes smaller, "
+        "they are shares of the mean speed"
     )
-
-
-def test_a_crank_that_stops_is_told_with_the_other_mistakes():
-    said = refused(
-        crank={"throws": [0, 180], "positions": [0]},
-        operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]},
-    )
-    assert "crank: positions" in said
-    said = refused(rod={"ratio": 1.0 - 1e-9}, operation={"speed": 60, "speed_ripple": [{"order": 2, "amplitude": 1}]})
-    assert "the crank cannot turn" in said
-    assert "operation.speed_ripple: the crank would stop" in said
-
-
-def test_an_amplitude_of_zero_changes_nothing():
-    found = ripple.apply_to_force(steady(), ripple.find_speed([(4, 0.0, 10.0)]))
-    assert found.forward == pytest.approx(FORWARD, rel=1e-14)
-    assert found.backward == pytest.approx(BACKWARD, rel=1e-14)
 
 
 def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
@@ -162,16 +139,6 @@ def test_a_mean_force_is_a_mean_and_stands_in_forward_alone():
     assert found.backward[0] == 0
     assert found.forward[0] == pytest.approx(found.values(theta).mean(), rel=1e-12)
     assert abs(found.forward[0]) > 1e-3
-
-
-def test_the_rounding_error_grows_with_the_parts_and_never_vanishes_where_they_do_not():
-    w = ripple.find_speed(LINES["one"])
-    small, large = (
-        ripple.apply_to_force(Phasors.of(ORDERS, FORWARD, BACKWARD, np.full(15, size)), w).noise
-        for size in (1e-16, 1e-14)
-    )
-    assert np.all(small > 0)
-    assert large == pytest.approx(100 * small, rel=1e-12, abs=0)
 
 
 @pytest.mark.parametrize("mean", [0.0, 300.0, -300.0])
@@ -196,33 +163,6 @@ def test_the_bound_holds_for_errors_of_the_parts(lines, mean):
             moved = rule(Phasors.of(ORDERS, FORWARD + errors[0], backward + errors[1], noise), w, mean) - found
             assert np.all(np.abs(moved.forward) <= found.noise + 1e-13)
             assert np.all(np.abs(moved.backward) <= found.noise + 1e-13)
-
-
-@pytest.mark.parametrize("mean", [300.0, -300.0])
-def test_a_mean_momentum_is_rounded_too(mean):
-    """Where nothing else is, the force is `-W W' mean`, and its bound not below its own
-    rounding.
-    """
-    nothing = Phasors.of(ORDERS, np.zeros(15, complex), np.zeros(15, complex), np.zeros(15))
-    for rule in (ripple.apply_to_force, ripple.apply_to_torque):
-        found = rule(nothing, ripple.find_speed([(2, 0.3, 40.0)]), mean)
-        assert np.abs(found.forward).max() > 10
-        assert np.all(found.noise >= np.finfo(float).eps * np.abs(found.forward))
-        assert np.all(found.noise <= 4 * np.finfo(float).eps * np.abs(found.forward).max())
-
-
-def test_at_steady_speed_nothing_changes_not_even_the_bound():
-    """W = 1: the orders come back, each with the error it had (of the torque and of a force
-    alike).
-    """
-    noise = 1e-16 * np.arange(1.0, 16.0)
-    steady = Phasors.of(ORDERS, FORWARD.astype(complex), BACKWARD.astype(complex), noise)
-    for rule in (
-        ripple.apply_to_force(steady, np.ones(1, complex)),
-        ripple.apply_to_torque(steady, np.ones(1, complex), 0.0),
-    ):
-        assert rule.forward == pytest.approx(FORWARD, rel=1e-14)
-        assert rule.noise[1:] == pytest.approx(noise[1:], rel=1e-12, abs=0)
 
 
 def test_variants_side_by_side_are_what_each_is_alone():
@@ -257,13 +197,6 @@ def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_an
         ("inertia_torque_Nm", spectra.torque.values(np.radians(angles)).real),
     ):
         assert found == pytest.approx(direct[name], abs=1e-11 * np.abs(direct[name]).max())
-
-
-def test_a_half_order_alone_is_asked_for_like_any_other():
-    lines = [{"order": 2, "amplitude": 0.05}]
-    steady = engine(operation={"speed": 2000, "speed_ripple": lines})
-    found = compute_spectra(steady, [0.5, 1.0, 1.5], ["force"])["force"]
-    assert found.balanced.tolist() == [True, False, True]
 
 
 def test_orders_of_the_speed_are_halves_of_whole_numbers():

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +14,6 @@ from support.cases import cases
 from support.engines import RADIAL, build_text
 
 from balcli.core.cylinders import find_travel
-from balcli.core.mechanisms.linkage import Articulated
 from balcli.engine import build as engine, parse as enginefile
 from balcli.errors import InputError
 from balcli.forces import spectrum
@@ -75,23 +73,6 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     assert [problem.split("cylinder ")[1][0] for problem in rest] == ["4", "5", "6"]
 
 
-@pytest.mark.parametrize(("length", "looked_at"), [(188, False), (120, True)])
-def test_variants_are_looked_at_all_the_way_round_if_one_might_lock(monkeypatch, length, looked_at):
-    """9 knuckle radii; a pin is at most a crank radius (60 mm) and a knuckle radius away."""
-    seen = 0
-    move = Articulated.move
-
-    def spy(self, psi, *figures):
-        nonlocal seen
-        seen += figures[0].shape[1]
-        return move(self, psi, *figures)
-
-    file = enginefile.parse(RADIAL.replace("length = 188", f"length = {length}"))
-    monkeypatch.setattr(Articulated, "move", spy)
-    engine.build(file, {"articulation.knuckle_radius": np.linspace(54.0, 62.0, 9)})
-    assert (seen > 0) == looked_at
-
-
 # ------------------------------------------------------------------ strokes and dead centres
 @pytest.mark.parametrize("offset", [0, 7])
 def test_strokes_and_dead_centres_against_fine_sampling(offset):
@@ -107,17 +88,6 @@ def test_strokes_and_dead_centres_against_fine_sampling(offset):
         top, bottom = (math.degrees(psi[at] - bank) for at in (place.argmax(), place.argmin()))
         assert found.top_deg[k] == pytest.approx((top + 180) % 360 - 180, abs=1e-3)
         assert found.bottom_deg[k] == pytest.approx(bottom % 360 - 180, abs=1e-3)
-
-
-def test_an_offset_slider_crank_has_its_stroke_in_closed_form():
-    """Stroke sqrt((l+r)^2 - e^2) - sqrt((l-r)^2 - e^2), dead centres where crank and rod are in
-    line.
-    """
-    text = "[crank]\nstroke = 80\n[rod]\nlength = 140\n[piston]\nmass = 1\noffset = 10\n"
-    found = find_travel(build_text(text).cylinders)
-    assert found.stroke[0] * 1e3 == pytest.approx(math.sqrt(180**2 - 100) - math.sqrt(100**2 - 100), rel=1e-14)
-    assert found.top_deg[0] == pytest.approx(math.degrees(math.asin(10 / 180)), rel=1e-14)
-    assert found.bottom_deg[0] == pytest.approx(math.degrees(math.asin(10 / 100)), rel=1e-14)
 
 
 # ------------------------------------------------------------------ forces
@@ -209,20 +179,6 @@ def test_variants_on_a_trailing_axis():
         for (quantity, many), (_, one) in zip(together.items(), alone.items(), strict=True):
             difference = np.abs(np.broadcast_to(many.forward, (6, 3))[:, k] - one.forward).max()
             assert difference <= 1e-12 * np.abs(one.forward).max(initial=1e-9), quantity
-
-
-def test_many_variants_are_taken_some_angles_at_a_time():
-    """420 mechanisms x 1440 angles: more than are computed at once."""
-    c = built().cylinders
-    assert c.linkage is not None
-    column = {name: getattr(c.linkage, name)[:, None] for name in ("mass", "knuckle", "lead_deg")}
-    linkage = replace(c.linkage, **column)
-    lam, eps, psi = (
-        np.broadcast_to(c.lam, c.count)[:, None] * np.linspace(0.9, 1, 60),
-        np.zeros((1, 1)),
-        np.linspace(0, 7, 1440),
-    )
-    assert np.array_equal(linkage.sample(lambda m: m.lean, psi, lam, eps), linkage.motion(psi, lam, eps).lean)
 
 
 # ------------------------------------------------------------------ what articulated rods may say

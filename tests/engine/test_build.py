@@ -49,10 +49,6 @@ def test_si_values_of_a_whole_file():
     assert e.equal
 
 
-def test_without_a_bore_there_is_no_displacement():
-    assert math.isnan(float(engine().displacement_m3))
-
-
 def test_two_masses_have_no_couple():
     """H = 0 exactly, not a rounding error that would show as a couple."""
     assert only(engine(rod={"length": 171, "mass": 0.83, "cg": 47.3}).cylinders.couple) == 0
@@ -190,11 +186,6 @@ def test_devices():
     assert [d.z for d in e.devices] == pytest.approx([-0.05, 0, 0.007, 0, 0.003], rel=TIGHT)
 
 
-def test_uneven_speed():
-    e = engine(operation={"speed_ripple": [{"order": 4, "amplitude": 0.01, "angle": "0.5 turn"}]})
-    assert [(line.order, line.amplitude, line.angle_deg) for line in e.ripple] == [(4, 0.01, pytest.approx(180))]
-
-
 # ------------------------------------------------------------------ what cannot be
 @cases("engine/build", "what_cannot_be_an_engine")
 def test_what_cannot_be_an_engine(parts, message):
@@ -210,8 +201,8 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     )
     shortest = 2 * math.pi * math.sqrt(0.15 / STANDARD_GRAVITY)
     assert text == (
-        "engine: cylinder.2.rod_pendulum: period 0.1 s is too quick: with the centre of mass 150 "
-        f"mm from the pivot a full swing takes more than {shortest:.4g} s"
+        "engine: cylinder.2.rod_pendulum: period 0.1 s is too quick: a full swing takes more "
+        f"than {shortest:.4g} s with the centre of mass 150 mm from the pivot"
     )
 
 
@@ -220,8 +211,5 @@ def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
     """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any
     other.
     """
-    assert refused(**parts) == (
-        f"engine: {message}, and two masses at its ends cannot stand for such a rod, one would be "
-        "negative: give a cg from 0 to 200 mm, or the rod's inertia"
-    )
+    assert refused(**parts) == f"engine: {message}: give a cg from 0 to 200 mm, or the rod's inertia"
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1

@@ -6,9 +6,7 @@ import pytest
 from support.engines import engine, refused
 
 from balcli import analyze_torque
-from balcli.analysis.overview import verdict
 from balcli.forces.spectrum import compute_spectra
-from balcli.show.units import SI
 
 GUIDE = {
     "crank": {"stroke": 75.6, "throws": [0, 180, 0], "positions": [-50, 0, 50]},
@@ -56,7 +54,7 @@ def test_displacement_of_an_offset_crank_is_that_of_its_torque():
 
 
 @pytest.mark.parametrize(("share", "balanced"), [(1, True), (1.01, False), (1 + 1e-12, False)])
-@pytest.mark.parametrize(("mass", "cg", "length"), [(1.2, 60, 240), (0.7, 47, 139), (0.3, 33.3, 111.1)])
+@pytest.mark.parametrize(("mass", "cg", "length"), [(1.2, 60, 240), (0.3, 33.3, 111.1)])
 def test_a_rod_of_just_that_inertia_has_no_couple(share, balanced, mass, cg, length):
     rod = {"mass": mass, "cg": cg, "length": length, "inertia": mass * cg * (length - cg) * share}
     made = engine(crank={"stroke": 60}, rod=rod, piston={"mass": 1.2})
@@ -78,15 +76,3 @@ def test_the_crankshaft_counts_in_the_couple_at_uneven_speed():
     assert "crank.inertia = 0" in without.inferred
     alike = compute_spectra(without, [2, 4]).roll.major
     assert list(spectra.roll.major) == pytest.approx(list(alike), rel=1e-12), "the crank only passes it on"
-
-
-def test_the_verdict_names_the_roll_couple_that_remains():
-    single = engine(
-        crank={"stroke": 84, "throw_mass": 0.61},
-        rod={"length": 140, "mass": 0.47, "cg": 39, "inertia": 1600},
-        piston={"bore": 87, "mass": 0.46},
-        operation={"speed": 6500},
-    )
-    first, *_ = verdict(compute_spectra(single, [1, 2]), SI)
-    assert "roll couple of 35.34 N·m" in first
-    assert "o moment" not in first

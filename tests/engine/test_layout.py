@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,7 +11,7 @@ from support.cases import cases
 from support.engines import engine, refused
 
 from balcli.engine.figures import FileFigures
-from balcli.engine.layout import bank_angles, cycle_deg, plan_cylinders
+from balcli.engine.layout import bank_angles, plan_cylinders
 from balcli.file.model import Crank, Layout
 
 
@@ -41,31 +42,12 @@ def test_bank_angles(layout, angles):
     assert bank_angles(Layout(**layout), FileFigures()) == angles
 
 
-def test_cycle():
-    assert (cycle_deg(Layout()), cycle_deg(Layout(strokes=2))) == (720, 360)
-
-
 # ------------------------------------------------------------------ numbering
 def test_cylinders_are_counted_through_bank_after_bank_from_the_free_end():
-    assert where(planned([0, 90, 270, 180], bank_angle=90)) == {
-        1: (0, 0),
-        2: (0, 1),
-        3: (0, 2),
-        4: (0, 3),
-        5: (1, 0),
-        6: (1, 1),
-        7: (1, 2),
-        8: (1, 3),
-    }
-
-
-def test_numbering_per_bank():
-    assert where(planned([0, 180], bank_angle=90, numbering=[[1, 3], [2, 4]])) == {
-        1: (0, 0),
-        3: (0, 1),
-        2: (1, 0),
-        4: (1, 1),
-    }
+    places = product((0, 1), (0, 1, 2, 3))  # bank, throw
+    assert where(planned([0, 90, 270, 180], bank_angle=90)) == dict(enumerate(places, 1))
+    numbered = planned([0, 180], bank_angle=90, numbering=[[1, 3], [2, 4]])
+    assert where(numbered) == {1: (0, 0), 3: (0, 1), 2: (1, 0), 4: (1, 1)}
 
 
 def test_alternating_rods_take_the_banks_in_turn():
@@ -74,10 +56,6 @@ def test_alternating_rods_take_the_banks_in_turn():
     assert found.rods_on_throw == 1
     three = planned([0] * 7, banks=[0, 10, 20], rods="alternating")
     assert where(three) == {1: (0, 0), 2: (0, 3), 3: (0, 6), 4: (1, 1), 5: (1, 4), 6: (2, 2), 7: (2, 5)}
-
-
-def test_on_one_bank_alternating_means_nothing():
-    assert where(planned([0, 180], rods="alternating")) == where(planned([0, 180]))
 
 
 def test_as_many_throws_as_the_firing_order_needs():

@@ -15,16 +15,12 @@ def total(placed):
 
 
 def test_two_neighbours_share_by_the_law_of_sines():
-    """30 deg between holes at 0 and 90: cos 30 and sin 30."""
+    """30 deg between holes at 0 and 90: cos 30 and sin 30; a place that is just right takes all."""
     at = split_weight(10 * np.exp(1j * np.pi / 6), np.array([0.0, 90, 180, 270]), np.inf)
     assert [p.angle_deg for p in at] == [0, 90]
     assert [p.weight for p in at] == pytest.approx([10 * np.sqrt(0.75), 5], rel=1e-12)
-
-
-def test_a_place_that_is_just_right_takes_all():
     (one,) = split_weight(-3j, np.arange(0.0, 360, 30), 5)
-    assert one.angle_deg == 270
-    assert one.weight == pytest.approx(3, rel=1e-12)
+    assert (one.angle_deg, one.weight) == (270, pytest.approx(3, rel=1e-12))
 
 
 def inside(region, x, noise: float) -> bool:
@@ -92,9 +88,7 @@ def test_many_places_of_small_weights():
     placed = split_weight(100j, angles, 0.6)
     assert total(placed) == pytest.approx(100j, rel=1e-9)
     assert len(placed) > 150
-    region, whole = (
-        find_region(angles, 0.6),
-        0.6 / np.sin(np.radians(0.25)),
-    )  # all places of half a turn: a chord of the polygon
+    region = find_region(angles, 0.6)
+    whole = 0.6 / np.sin(np.radians(0.25))  # all places of half a turn: a chord of the polygon
     assert inside(region, 1j * whole * 0.99999, 0)
     assert not inside(region, 1j * whole * 1.00001, 0)

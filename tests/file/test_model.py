@@ -9,7 +9,6 @@ from support.engines import GOOD, changed, mistakes_in
 
 from balcli.engine.parse import parse
 from balcli.file import model
-from balcli.file.model import ArticulatedRod
 
 
 def test_defaults():
@@ -71,23 +70,6 @@ direction = 90
     assert engine.slider[0].direction == 90.0
 
 
-def test_articulation():
-    engine = parse(
-        changed(
-            ("throws = [0, 180, 180, 0]", "throws = [0]"),
-            ("firing_order = [1, 3, 4, 2]", "radial = 5"),
-            more="""
-[articulation]
-knuckle_radius = 40
-rod = { length = 120, mass = 0.4, cg = 60 }
-""",
-        )
-    )
-    assert engine.articulation is not None
-    assert (engine.articulation.master, engine.articulation.knuckle_angles) == (1, None)
-    assert engine.articulation.rod == ArticulatedRod(length=120, mass=0.4, cg=60)
-
-
 @cases("file/model", "unusual_but_allowed")
 def test_unusual_but_allowed(text):
     assert parse(text).name == "in-line four"
@@ -103,26 +85,3 @@ def test_models_check_without_a_file_too():
         model.Rod(length=160, ratio=0.28)
     with pytest.raises(ValidationError, match="frozen"):
         parse(GOOD).crank.stroke = 80.0
-
-
-def test_rules_leave_out_what_they_cannot_read():
-    """A broken key counts as given; rules that read its value are not applied."""
-    gas = """
-[gas]
-cycle = "otto"
-compression_ratio = 10
-imep = "10 mm"
-heat = 1400
-"""
-    length = 'is a length, but a pressure is wanted: a bare number in bar, or "9.5 bar" or "1.2 MPa" or "150 psi"'
-    assert mistakes_in(GOOD + gas).splitlines() == [
-        "2 mistakes",
-        "  gas: has imep and heat; give one of imep, bmep, max_pressure, cut_off and heat",
-        f'  gas.imep: "10 mm" {length}',
-    ]
-    broken = gas.replace("heat = 1400\n", "").replace("otto", "oto")
-    assert mistakes_in(GOOD + broken).splitlines() == [
-        "2 mistakes",
-        '  gas.cycle: "oto" is not "otto" or "diesel" or "dual" or "wiebe"; did you mean otto?',
-        f'  gas.imep: "10 mm" {length}',
-    ]

@@ -9,13 +9,11 @@ import pytest
 from support.engines import INLINE, alone, build_text, inline_engine
 from support.paths import ENGINES
 
-from balcli.core.peaks import find_peak
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces import spectrum
-from balcli.forces.crankshaft import compute_inner_loads, place_bearings
+from balcli.forces.crankshaft import compute_inner_loads
 from balcli.forces.guide import compute_guide_moments
-from balcli.forces.spectrum import find_relevant_orders
 
 ORDERS = np.arange(1.0, 5.0)
 OMEGA = 3000 * np.pi / 30
@@ -77,17 +75,6 @@ def test_bearings_carry_all_force_and_moment():
     assert 1j * found.phasors.forward @ found.z_m == pytest.approx(free.moment.forward, rel=1e-11, abs=1e-8)
 
 
-def test_one_throw_in_the_middle_of_its_bearings_would_be_a_guess():
-    assert place_bearings(np.array([0.0])) is None
-    assert compute_inner_loads(inline_engine([0]), ORDERS).bearings is None
-
-
-def test_shafts_and_sliders_act_on_the_block_not_on_the_crank():
-    more = "[[shaft]]\nratio = -1\nunbalance = 9000\n[[slider]]\norder = 1\nunbalance = 9000\ndirection = 0\n"
-    plain, with_devices = (compute_inner_loads(inline_engine([0, 180], more=text), ORDERS) for text in ("", more))
-    assert np.array_equal(plain.bending.phasors.forward, with_devices.bending.phasors.forward)
-
-
 def test_guide_force_moments():
     """H is the roll moment of the engine; X of two cylinders 50 mm to either side is the moment of
     the side forces at their guides, 160 mm (the rod's length) above the crankshaft.
@@ -99,10 +86,6 @@ def test_guide_force_moments():
     assert found.x is not None
     assert found.x.forward == pytest.approx((second.forward - first.forward) * 50 / 160, rel=1e-11, abs=1e-9)
     assert found.x.balanced.tolist() == [False, True, False, True]
-
-
-def test_one_throw_has_no_x_type():
-    assert compute_guide_moments(inline_engine([0]), ORDERS).x is None
 
 
 def test_the_x_type_is_the_moment_of_the_side_forces_on_the_pistons():
@@ -156,18 +139,6 @@ def near_the_lock(throws, more=""):
         .replace("cg = 45\n", "cg = 20\n")
     )
     return build_text(text + more)
-
-
-@pytest.mark.stress
-def test_near_the_lock_only_orders_to_512_are_told_unasked_but_the_largest_values_are_of_all():
-    subject = near_the_lock([0, 10, 20, 45])
-    found = compute_inner_loads(subject)
-    assert 100 < len(found.bending.phasors.orders) <= 512
-    assert found.bending.phasors.orders[-1] <= 512
-    force = spectrum.compute_spectra(subject, find_relevant_orders(subject), ["force"]).force
-    assert force is not None
-    assert found.shear.peaks[-1].value == pytest.approx(find_peak(force).value, rel=1e-12)
-    assert list(compute_inner_loads(subject, np.array([1.0, 4096.0])).shear.phasors.orders) == [1, 4096]
 
 
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():

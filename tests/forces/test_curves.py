@@ -89,16 +89,6 @@ def test_direct_evaluation_is_the_sum_of_all_orders(name):
         assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
 
 
-def test_force_of_a_single_at_top_dead_centre():
-    """F = m_rec r omega^2 (1 + lambda) + m_rot r omega^2."""
-    subject = engine("single")
-    c = subject.cylinders
-    m, rot, r, lam = (float(np.ravel(x)[0]) for x in (c.reciprocating, c.rotating, c.radius, c.lam))
-    expected = subject.omega**2 * r * (m * (1 + lam) + rot)
-    expected += sum((d.forward + d.backward).real * d.order**2 * subject.omega**2 for d in subject.devices)
-    assert compute_engine_curves(subject, np.zeros(1)).curves["force_x_N"][0] == pytest.approx(expected, rel=1e-14)
-
-
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
 def test_what_is_zero_is_exactly_zero(name):
     """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of
@@ -112,11 +102,6 @@ def test_what_is_zero_is_exactly_zero(name):
         assert not np.signbit(curve[small]).any(), quantity
     if name == "v12_60":
         assert 0 < curves["force_x_N"][3] < 1e-4
-
-
-def test_a_piston_stands_still_at_its_dead_centres():
-    found = compute_cylinder_curves(engine("single"), 1, np.array([0.0, 180.0])).curves
-    assert found["velocity_m_per_s"].tolist() == found["rod_angle_deg"].tolist() == [0, 0]
 
 
 def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
@@ -134,33 +119,6 @@ def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
     assert couple["amplitude"] == abs(couple["cos"])
 
 
-def test_piston_motion_is_consistent_with_its_derivatives():
-    """Travel from top dead centre over a stroke; velocity and acceleration as its derivatives
-    (central differences).
-    """
-    subject, h = engine("i4"), 1e-3
-    angles = divide_revolution(30)
-    mid, before, after = (compute_cylinder_curves(subject, 1, angles + d).curves for d in (0, -h, h))
-    dt = np.radians(h) / subject.omega
-    stroke = 2 * float(np.ravel(subject.cylinders.radius)[0])
-    assert mid["travel_m"][0] == 0
-    assert mid["travel_m"][6] == pytest.approx(stroke, rel=1e-14)
-    speed = subject.omega * stroke
-    slope = {name: (after[name] - before[name]) / (2 * dt) for name in mid}
-    assert mid["velocity_m_per_s"] == pytest.approx(slope["travel_m"], abs=1e-8 * speed)
-    assert mid["acceleration_m_per_s2"] == pytest.approx(slope["velocity_m_per_s"], abs=1e-8 * speed * subject.omega)
-
-
-def test_cylinders_follow_their_cranks():
-    """Throws at 0, 90, 270, 180 degrees: cylinder 4 is at its top half a turn from cylinder 1."""
-    subject = engine("i4_crossplane")
-    lowest = {
-        n: int(compute_cylinder_curves(subject, n, divide_revolution()).curves["travel_m"].argmin()) for n in (1, 4)
-    }
-    assert lowest[1] == 0
-    assert lowest[4] == 180
-
-
 def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution().tolist() == list(range(360))
     assert divide_revolution(0.1).size == 3600
@@ -169,13 +127,8 @@ def test_a_revolution_is_divided_from_0_without_360():
     assert divide_revolution(0.7)[-2:].tolist() == [359.1, 359.8]
     assert divide_revolution(1 / 3) == pytest.approx(np.arange(1080) / 3, abs=1e-12)
     assert divide_revolution(np.sqrt(2))[100] == pytest.approx(100 * np.sqrt(2), abs=1e-12)
-    with pytest.raises(BalcliError, match=r"--step 0: give a step of the crank angle from 0.001 to 360 degrees"):
+    with pytest.raises(BalcliError, match=r"--step 0: give 0.001 to 360 degrees"):
         divide_revolution(0)
-
-
-def test_an_unknown_cylinder():
-    with pytest.raises(BalcliError, match=r"--cylinder 9: in-line four, 2 litres has the cylinders 1, 2, 3, 4"):
-        compute_cylinder_curves(engine("i4"), 9, divide_revolution(90))
 
 
 @pytest.mark.parametrize("name", ["articulated", "rotary"])

@@ -9,11 +9,7 @@ import pytest
 from support.cases import cases
 from support.engines import RADIAL, build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
-from support.paths import write
 
-from balcli.analysis.answer import analyze
-from balcli.core.mechanisms.closed_form import find_harmonics
-from balcli.engine.load import load
 from balcli.forces.spectrum import compute_gas_torque, compute_spectra
 from balcli.forces.symmetry import explain_symmetry
 
@@ -57,7 +53,7 @@ def quadrature(found, orders, find_rate=find_plain_rate):
 
 
 @pytest.mark.parametrize("strokes", [2, 4])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_against_a_quadrature(seed, strokes):
     found = draw_engine(seed, strokes)
     want = quadrature(found, ORDERS)
@@ -141,44 +137,9 @@ def test_a_misfire_leaves_what_the_cylinder_would_have_made():
     assert np.all(explain_symmetry(missing, [0.5, 1], ["gas"]).reasons[0].size > 0.9)
 
 
-def test_constant_pressure_has_the_harmonics_of_the_travel(tmp_path):
-    """`T = -P s'`, and of a centred slider-crank `-s'' = r (cos + sum A_n cos n)`."""
-    rows = "\n".join(f"{angle},6" for angle in range(0, 721, 30))
-    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
-    single = FOUR.replace("throws = [0, 180, 180, 0]", "throws = [0]")
-    single = single.replace("firing_order = [1, 3, 4, 2]", "")
-    path = write(tmp_path / "single.toml", single + '[gas]\nindicator = "p.csv"\ncrankcase = 2\n')
-    found = load(path)
-    torque = scalar(compute_spectra(found, ORDERS, ["gas"])["gas"])
-    series = find_harmonics(ORDERS, found.cylinders.lam, ["piston"])["piston"].c[:, 0]
-    n = np.where(ORDERS, ORDERS, 1)
-    want = -1j * 4e5 * np.pi / 4 * 0.086**2 * 0.045 * series / n
-    assert torque == pytest.approx(np.where(ORDERS, want, 0), abs=1e-12 * np.abs(want).max())
-
-
 def test_totals_are_sums_of_inertia_and_gas():
     found = compute_spectra(draw_engine(3), ORDERS, ["couple", "torque", "gas", "torque_total", "roll_total"])
     parts = {name: scalar(found[name]) for name in ("couple", "torque", "gas")}
     size = np.abs(parts["gas"]).max()
     assert scalar(found.torque_total) == pytest.approx(parts["torque"] + parts["gas"], abs=1e-13 * size)
     assert scalar(found.roll_total) == pytest.approx(parts["couple"] - parts["torque"] - parts["gas"], abs=1e-13 * size)
-
-
-# ------------------------------------------------------------------ what is shown
-
-
-def test_only_gas_is_all_that_gas_does():
-    found = analyze(build_text(FOUR + WIEBE), orders=[0.5, 2], only=["gas"])
-    assert [kind.key for kind, _ in found.spectra.items()] == ["gas_torque_Nm", "torque_Nm", "roll_total_Nm"]
-    assert found.spectra.gas.balanced.tolist() == [True, False]
-
-
-def test_shares_that_are_fractions_of_each_other_may_cancel():
-    """Two weak cylinders opposite each other leave order 1/2 balanced."""
-    weak = "[cylinder.2]\ngas = 0.5\n[cylinder.3]\ngas = 0.5\n"
-    found = build_text(FOUR + WIEBE + weak)
-    why = {r.order: r.verdict for r in explain_symmetry(found, [0.5, 1], ["gas"]).reasons}
-    assert why == {0.5: "symmetry", 1: "unbalanced"}
-    silent = build_text(FOUR + WIEBE + "".join(f"[cylinder.{n}]\ngas = 0\n" for n in (1, 2, 3, 4)))
-    reasons = explain_symmetry(silent, [0.5], ["gas"]).reasons
-    assert [r.verdict for r in reasons] == ["none"]

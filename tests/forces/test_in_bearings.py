@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json
+from support.commands import ask
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 from support.in_time import run_in_time
@@ -24,7 +24,6 @@ from balcli.forces.crankshaft import (
     place_bearings,
 )
 from balcli.forces.spectrum import compute_device_force
-from balcli.torque.loads import analyze_loads
 
 DEVICES = """
 [[counterweight]]
@@ -60,7 +59,7 @@ def solve_statics(found, angles):
     """Bearing loads, shear and bending moment of the shaft just behind each section, one load at a
     time: in the span that it stands in, or by the two bearings that it hangs on, reactions hold it.
     """
-    loads = compute_forces_along(found, np.degrees(angles)).on_shaft
+    loads = compute_forces_along(found, np.degrees(angles))[0]
     weights = [d.z for d in found.devices if d.order == 1 and not d.place and not d.backward]
     z = np.array([*np.ravel(found.cylinders.z), *weights])
     span = place_bearings(found.throws_m)
@@ -157,20 +156,12 @@ def pick(along, z) -> Phasors:
 def test_beyond_the_ends_shaft_and_block_bear_the_free_force():
     found = draw(4)
     angles = np.arange(0.0, 720.0, 7.0)
-    forces = compute_forces_along(found, angles)
-    total = forces.on_shaft.sum(axis=0) + forces.on_block.sum(axis=0)
+    on_shaft, on_block = compute_forces_along(found, angles)
+    total = on_shaft.sum(axis=0) + on_block.sum(axis=0)
     curves = compute_engine_curves(found, angles).curves
-    size = np.abs(forces.on_shaft).max()
+    size = np.abs(on_shaft).max()
     assert total.real == pytest.approx(curves["force_x_N"], abs=1e-10 * size)
     assert total.imag == pytest.approx(curves["force_y_N"], abs=1e-10 * size)
-
-
-def test_bearings_are_those_of_torque():
-    found = draw(5)
-    loads = compute_loads_with_gas(found, ORDERS)
-    for peak, main in zip(loads.bearings.peaks, analyze_loads(found, ("main",)).main, strict=True):
-        assert peak.value == pytest.approx(main.max_N, rel=1e-10)
-        assert peak.theta == pytest.approx(np.radians(main.max_deg), abs=1e-6)
 
 
 # ------------------------------------------------------------------ what users see
@@ -199,13 +190,6 @@ def test_json_and_csv_have_every_place():
     ):
         for place in range(1, places + 1):
             assert any(f",{name} {place},,peak," in row for row in rows)
-
-
-def test_engines_with_gas_are_compared_by_it():
-    files = [str(ENGINES / name) for name in ("i4_wiebe.toml", "v8_wiebe.toml")]
-    found = ask_json("compare", *files, "--only", "inner", "--orders", "1")
-    keys = {"shaft_shear_N", "shaft_bending_Nm", "main_N", "block_shear_N", "block_bending_Nm"}
-    assert keys <= {line["quantity"] for line in found["figures"]}
 
 
 def test_so_many_cylinders_that_they_would_fill_the_memory_are_refused(monkeypatch):

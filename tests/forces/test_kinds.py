@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.engines import engine
 
-from balcli.forces.kinds import EVERY_KIND, FORCE, SCALARS, TORQUE, VECTORS
+from balcli.forces.kinds import EVERY_KIND, FORCE, TORQUE
 from balcli.forces.spectrum import Spectra, compute_spectra
 
 
@@ -16,21 +16,11 @@ def test_every_kind_is_a_member_of_spectra_in_the_order_of_the_table():
     assert [field.name for field in fields(Spectra)] == ["orders", "up_deg", *EVERY_KIND]
 
 
-def test_vectors_and_scalars_are_all_kinds():
-    assert [kind.name for kind in VECTORS] == ["force", "moment"]
-    assert [kind.name for kind in SCALARS] == ["couple", "torque", "roll"]
-
-
 @pytest.mark.parametrize("kind", EVERY_KIND.values(), ids=lambda kind: kind.name)
 def test_names_say_the_unit(kind):
     ending = {"N": "_N", "N·m": "_Nm"}[kind.si_unit]
     assert kind.key.endswith(ending)
     assert kind.key_along("x") == kind.key.removesuffix(ending) + "_x" + ending
-
-
-@pytest.mark.parametrize("kind", EVERY_KIND.values(), ids=lambda kind: kind.name)
-def test_a_sum_is_made_of_kinds_that_are_none(kind):
-    assert all(EVERY_KIND[part].parts == (part,) for part in kind.parts)
 
 
 def test_roll_is_couple_less_torque():

@@ -21,9 +21,7 @@ from balcli.forces.spectrum import (
     Spectra,
     choose_orders,
     is_order,
-    list_gas_orders,
     mark_considerable,
-    merge_orders,
     parse_order,
 )
 from balcli.mounts.loads import find_loads
@@ -43,10 +41,6 @@ def test_orders_are_halves_of_whole_numbers() -> None:
     assert {number: is_order(number) for number in wanted} == wanted
 
 
-def test_orders_of_several_ascend_each_once() -> None:
-    assert merge_orders([3, 1], np.array([2.0, 1.0]), ()).tolist() == [1, 2, 3]
-
-
 def curve(orders: list[float], sizes: list[float]) -> Phasors:
     forward = np.array(sizes, complex)
     return Phasors.of(np.array(orders), forward, 0 * forward, np.zeros(len(orders)))
@@ -55,12 +49,6 @@ def curve(orders: list[float], sizes: list[float]) -> Phasors:
 def test_an_order_is_considerable_beside_the_largest_unless_it_is_very_high() -> None:
     phasors = curve([1, 2, 3, 512, 513], [5e6, 4.9, 5.1, 6, 5e6])
     assert mark_considerable(phasors).tolist() == [True, False, True, True, False]
-
-
-def test_variants_make_an_order_considerable_together() -> None:
-    forward = np.array([[1e7, 1e7], [0, 0], [0, 20]], complex)
-    phasors = Phasors.of(np.array([1.0, 3.0, 5.0]), forward, 0 * forward, np.zeros((3, 1)))
-    assert mark_considerable(phasors).tolist() == [True, False, True]
 
 
 def test_orders_to_2_and_all_considerable_ones_are_shown() -> None:
@@ -95,18 +83,12 @@ def test_orders_of_firing_are_shown_however_high():
     assert told.startswith("Order 14 rocks the engine most")
 
 
-def test_few_cylinders_have_the_orders_to_12():
-    assert list_gas_orders(build_text(FOUR + WIEBE)).tolist() == [n / 2 for n in range(1, 25)]
-
-
 def test_half_orders_take_gas_in_four_strokes():
     """Without it nothing repeats itself after two revolutions only: a half order is a slip."""
     with pytest.raises(BalcliError) as refused:
         analyze(load(ENGINES / "i4.toml"), [1, 1.5])
-    assert str(refused.value) == (
-        "orders 1.5: half orders are those of gas pressure in four strokes; give [gas], or ask for whole orders"
-    )
-    with pytest.raises(BalcliError, match=r"in four strokes; ask for whole orders$"):
+    assert str(refused.value) == ("orders 1.5: half orders take [gas] and four strokes; ask for whole orders")
+    with pytest.raises(BalcliError, match=r"four strokes; ask for whole orders$"):
         analyze(load(ENGINES / "marine" / "marine6.toml"), [1, 1.5])
     found = analyze(load(ENGINES / "i4_wiebe.toml"), [1, 1.5])
     assert found.spectra.orders.tolist() == [1, 1.5]

@@ -16,13 +16,6 @@ from balcli.forces.spectrum import compute_spectra
 from balcli.studies.quantities import parse_quantities
 
 
-@pytest.mark.parametrize(
-    "name", ["force.2.major", "moment.1.backward", "couple.4.amplitude", "roll.2.major", "peak.force", "force.1.axis"]
-)
-def test_names_read_back(name: str) -> None:
-    assert parse_quantities(name)[0].name == name
-
-
 @cases("forces/quantity", "mistakes_in_words")
 def test_mistakes_in_words(text: str, message: str) -> None:
     with pytest.raises(BalcliError) as caught:
@@ -81,13 +74,6 @@ def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
             found = cos * np.cos(order * theta) + sin * np.sin(order * theta)
             assert found == pytest.approx(value, abs=1e-9 * np.abs(value).max(initial=1))
             assert order or sin == 0
-
-
-def test_quantities_keep_the_order_asked_for() -> None:
-    engine = build(load(VEE))
-    names = "moment.1.major,force.2.major,force.4.major"
-    one_by_one = [evaluate_quantities(engine, parse_quantities(name))[0] for name in names.split(",")]
-    assert np.array_equal(evaluate_quantities(engine, parse_quantities(names)), one_by_one)
 
 
 def test_senses_are_named_as_tables_head_them() -> None:

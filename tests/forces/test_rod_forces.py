@@ -25,11 +25,3 @@ def test_each_cylinder_has_its_own_pressure_at_its_own_time():
         np.testing.assert_allclose(forces.pressure[row], cylinder.torque.pressure.at(at), rtol=1e-14)
         gas = cylinder.share * cylinder.torque.force_under(cylinder.torque.pressure.at(at))
         np.testing.assert_allclose(forces.gas[row], gas, rtol=1e-13, atol=1e-9)
-
-
-def test_equal_cylinders_are_grouped_by_their_torque():
-    text = (ENGINES / "v8_wiebe.toml").read_text(encoding="utf-8")
-    gas = build_text(text).gas
-    ((torque, rows),) = gas.group_equal()
-    assert rows == list(range(8))
-    assert torque is gas.cylinders[0].torque

@@ -17,7 +17,6 @@ from balcli.file.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import (
-    TextbookUnits,
     find_textbook,
     find_textbook_units,
     with_reciprocating_only,
@@ -105,21 +104,6 @@ def test_textbook_units():
     assert (units.force, units.arm, units.equal) == (pytest.approx(0.05 * (20 * np.pi) ** 2), pytest.approx(0.08), True)
     assert list(units.ratios) == list(closed_form.piston([1, 2, 3], 0.25))
     assert np.isnan(find_textbook_units(engine(), np.array([1.0])).arm)
-
-
-def test_textbook_units_of_unequal_cylinders_are_cylinder_1s():
-    e = engine(crank={"throws": [0, 0]}, cylinder={"1": {"piston_mass": 3}}, layout={"numbering": [[2, 1]]})
-    units = find_textbook_units(e, np.array([1.0]))
-    assert units.force == pytest.approx(3 * 0.05 * (2 * np.pi) ** 2)
-    assert not units.equal
-
-
-def test_moments_are_multiples_of_a_force_times_the_distance_of_throws():
-    orders = np.array([1.0, 2.0, 3.0])
-    units = TextbookUnits(orders, 200.0, 0.1, ratios=np.array([1.0, 0.25, 0.0]), cylinder=1, equal=True)
-    assert (units.size(FORCE, 1), units.name(FORCE, 1)) == (200.0, "F1")
-    assert (units.size(MOMENT, 2), units.name(MOMENT, 2)) == (5.0, "F2·a")
-    assert np.isnan(units.size(FORCE, 3))
 
 
 def test_rotating_masses_stagger_and_devices_are_left_out():

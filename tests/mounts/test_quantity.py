@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_csv, ask_json, refusal, run_here
+from support.commands import ask_csv, ask_json, refusal
 from support.mounts import ENGINE, block
 from support.paths import write
 
@@ -54,15 +54,6 @@ def test_each_variant_is_the_file_that_says_so(four, tmp_path):
         assert row["force.2.major"] > 1000
 
 
-def test_figures_of_the_engine_vary_with_those_of_the_mounts(four, tmp_path):
-    rows = sweep(four, "--vary", "rod.length=130,180", "-q", "mount.left.force")
-    for row in rows:
-        text = NAMED.replace("length = 150", f"length = {row['rod.length']}")
-        said = said_by(tmp_path / "one.toml", text)
-        largest = said["response"]["mounts"][0]["worst"]["force_N"]
-        assert row["mount.left.force"] == pytest.approx(largest, rel=1e-9)
-
-
 @cases("mounts/quantity", "what_is_no_quantity")
 def test_what_is_no_quantity(four, quantity, message):
     told = refusal("sweep", four, "--vary", "mount.left.loss=0.1,0.2", "-q", quantity)
@@ -92,9 +83,7 @@ def test_stiffness_scatters():
     assert found["nominal"] == pytest.approx(np.sqrt(8000) / (2 * np.pi), rel=1e-12)
     assert found["mean"] == pytest.approx(own.mean(), rel=2e-3)
     assert found["p95"] == pytest.approx(np.percentile(own, 95), rel=5e-3)
-    assert said["samples"] == 400
     each = found["nominal"] * 0.1 / 8
-    assert list(found["sensitivity"]) == ["stiffness left", *list(found["sensitivity"])[1:]]
     assert found["sensitivity"]["stiffness left"] == pytest.approx(each, rel=0.05)
     assert found["bound"] == pytest.approx(found["nominal"] + 4 * each, rel=0.01)
 
@@ -106,16 +95,6 @@ def test_what_scatters_is_of_the_engine_or_of_its_mounts(four):
     assert told == "100 000 samples: give from 1 to 20 000, as mode.1.Hz is computed one by one"
     told = refusal("scatter", four, "-q", "mode.1.Hz", "--stiffness-scatter", "0%")
     assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
-    told = refusal("scatter", four, "-q", "mount.lef.force", "--samples", "2")
-    assert told.startswith('mount.lef.force: the file has no mount "lef"')
-
-
-@pytest.mark.stress
-def test_normal_deviations_of_mounts(four):
-    args = ("-q", "mode.1.Hz,mount.left.force", "--samples", "20", "--seed", "1")
-    out = run_here("scatter", four, *args, "--distribution", "normal").out
-    assert "Spread of 20 random sets of mounts" in out
-    assert "normal" in out
 
 
 # ------------------------------------------------------------------ with gas

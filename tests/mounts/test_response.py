@@ -1,6 +1,4 @@
-"""A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of
-the tests' own.
-"""
+"""A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of the tests' own."""
 
 from __future__ import annotations
 
@@ -9,6 +7,7 @@ import pytest
 from oracle import momentum
 from support.cases import slow
 from support.engines import build_text
+from support.in_time import run_in_time
 from support.mounts import ENGINE, RandomBody, block
 from support.paths import write
 
@@ -16,7 +15,6 @@ from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.mounts.answer import report_mounts
 from balcli.mounts.build import read_mounted
-from balcli.mounts.loads import compute_spectra_in_time
 from balcli.mounts.rigid_body import describe_free_motion
 
 SPEEDS = np.array([700.0, 1100, 1900, 3000, 5200])
@@ -34,10 +32,8 @@ def rest_of(result):
 @pytest.fixture
 def report(tmp_path):
     def of(text, speeds=SPEEDS, orders=None, scheme=None, ranged=True):
-        path = write(tmp_path / "engine.toml", text)
-        file = read_mounted(path)
-        name = "engine.toml"
-        return report_mounts(file.model, file.engine, speeds, orders, scheme, name=name, ranged=ranged)
+        model, engine, _ = read_mounted(write(tmp_path / "engine.toml", text))
+        return report_mounts(model, engine, speeds, orders, scheme, name="engine.toml", ranged=ranged)
 
     return of
 
@@ -96,6 +92,11 @@ def move(motion, arm):
     return motion[:3] + np.cross(motion[3:6], arm)
 
 
+def find_largest(vector):
+    """Longer semi-axis of the ellipse of Re(vector e^{iwt})."""
+    return np.sqrt((np.sum(np.abs(vector) ** 2) + abs(np.sum(vector**2))) / 2)
+
+
 @pytest.mark.parametrize(("seed", "damping"), [(1, 0.0), (2, 0.4), (5, 0.0)])
 def test_forces_and_motion_by_order(report, seed, damping):
     """Each order at each speed by its own complex equations, with loads by momentum."""
@@ -108,13 +109,9 @@ def test_forces_and_motion_by_order(report, seed, damping):
             motion = find_own_motion(body, loads[n] * (rpm / 3000) ** 2, w)
             for k, at in enumerate(body.at):
                 own = body.each[k] + 1j * w * damping * 1e3 * np.eye(3)
-                force = own @ move(motion, at - body.centre)
-                turned = np.exp(1j * np.linspace(0, np.pi, 2001))[:, None] * force
-                largest = np.linalg.norm(turned.real, axis=1).max()
-                assert result.response.mounts[k].orders[n].force_N[s] == pytest.approx(largest, rel=2e-6)
-            point = move(motion, body.point - body.centre)
-            power, square = np.sum(np.abs(point) ** 2), abs(np.sum(point**2))
-            largest = np.sqrt((power + square) / 2)
+                largest = find_largest(own @ move(motion, at - body.centre))
+                assert result.response.mounts[k].orders[n].force_N[s] == pytest.approx(largest, rel=1e-10)
+            largest = find_largest(move(motion, body.point - body.centre))
             assert result.response.points[0].orders[n].motion_mm[s] / 1e3 == pytest.approx(largest, rel=1e-10)
 
 
@@ -134,34 +131,6 @@ def test_all_orders_add_up_in_time(report):
         assert result.response.mounts[1].peak_N[s] == pytest.approx(highest, rel=1e-6)
 
 
-def test_one_order_reaches_its_steady_state_in_time(report):
-    """Runge and Kutta's steps of the real equations, from rest until nothing changes any more."""
-    body = RandomBody(4, 4, loss=0.0, damping=3.0)
-    result = report(ENGINE + body.text, speeds=np.array([1200.0]), orders=[2])
-    w = 2 * 1200 * np.pi / 30
-    load = find_own_loads(body.centre, [2])[0] * (1200 / 3000) ** 2
-    inverse = np.linalg.inv(body.mass)
-    matrix = np.zeros((12, 12))
-    matrix[:6, 6:] = np.eye(6)
-    matrix[6:, :6], matrix[6:, 6:] = -inverse @ body.stiffness.real, -inverse @ body.damping
-
-    def slope(t, state):
-        rate = matrix @ state
-        rate[6:] += inverse @ (load * np.exp(1j * w * t)).real
-        return rate
-
-    state, step, largest = np.zeros(12), 2 * np.pi / w / 160, 0.0
-    for k in range(160 * 60):
-        t = k * step
-        one = slope(t, state)
-        two = slope(t + step / 2, state + step / 2 * one)
-        three = slope(t + step / 2, state + step / 2 * two)
-        state = state + step / 6 * (one + 2 * two + 2 * three + slope(t + step, state + step * three))
-        if k >= 160 * 59:
-            largest = max(largest, float(np.linalg.norm(move(state, body.point - body.centre))))
-    assert result.response.points[0].peak_mm[0] / 1e3 == pytest.approx(largest, rel=1e-3)
-
-
 def test_stiff_mounts_pass_on_all_there_is(report):
     """The limit of an engine that stands rigidly: mount forces add up to the free forces."""
     text = ENGINE + block("loss = 0.01").replace("[200, 150, 400]", "[2e11, 1.5e11, 4e11]")
@@ -177,28 +146,16 @@ def test_no_resonance_is_too_narrow_to_be_found(report, loss):
     """Between speeds a hundred rpm apart, a range that is fine about every speed at which an order
     meets a mode finds no more.
     """
-    text = ENGINE + block(f"loss = {loss}")
+    text = ENGINE + RandomBody(38, 5, loss).text
     coarse = report(text, speeds=np.arange(200.0, 1501, 100))
     met = np.array([one.speed_rpm for mode in coarse.modes for one in mode.meets])
     near = met[:, None] * (1 + loss * np.linspace(-1, 1, 101))
-    speeds = np.unique(np.concatenate([near.ravel(), np.arange(200.0, 1501, 5)]))
+    speeds = np.unique(np.concatenate([near.ravel(), np.arange(200.0, 1501, 20)]))
     fine = report(text, speeds=speeds[(speeds >= 200) & (speeds <= 1500)]).response
-    found = np.array([mount.worst.force_N for mount in coarse.response.mounts])
-    highest = np.array([mount.peak_N.max() for mount in fine.mounts])
+    found = np.array([place.worst[0] for place in (*coarse.response.mounts, *coarse.response.points)])
+    highest = np.array([peak.max() for _, _, peak, _ in (*fine.mounts, *fine.points)])
     assert np.all(found >= highest * (1 - 1e-7))
     assert found == pytest.approx(highest, rel=1e-3)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("seed", "loss"), [(7, 0.3), (15, 0.3), (23, 0.1), (42, 0.1)])
-def test_of_several_peaks_the_highest_is_found(report, seed, loss):
-    """Among four speeds, where peaks are of nearly one height."""
-    text = ENGINE + RandomBody(seed, 4, loss).text
-    coarse = report(text, speeds=np.array([250.0, 650, 1100, 1500])).response
-    fine = report(text, speeds=np.arange(250.0, 1501, 1)).response
-    for mount, same in zip(coarse.mounts, fine.mounts, strict=True):
-        assert mount.worst.force_N == pytest.approx(same.peak_N.max(), rel=1e-3)
-    assert coarse.points[0].worst.motion_mm == pytest.approx(fine.points[0].peak_mm.max(), rel=1e-3)
 
 
 def test_of_modes_that_make_as_much_the_first_is_named(report):
@@ -253,32 +210,23 @@ def test_gas_rolls_the_body_alike_at_every_speed(report):
         for s, rpm in enumerate(SPEEDS):
             load = inertia[n] * (rpm / 3000) ** 2 - np.array([0, 0, 0, 0, 0, torque[n]])
             motion = find_own_motion(body, load, order * rpm * np.pi / 30)
-            point = move(motion, body.point - body.centre)
-            largest = np.sqrt((np.sum(np.abs(point) ** 2) + abs(np.sum(point**2))) / 2)
+            largest = find_largest(move(motion, body.point - body.centre))
             assert result.response.points[0].orders[n].motion_mm[s] / 1e3 == pytest.approx(largest, rel=1e-9)
 
 
+MEAN = 9e5 * 4 * np.pi / 4 * 0.08**2 * 0.09 / (4 * np.pi)  # imep V / (4 pi)
+
+
 def test_the_mean_torque_leans_on_the_mounts(report):
-    """Three of four cylinders fire: mean torque 3/4 imep V / (4 pi); the crank turns from x to y, so
-    that the body leans the other way.
+    """Three of four cylinders fire; the crank turns from x to y, so that the body leans the other way. Of a genset the
+    mean torque acts between engine and generator, both on the same skid: the mounts bear the weight alone.
     """
-    body = RandomBody(6, 4)
-    result = report(GAS + body.text)
-    volume = 4 * np.pi / 4 * 0.08**2 * 0.09
-    mean = 0.75 * 9e5 * volume / (4 * np.pi)
-    assert result.response.loads.mean == pytest.approx(-mean, rel=1e-6)
-    arms = np.array(body.at) - body.centre
-    about = np.cross(arms, rest_of(result)).sum(axis=0)
-    assert about == pytest.approx([0, 0, -mean], rel=1e-6, abs=1e-6)
-
-
-def test_a_load_on_the_body_leans_on_no_mount(report):
-    """Of a genset the mean torque acts between engine and generator, both on the same skid: at rest
-    the mounts bear the weight alone, and vibrate as if the generator stood apart.
-    """
-    text = GAS + RandomBody(6, 4).text
+    body, text = RandomBody(6, 4), GAS + RandomBody(6, 4).text
     apart, aboard = (report(text.replace("[body]\n", f"[body]\n{said}")) for said in ("", "carries_load = true\n"))
-    weight = rest_of(report(ENGINE + RandomBody(6, 4).text))
+    assert apart.response.loads.mean == pytest.approx(-0.75 * MEAN, rel=1e-6)
+    about = np.cross(np.array(body.at) - body.centre, rest_of(apart)).sum(axis=0)
+    assert about == pytest.approx([0, 0, -0.75 * MEAN], rel=1e-6, abs=1e-6)
+    weight = rest_of(report(ENGINE + body.text))
     assert rest_of(aboard) == pytest.approx(weight, rel=1e-12, abs=1e-9)
     assert np.abs(rest_of(apart) - weight).max() > 10
     for mounts in zip(aboard.response.mounts, apart.response.mounts, strict=True):
@@ -287,85 +235,25 @@ def test_a_load_on_the_body_leans_on_no_mount(report):
 
 @pytest.mark.parametrize(("share", "leans"), [("1", 0.85), ("0", 0.75)])
 def test_friction_does_not_lean_on_the_mounts(report, share, leans):
-    """It acts between parts of the body, which feels the brake torque, that of the load; with a
-    misfire, whose friction nobody knows, the indicated one.
+    """It acts between parts of the body, which feels the brake torque, that of the load; with a misfire, whose friction
+    nobody knows, the indicated one.
     """
     text = GAS.replace("gas = 0", f"gas = {share}") + "mechanical_efficiency = 0.85\n"
-    mean = 9e5 * 4 * np.pi / 4 * 0.08**2 * 0.09 / (4 * np.pi)
-    found = report(text + RandomBody(6, 4).text).response.loads.mean
-    assert found == pytest.approx(-leans * mean, rel=1e-6)
+    uneven = text.replace("speed = 3000", "speed = 3000\nspeed_ripple = [{ order = 2, amplitude = 0.2 }]")
+    for each in (text, uneven):  # a constant load takes the mean over the crank angle, not over the time
+        found = report(each + RandomBody(6, 4).text).response.loads.mean
+        assert found == pytest.approx(-leans * MEAN, rel=1e-6)
 
 
-def find_constant_load_speed(gas, inertia, mean):
-    """Crank speed (rad/s) at equal steps over two turns under a load that is always alike: energy is
-    what the gas has done beyond the mean; at the first step that of `mean`.
-    """
-    waves, n = np.fft.fft(gas), np.fft.fftfreq(len(gas), 2 / len(gas))
-    waves[0] = 0
-    work = np.fft.ifft(np.where(n, waves / (1j * np.where(n, n, 1)), 0)).real
-    return np.sqrt((inertia[0] * mean**2 + 2 * (work - work[0])) / inertia)
-
-
-def find_inertia(theta):
-    """Of the four slider-cranks of ENGINE with next to no flywheel, kg m2, by velocities."""
-    total, pistons = np.full(len(theta), 0.004), (0.5, 0.55, 0.5, 0.5)
-    for throw, piston in zip(np.radians([0, 180, 180, 0]), pistons, strict=True):
-        angle = theta + throw
-        sine = 0.045 / 0.15 * np.sin(angle)
-        tilt = 0.3 * np.cos(angle) / np.sqrt(1 - sine**2)  # of the rod, rad per rad
-        slide = 0.045 * np.sin(angle) + 0.15 * sine * tilt
-        share = 42 / 150  # from the crank pin
-        along = (1 - share) * 0.045 * np.sin(angle) + share * slide
-        across = (1 - share) * 0.045 * np.cos(angle)
-        total += piston * slide**2 + 0.6 * (along**2 + across**2) + 2.5e-3 * tilt**2
-    return total
-
-
-def test_under_a_constant_load_its_torque_leans_on_the_mounts(report):
-    """At the uneven speed that gas, inertia and a constant load make, gas and inertia have means of
-    their own over the time; their sum is the load, which is the mean of the gas over the angle.
-    """
-    steps = 1 << 10
-    theta, orders = np.arange(steps) * (4 * np.pi / steps), np.arange(0, 24.5, 0.5)
-    torque = compute_spectra(build_text(GAS), orders, ["gas"])["gas"]
-    gas = torque.values(theta).real
-    omega = find_constant_load_speed(gas, find_inertia(theta), 300)
-    waves = np.fft.fft(omega, norm="forward")[:49]
-    assert omega.max() / omega.min() > 1.3
-    lines = ", ".join(
-        f"{{ order = {k / 2}, amplitude = {2 * abs(wave) / waves[0].real}, angle = {-np.degrees(np.angle(wave))} }}"
-        for k, wave in enumerate(waves)
-        if k
-    )
-    speed = f"speed = {waves[0].real * 30 / np.pi}\nspeed_ripple = [{lines}]"
-    text = GAS.replace("speed = 3000", speed)
-    found, _ = compute_spectra_in_time(build_text(text), np.zeros(1), ["gas", "roll"])
-    of_gas, of_inertia = -found["gas"].x[0].real, found["roll"].x[0].real
-
-    own = np.sum(gas / omega) / np.sum(1 / omega)
-    assert of_gas == pytest.approx(-own, rel=1e-5)
-    mean = report(text + RandomBody(6, 4).text).response.loads.mean
-    assert mean == pytest.approx(-gas.mean(), rel=1e-9)
-    assert abs(of_inertia) > 0.004 * abs(mean)
-    assert mean == pytest.approx(of_gas + of_inertia, rel=1e-5)
-
-
-def test_orders_meet_modes_where_their_frequencies_agree(report):
+def test_modes_of_a_block_and_where_orders_meet_them(report):
     result = report(ENGINE + block("loss = 0.05"), speeds=np.array([200.0, 2000.0]))
+    upright = [mode.frequency_Hz for mode in result.modes if mode.motion == "up and down"]
+    assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
     met = [(mode, one) for mode in result.modes for one in mode.meets]
     assert met
     for mode, one in met:
         assert one.speed_rpm * one.order / 60 == pytest.approx(mode.frequency_Hz)
         assert 200 <= one.speed_rpm <= 2000
-
-
-# ------------------------------------------------------------------ published, from a file
-def test_symmetric_block_in_closed_form(report):
-    closed = [50.13149728, 58.99302875, 89.4427191, 109.5445115, 146.5838769, 156.5880665]
-    result = report(block())
-    assert list_omega(result) == pytest.approx(closed, rel=1e-9)
-    upright = [mode.frequency_Hz for mode in result.modes if mode.motion == "up and down"]
-    assert upright == pytest.approx([np.sqrt(4 * 400e3 / 200) / (2 * np.pi)], rel=1e-14)
 
 
 # ------------------------------------------------------------------ what cannot be
@@ -376,23 +264,25 @@ def refused(report, text, **options):
 
 
 def test_an_undamped_resonance_in_the_range_is_named(report):
-    """Also where it lies between the speeds that are asked for."""
-    message = refused(report, ENGINE + block(), speeds=np.array([300.0, 2000.0]), orders=[2])
-    assert message == (
+    """Also where it lies between the speeds of a range; a list of speeds has none between them."""
+    text, speeds = ENGINE + block(), np.array([300.0, 2000.0])
+    assert refused(report, text, speeds=speeds, orders=[2]) == (
         "engine.toml: mode 4 (roll, 17.43 Hz) is not damped, and order 2 drives it at 523.037 rpm, "
         "where its motion has no bound; give the mounts a loss, such as loss = 0.1, or a range "
         "without that speed"
     )
-    assert report(ENGINE + block(), speeds=np.array([3000.0]), orders=[2]).response is not None
+    found = report(text, speeds=speeds, orders=[2], ranged=False).response
+    for mount in found.mounts:
+        assert mount.worst.force_N == mount.peak_N.max()
 
 
-FREE = [
-    (block(count=2), "turning about y through (400, 0, -200) mm"),
-    (block().replace("[200, 150, 400]", "[200, 0, 400]"), "moving along y"),
-]
-
-
-@pytest.mark.parametrize(("text", "motion"), FREE)
+@pytest.mark.parametrize(
+    ("text", "motion"),
+    [
+        (block(count=2), "turning about y through (400, 0, -200) mm"),
+        (block().replace("[200, 150, 400]", "[200, 0, 400]"), "moving along y"),
+    ],
+)
 def test_a_motion_that_nothing_holds_is_named(report, text, motion):
     assert refused(report, text) == (
         f"engine.toml: mount: nothing holds the body against {motion}; give a mount that does, or "
@@ -400,15 +290,12 @@ def test_a_motion_that_nothing_holds_is_named(report, text, motion):
     )
 
 
-def test_components_that_rounding_leaves_are_0():
+def test_what_is_not_known_is_told(report):
     turn = np.array([0, 0, 0, 0.8, 6e-17, 0.6])
     told = describe_free_motion(turn, np.zeros(3))
     assert told == "turning about (0.8, 0, 0.6) through (0, 0, 0) mm"
-
-
-def test_where_throws_stand_must_be_known(report):
     text = ENGINE.replace("spacing = 100\n", "") + block("loss = 0.1")
-    assert refused(report, text).startswith("engine.toml: ")
+    assert refused(report, text).startswith("engine.toml: moments are not known")
 
 
 RIPPLE = ENGINE.replace(
@@ -417,31 +304,20 @@ RIPPLE = ENGINE.replace(
 )
 
 
-def find_phasors_in_time(curve, orders):
-    """Of a curve over the crank angle, at the uneven speed of RIPPLE: over equal steps of time."""
-    fine = np.arange(1 << 16) * (2 * np.pi / (1 << 16))
-    pace = 1 + 0.2 * np.cos(2 * fine - np.radians(30)) + 0.05 * np.cos(fine)
-    done = np.concatenate([[0], np.cumsum((1 / pace + 1 / np.roll(pace, -1)) / 2)])
-    steps = np.arange(1 << 12) / (1 << 12)
-    angle = np.interp(steps, done / done[-1], np.append(fine, 2 * np.pi))
-    waves = np.fft.fft(curve, norm="forward")
-    n = np.fft.fftfreq(len(curve), 1 / len(curve))
-    few = np.abs(n) < 40
-    values = np.exp(1j * np.outer(angle, n[few])) @ waves[few]
-    return 2 * np.fft.fft(values.real, norm="forward")[list(orders)], done[-1] / len(fine)
-
-
 def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(report):
-    """What shakes the mounts is a frequency: forces over the crank angle are not yet those over the
-    time, and the speed is revolutions in a minute.
+    """What shakes the mounts is a frequency: forces over the crank angle are not yet those over the time, and the speed is
+    revolutions in a minute.
     """
+    theta, period = run_in_time(lambda a: 1 + 0.2 * np.cos(2 * a - np.radians(30)) + 0.05 * np.cos(a), 1)
+    few, longer = np.r_[-39:40], period / (2 * np.pi)
+    to_time = np.exp(1j * np.outer(theta, few))
     body, orders = RandomBody(8, 4), [1, 2, 3, 4]
     result = report(RIPPLE + body.text, orders=orders)
     curves = momentum.Engine.read(RIPPLE).curves()
     parts = [curves.force.real, curves.force.imag, 0 * curves.roll]
     parts += [curves.moment.real, curves.moment.imag, curves.roll]
-    found = [find_phasors_in_time(part, orders) for part in parts]
-    loads, longer = np.array([phasors for phasors, _ in found]).T, found[0][1]
+    values = to_time @ np.array([np.fft.fft(part, norm="forward")[few] for part in parts]).T
+    loads = 2 * np.fft.fft(values.real, axis=0, norm="forward")[orders]
     loads[:, 3:] += np.cross(-body.centre, loads[:, :3])
     for n, order in enumerate(orders):
         for s, rpm in enumerate(SPEEDS):
@@ -450,8 +326,7 @@ def test_at_uneven_speed_an_order_is_so_often_in_a_turn_of_equal_steps_of_time(r
             for key, own in zip(COMPONENTS, np.abs(load), strict=True):
                 rigid = result.response.passed[n].rigid.get(key, np.zeros(len(SPEEDS)))
                 assert rigid[s] == pytest.approx(own, rel=1e-6, abs=1e-3)
-            point = move(motion, body.point - body.centre)
-            largest = np.sqrt((np.sum(np.abs(point) ** 2) + abs(np.sum(point**2))) / 2)
+            largest = find_largest(move(motion, body.point - body.centre))
             assert result.response.points[0].orders[n].motion_mm[s] / 1e3 == pytest.approx(largest, rel=1e-6)
 
 
@@ -466,9 +341,7 @@ def test_a_dashpot_alone_holds_a_mount(report):
 
 
 def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report):
-    """An engine that lies on its side shakes along y: the mode that makes most of the largest force
-    moves that way.
-    """
+    """An engine that lies on its side shakes along y: the mode that makes most of the largest force moves that way."""
     found = report(ENGINE + "[layout]\nbanks = [90]\n" + block(), orders=[2])
     for mount in found.response.mounts:
         shape = np.abs(found.modes[mount.worst.mode].shape[:3])
@@ -477,7 +350,7 @@ def test_the_leading_mode_is_that_of_the_whole_force_not_of_one_direction(report
 
 @pytest.mark.parametrize("seed", [1, *slow(0, 2, 3, 4, 5)])
 def test_gas_orders_that_resonate_are_found(report, seed):
-    """Peak of a slow engine against a dense grid of speeds with orders to 120."""
+    """Peak of a slow engine against a dense grid of speeds with orders to 80."""
     rng = np.random.default_rng(seed)
     gas = (
         f'[layout]\nfiring_order = [1, 3, 4, 2]\n[gas]\ncycle = "wiebe"\n'
@@ -489,16 +362,6 @@ def test_gas_orders_that_resonate_are_found(report, seed):
     low = float(rng.uniform(60, 300))
     found = report(text, speeds=np.linspace(low, 1.5 * low, 9)).response
     assert found.orders[-1] >= 12
-    every = report(text, speeds=np.linspace(low, 1.5 * low, 1501), orders=np.arange(1, 241) / 2)
+    every = report(text, speeds=np.linspace(low, 1.5 * low, 601), orders=np.arange(1, 161) / 2)
     for mount, dense in zip(found.mounts, every.response.mounts, strict=True):
         assert mount.worst.force_N == pytest.approx(dense.peak_N.max(), rel=1e-3)
-
-
-def test_a_list_of_speeds_is_no_range(report):
-    """Undamped: finite at each speed of a list, without bound within a range around a mode."""
-    text, speeds = ENGINE + block(), np.array([300.0, 2000.0])
-    with pytest.raises(BalcliError, match="is not damped"):
-        report(text, speeds=speeds, orders=[2])
-    found = report(text, speeds=speeds, orders=[2], ranged=False).response
-    for mount in found.mounts:
-        assert mount.worst.force_N == mount.peak_N.max()

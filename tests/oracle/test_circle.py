@@ -129,25 +129,6 @@ def test_nothing_near_is_better(tables):
     assert found.excess <= TRUE * found.radius
 
 
-def test_curves_that_are_points_and_circles():
-    zero = Phasors.of(np.array([1.0, 2.0]), np.zeros(2, complex), np.zeros(2, complex), np.zeros(1))
-    nothing = circle.enclose_curve(zero)
-    assert (nothing.centre, nothing.radius, nothing.theta.tolist(), nothing.excess) == (0, 0, [], 0)
-    still = Phasors.of(np.array([1.0]), np.array([3 + 4j]), np.zeros(1, complex), np.zeros(1))
-    assert circle.enclose_curve(still)[:2] == (3 + 4j, 0.0)
-    round_ = Phasors.of(np.array([1.0]), np.array([3 + 4j]), np.array([2j]), np.zeros(1))
-    found = circle.enclose_curve(round_)
-    assert found.centre == pytest.approx(3 + 4j, abs=1e-14)
-    assert found.radius == pytest.approx(2, rel=1e-14)
-
-
-def test_angles_are_those_at_which_the_circle_is_touched():
-    curve = force()
-    found = circle.enclose_curve(curve)
-    assert np.abs(seen(curve, found.theta) - found.centre) == pytest.approx(found.radius, rel=1e-12)
-    assert len(found.theta) == 3
-
-
 @pytest.mark.parametrize("first", [0, 3 + 4j])
 @pytest.mark.parametrize(
     ("forward", "backward", "centre", "radius", "touching"),
@@ -170,25 +151,6 @@ def test_cardioids_and_a_deltoid(forward, backward, centre, radius, touching, fi
     assert found.radius == pytest.approx(radius, rel=1e-14)
     assert sorted((np.degrees(found.theta) + 1) % 360 - 1) == pytest.approx(touching, abs=1e-5)
     assert found.excess <= 1e-14 * radius
-
-
-@pytest.mark.parametrize("scale", [1e-9, 1e-3, 1e6])
-def test_a_curve_of_any_size_is_treated_alike(scale):
-    """Nanonewtons or meganewtons: the same circle, touched at the same angles, its error as
-    small.
-    """
-    curve = force(layout="radial = 5", **{"cylinder.3": "piston_mass = 1.5"})
-    small = Phasors.of(curve.orders, scale * curve.forward, scale * curve.backward, scale * np.asarray(curve.noise))
-    whole, found = circle.enclose_curve(curve), circle.enclose_curve(small)
-    assert found.centre / scale == pytest.approx(whole.centre, rel=1e-12)
-    assert found.radius / scale == pytest.approx(whole.radius, rel=1e-13)
-    assert found.theta == pytest.approx(whole.theta, abs=1e-7)
-    assert 0 <= found.excess <= 1e-13 * found.radius
-    points = scale * np.array([1, 1j, -1, 0.2 + 0.1j])
-    centre, fixing = circle.enclose_points(points)
-    radius = np.abs(points[fixing] - centre).max()
-    assert (abs(centre) / scale, radius / scale) == pytest.approx((0, 1), abs=1e-12)
-    assert len(fixing) >= 2
 
 
 def test_a_small_circle_beside_a_large_first_order_is_touched_wherever_it_is_but_for_rounding():

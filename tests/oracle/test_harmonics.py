@@ -16,15 +16,14 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from balcli.core.mechanisms import closed_form, closed_form as fourier, harmonics
-from balcli.core.mechanisms.harmonics import find_distinct
+from balcli.core.mechanisms import closed_form, harmonics
 
 RELATIVE = 1e-14  # of each order to 32 of the centred mechanism, twice that to 64, where it is above 1e-290
 ABSOLUTE = 1e-15  # of the offset mechanism, in units of the first order
 SMALLEST = 1e-290
 ORDERS = np.arange(1, 65)
-SMALL = [1e-6, 3.7e-5, 1e-3, 0.01, 0.05, 0.1, 0.2, 0.2632, 0.3]
-LARGE = [0.3, 0.32, 1 / 3, 0.4, 0.5, 0.6180339887, 0.75, 0.9, 0.95, 0.99, 0.999]
+SMALL = [1e-6, 1e-3, 0.05, 0.2632, 0.3]
+LARGE = [0.32, 0.4, 0.6180339887, 0.9, 0.95, 0.999]
 SERIES = ("piston", "rod", "kinetic", "rod_kinetic")
 OFFSETS = [(0.2632, 0.01), (0.25, -0.08), (0.3, 0.002), (0.45, 0.3), (0.3, 0.65), (1e-3, 0.5)]  # lam + |eps| <= 0.95
 
@@ -210,15 +209,6 @@ def test_first_coefficients_are_those_of_the_books():
     assert closed_form.rod([1, 3], lam) == pytest.approx([lam + lam**3 / 8, -3 * lam**3 / 8], rel=1e-7)
 
 
-def test_shapes_and_orders_in_any_number():
-    lam = np.array([[0.2, 0.3, 0.4]])
-    found = closed_form.find_harmonics([0, 1, 2, 7], lam)
-    for name in SERIES:
-        assert found[name].c.shape == (4, 1, 3)
-        alone = centred(name, [7], 0.3)[0]
-        assert centred(name, [0, 1, 2, 7], lam)[3, 0, 1] == pytest.approx(alone, rel=1e-14, abs=0)
-
-
 # ------------------------------------------------------------------ offset
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 def test_offset_against_the_trapezoidal_rule(lam, eps):
@@ -253,15 +243,6 @@ def test_equal_mechanisms_are_gathered_in_their_places():
     assert np.all(found.noise > 0)
 
 
-@pytest.mark.parametrize("eps", [0.0, 0.02])
-def test_mechanisms_given_as_several_may_be_one(eps):
-    """Three cylinders, each with a rod of its own, all of them equal."""
-    found = harmonics.find_harmonics([0, 1, 2, 3], np.full(3, 0.3), np.full(3, eps))
-    single = harmonics.find_harmonics([0, 1, 2, 3], np.array([0.3]), np.array([eps]))
-    for name in SERIES:
-        assert np.array_equal(np.broadcast_to(found[name].c, (4, 3)), np.repeat(single[name].c, 3, axis=1))
-
-
 def test_a_variant_is_the_same_among_any_others():
     """To the last bit."""
     lam, eps = np.array([0.1, 0.6, 0.3, 0.3]), np.array([0.3, 0.35, -0.2, 0.01])
@@ -273,32 +254,6 @@ def test_a_variant_is_the_same_among_any_others():
         single = harmonics.find_harmonics(np.arange(9), lam[k : k + 1], eps[k : k + 1])
         for name in SERIES:
             assert np.array_equal(found[name].c[:, 0, k], single[name].c[:, 0]), name
-
-
-def test_what_does_not_vary_has_one_mechanism():
-    """Of three cylinders the second varies, along the second axis alone; the third is as the
-    first.
-    """
-    lam = np.full((3, 2, 4), 0.3)
-    eps = np.zeros((3, 2, 4))
-    eps[1] = [0.01, 0.02, 0.03, 0.04]
-    few = find_distinct(lam, eps)
-    assert few.figures[1].tolist() == [0, 0.01, 0.02, 0.03, 0.04]
-    assert few.which[:, 0].tolist() == [[0] * 4, [1, 2, 3, 4], [0] * 4]
-    assert np.array_equal(few.which[:, 0], few.which[:, 1])
-
-
-def test_multiples_and_sums_of_series_keep_bounds_of_their_errors():
-    one, other = (fourier.Series(np.ones((1, 1)), 0.25), fourier.Series(np.full((1, 1), 3.0), 0.5))
-    found = np.array([-2.0]) * one + other
-    assert (found.c.item(), found.noise) == (1, 1)
-
-
-def test_orders_beyond_the_samples_vanish():
-    """Order 4096 of a mild offset is far below every number that could be sampled; it must not be
-    an alias.
-    """
-    assert harmonics.find_harmonics([4096], np.array([0.25]), np.array([0.01]))["piston"].c == 0
 
 
 @pytest.mark.parametrize(("lam", "eps"), [(0.3, 0.1), (0.6, 0.39), (0.05, 0.9)])

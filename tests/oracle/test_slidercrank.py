@@ -112,13 +112,6 @@ def test_the_sign_of_a_zero_means_nothing(what, cosine):
         assert what(np.array(complex(cosine, -0.0)), 0.3, eps) == what(np.array(complex(cosine, 0.0)), 0.3, eps)
 
 
-def test_arguments_broadcast():
-    psi, lam, eps = np.zeros((5, 1, 1)), np.full((4, 1), 0.3), np.zeros(3)
-    sine, cosine = sc.rod_angle(psi, lam, eps)
-    assert sine.shape == cosine.shape == sc.displacement(psi, lam, eps).shape == (5, 4, 3)
-    assert sc.acceleration(0.0, 0.25) == 1.25
-
-
 @pytest.mark.parametrize("lam", [1e-6, 0.1, 0.25, 1 / 3, 0.6, 0.9, 0.99])
 def test_the_fastest_point(lam):
     psi, value = sc.fastest(lam)

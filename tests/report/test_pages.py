@@ -23,14 +23,13 @@ from balcli.analysis.answer import QUANTITIES, analyze
 from balcli.analysis.plot import draw_vector_bars, visible_rows
 from balcli.balancing.answer import balance_engine as balance
 from balcli.core.phasors import Phasors
-from balcli.forces.kinds import FORCE, MOMENT
+from balcli.forces.kinds import FORCE
 from balcli.report.names import OF_GAS, PAGES
 from balcli.report.pages import PageSubject, draw_panel, make_page
 from balcli.report.study import Study
 from balcli.show import plot_style as style
 from balcli.show.plane import draw_locus
-from balcli.show.units import IMPERIAL, SI
-from balcli.torque.plot import compute_picture
+from balcli.show.units import SI
 
 pytestmark = pytest.mark.slow
 
@@ -87,29 +86,20 @@ def test_a_hostile_name_stays_text_and_warns_of_nothing(form, four):
         assert f"{style.fit_name(HOSTILE)},3000rpm".replace(" ", "") in told.replace(" ", "")
 
 
-def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
-    """A five has a free force of 1e-6 of one cylinder's, and a moment."""
-    five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    root = ET.fromstring(draw_page(PageSubject(Study(five)), "polar", "svg"))
-    texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
-    assert [text for text in texts if text.startswith("Free force: negligible (")]
-    assert "moment about x, N·m" in texts
-    assert "force along x, N" not in texts
-
-
 def texts_of(svg: bytes) -> list[str]:
     return [e.text or "" for e in ET.fromstring(svg).iter() if e.tag.endswith("text")]
 
 
-def test_orders_that_are_negligible_have_no_picture():
-    """Orders 10 of the force and 4 of the moment of a five; 1 and 2 of its moment are drawn."""
-    five = analyze(inline_engine([0, 144, 216, 288, 72]))
-    titles = [text for text in texts_of(draw_page(PageSubject(Study(five)), "orders", "svg")) if text]
-    assert [text for text in titles if ", order" in text] == [
-        "moment, order 1, at crank angle 36°",
-        "moment, order 2, at crank angle 18°",
-    ]
-    assert [text for text in titles if text.startswith("Free force: negligible (")]
+def test_what_is_negligible_beside_one_cylinder_is_said_and_not_drawn():
+    """A five has a free force of 1e-6 of one cylinder's, and a moment, of which orders 1 and 2 count."""
+    five = PageSubject(Study(analyze(inline_engine([0, 144, 216, 288, 72]))))
+    polar, orders = (texts_of(draw_page(five, what, "svg")) for what in ("polar", "orders"))
+    for texts in (polar, orders):
+        assert [text for text in texts if text.startswith("Free force: negligible (")]
+    assert "moment about x, N·m" in polar
+    assert "force along x, N" not in polar
+    found = [text for text in orders if ", order" in text]
+    assert found == ["moment, order 1, at crank angle 36°", "moment, order 2, at crank angle 18°"]
 
 
 def test_what_is_nothing_is_said_and_not_drawn():
@@ -134,12 +124,6 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     assert "720" not in curves
 
 
-def test_orders_that_are_always_shown_are_1_and_2():
-    orders = np.array([0.5, 1, 1.5, 2, 4])
-    vectors = np.array([0, 0, 0, 0, 1.0 + 0j])
-    assert visible_rows(Phasors.of(orders, vectors, vectors, np.zeros(5))) == [1, 3, 4]
-
-
 def test_crank_angles_do_not_lie_on_one_another(ax):
     """Along a straight line that is run to and fro, two places of the tip are the same."""
     ones = np.array([1.0 + 0j])
@@ -149,15 +133,6 @@ def test_crank_angles_do_not_lie_on_one_another(ax):
     apart = np.abs(places[:, None] - places[None])
     near = (apart[..., 0] < 0.1) & (apart[..., 1] < 0.05)
     assert near.sum() == len(places)
-
-
-def test_nothing_global_is_left_changed():
-    import matplotlib
-
-    before = dict(matplotlib.rcParams)
-    with style.open_figure(2, 2) as figure:
-        figure.subplots()
-    assert dict(matplotlib.rcParams) == before
 
 
 def test_threads_that_draw_leave_matplotlib_as_it_was():
@@ -202,16 +177,9 @@ def test_locus_has_x_upwards(ax):
     """One cylinder's rotating mass: m r omega^2 along the crank pin, up at crank angle 0, to the
     right at 90 degrees.
     """
+    masses = (("mass = 0.5", "mass = 0"), ("mass = 0.6\ncg = 45\n", ""), ("spacing = 100\n", ""))
     one = analyze(
-        engine(
-            changed(
-                ("throws = [0, 180, 180, 0]", "throws = [0]"),
-                ("firing_order = [1, 3, 4, 2]", ""),
-                ("mass = 0.5", "mass = 0"),
-                ("mass = 0.6\ncg = 45\n", ""),
-                ("spacing = 100\n", ""),
-            )
-        )
+        engine(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""), *masses))
     )
     draw_locus(ax, one.spectra.force, FORCE.name_components(None), SI.force)
     right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()
@@ -221,14 +189,16 @@ def test_locus_has_x_upwards(ax):
 
 
 @pytest.mark.parametrize(("share", "marked"), [(0.5, True), (0.1, False), (0.01, False)])
-def test_a_small_locus_says_its_size_instead_of_crank_angles(ax, share, marked):
-    """Marks would lie on one another."""
+def test_a_small_locus_has_a_picture_of_its_own_instead_of_crank_angles(ax, share, marked):
+    """Marks would lie on one another; the picture in the corner has a scale that shows the locus."""
     before = Phasors.of(np.array([1.0]), np.array([100 + 0j]), np.zeros(1, complex), np.zeros(1))
     after = replace(before, vectors=share * before.vectors)
     draw_locus(ax, after, FORCE.name_components(None), SI.force, before)
     texts = [text.get_text() for text in ax.texts]
     assert ("60°" in texts) == marked
-    assert (f"at most {100 * share:g} N" in texts) != marked
+    assert len(ax.child_axes) == 1 - marked
+    for inset in ax.child_axes:
+        assert inset.get_xlim()[1] == pytest.approx(1.25 * 100 * share)
     widths = [max(x) - min(x) for x in (line.get_xdata() for line in ax.lines) if len(x) > 20]
     drawn = any(width == pytest.approx(200 * share) for width in widths)
     assert drawn
@@ -242,27 +212,6 @@ def test_bars_are_both_vectors_and_add_up_to_the_largest_value(ax, four):
     unit = 1e3 if force.major.max() >= 5000 else 1
     assert heights.sum(axis=0) * unit == pytest.approx(force.major[rows])
     assert heights[0] * unit == pytest.approx(np.abs(force.forward[rows]))
-
-
-def test_a_balanced_quantity_says_so(ax):
-    six = analyze(
-        engine(
-            changed(
-                ("throws = [0, 180, 180, 0]", "throws = [0, 240, 120, 120, 240, 0]"),
-                ("firing_order = [1, 3, 4, 2]", ""),
-            )
-        )
-    )
-    draw_locus(ax, six.spectra.moment, MOMENT.name_components(None), SI.moment)
-    assert "balanced" in [text.get_text() for text in ax.texts]
-
-
-@pytest.mark.parametrize(
-    ("unit", "largest", "name"),
-    [(SI.force, 4999, "N"), (SI.force, 5000, "kN"), (SI.moment, 1e6, "kN·m"), (IMPERIAL.force, 1e9, "lbf")],
-)
-def test_long_figures_get_a_larger_unit(unit, largest, name):
-    assert unit.fit(largest).name == name
 
 
 def test_in_a_page_colours_follow_it_and_ids_are_its_own(drawn):
@@ -280,22 +229,12 @@ def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
     assert text == f'<svg><g id="here-a" fill="var(--ink)"/><text>{name}</text></svg>'
 
 
-@pytest.mark.parametrize("share", [0, 0.5])
-def test_of_a_share_of_gas_its_pressure_is_drawn(share):
-    """Over that in the crankcase, 1 bar."""
-    weak = build_text(f"{GAS_FOUR}{WIEBE}[cylinder.1]\ngas = {share}\n")
-    drawn = compute_picture(weak, "p-v")
-    whole = compute_picture(build_text(GAS_FOUR + WIEBE), "p-v")
-    assert drawn.pressure == pytest.approx(1e5 + share * (whole.pressure - 1e5))
-
-
 @pytest.mark.parametrize("what", OF_GAS)
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     fired = build_text(GAS_FOUR + WIEBE)
-    study = Study(analyze(fired), gas=compute_picture(fired, what))
-    page = make_page(PageSubject(study), what)
+    page = make_page(PageSubject(Study(analyze(fired))), what)
     style.save_figure(page, "png")
     canvas = FigureCanvasAgg(page)
     canvas.draw()

@@ -4,15 +4,11 @@ in matplotlib's settings.
 
 from __future__ import annotations
 
-import logging
-from io import BytesIO
-
 import matplotlib
 import pytest
 from support.rotors import three_runs
 
 import balcli
-from balcli.report.names import PAGES
 
 THREE, GAS = balcli.load_example("i3"), balcli.load_example("i4_wiebe")
 VEE, DIESEL = balcli.load_example("v6_60"), balcli.load_example("i6_diesel")
@@ -72,40 +68,6 @@ def test_a_sweep_has_an_axis_and_a_unit_for_each_dimension():
         assert drawn == pytest.approx(value.ravel(), rel=1e-12)
 
 
-def test_what_matplotlib_tells_is_left_to_the_host(tmp_path):
-    logger = logging.getLogger("matplotlib")
-    level = logger.level
-    try:
-        logger.setLevel(logging.INFO)
-        balcli.plot(THREE, "polar").savefig(tmp_path / "a.svg")
-        assert logger.level == logging.INFO
-    finally:
-        logger.setLevel(level)
-
-
-@pytest.mark.parametrize(
-    ("call", "kind", "message"),
-    [
-        (lambda: balcli.plot(3), TypeError, "plot: 3 (int): give an Engine, or an answer of analyze, balance, sweep, "),
-        (lambda: balcli.plot(balcli.tables("liu-3")), TypeError, "plot: <Table liu-3: "),
-        (lambda: balcli.plot(THREE, "polr"), balcli.BalcliError, 'what "polr": choose from ' + ', '.join(PAGES) + '; did you mean polar?'),
-        (lambda: balcli.plot(balcli.balance(THREE), "inner"), balcli.BalcliError, 'what "inner": choose from overview, all, polar, orders, spectrum, curves'),
-        (lambda: balcli.plot(balcli.analyze_torsion(DIESEL), "response"), balcli.BalcliError, 'what "response": choose from all, modes, campbell'),
-        (lambda: balcli.plot(balcli.analyze_torque(GAS), "polar"), balcli.BalcliError, 'what "polar": choose from pressure, p-v, torque, pin, main'),
-        (lambda: balcli.plot(balcli.balance_rotor(three_runs()), "polar"), balcli.BalcliError, 'what "polar": choose from all'),
-        (lambda: balcli.plot(THREE, orders=3), TypeError, "orders: 3 (int): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.plot(DIESEL, "campbell", orders=3), TypeError, "orders: 3 (int): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.plot(DIESEL, "campbell", orders=["a"]), TypeError, "orders: 'a' (str): give numbers, such as [1, 2, 4]"),
-        (lambda: balcli.plot(THREE, "torque"), balcli.BalcliError, "in-line three: has no [gas]"),
-        (lambda: balcli.plot(THREE, "modes"), balcli.BalcliError, "in-line three: has no [torsion]"),
-    ],
-)  # fmt: skip
-def test_what_has_no_picture_is_told(call, kind, message):
-    with pytest.raises(kind) as caught:
-        call()
-    assert str(caught.value).startswith(message)
-
-
 def test_the_title_says_which_devices_are_fitted():
     """A page with them was titled as the engine without."""
 
@@ -119,26 +81,6 @@ def test_the_title_says_which_devices_are_fitted():
     shares = balcli.SchemeOptions(factor=(0.4,))
     factor = balcli.balance(balcli.load_example("vtwin45"), "factor", shares)
     assert title(balcli.plot(factor, "polar")).endswith("\nwith scheme factor 40 %, order 1")
-
-
-def test_figures_on_bars_stay_below_the_legend():
-    """Within their panel, on top of which the legend stands."""
-    figure = balcli.plot(balcli.load_example("vtwin90"), scheme="counterweights")
-    figure.savefig(BytesIO(), format="png")
-    above = [
-        text.get_text()
-        for ax in figure.axes
-        if ax.get_xlim()[0] == -0.6  # bars
-        for text in ax.texts
-        if text.get_window_extent().y1 > ax.bbox.y1 + 1
-    ]
-    assert above == []
-
-
-def test_contours_name_the_engine_too():
-    """As curves over one number do."""
-    ranges = {"layout.bank_angle": "30:90:30", "rod.length": "140:160:10"}
-    assert balcli.plot(balcli.sweep(VEE, ranges)).get_suptitle() == VEE.name
 
 
 @pytest.mark.parametrize("name", ["sweep", "torsion", "mounts"])

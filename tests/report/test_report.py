@@ -11,47 +11,27 @@ import numpy as np
 import pytest
 from support.browser import CHROMIUM, Browser
 from support.commands import ask
-from support.engines import GOOD, build_text, changed
+from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
 from support.pictures import without_pictures
 
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import balance_engine as balance
 from balcli.forces.kinds import KINDS
-from balcli.report.page import page
+from balcli.report.page import Answers, page
 from balcli.show.units import IMPERIAL, SI
 
 pytestmark = pytest.mark.slow
 
 HOSTILE = "</script><script>alert('name')</script><img src=x onerror=alert(1)> & \"quoted\" {{ 7 * 7 }} 发动机"
-RADIAL = """\
-name = "radial with a master rod"
-[crank]
-stroke = 120
-throw_mass = 3
-[rod]
-length = 230
-mass = 2.5
-cg = 60
-[piston]
-mass = 1.6
-offset = 2
-[layout]
-radial = 5
-[operation]
-speed = 2000
-[articulation]
-knuckle_radius = 55
-rod = { length = 175, mass = 0.9, cg = 80 }
-"""
-ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 5", "radial = 5\nrotary = true")
+ROTARY = RADIAL.partition("[articulation]")[0].replace("radial = 7", "radial = 7\nrotary = true")
 
 
 @cache
 def report(text: str, system=SI) -> str:
     """The page of an engine file, which many tests look at."""
     engine = build_text(text)
-    return page(analyze(engine, None, {*KINDS, "peak"}), balance(engine), system)
+    return page(Answers(analyze(engine, None, {*KINDS, "peak"}), balance(engine)), system)
 
 
 class Outline(HTMLParser):
@@ -312,7 +292,7 @@ def test_the_page_switches_between_the_steps_of_the_ladder():
     for scheme, more in (("auto", []), ("two-shaft", ["scheme two-shaft"])):
         balanced = balance(engine, scheme)
         with without_pictures():
-            text = page(analyze(engine), balanced, SI)
+            text = page(Answers(analyze(engine), balanced), SI)
         variants = json.loads(re.search(r'id="scene">(.*?)</script>', text, re.S)[1])["variants"]
         assert [variant["label"] for variant in variants] == names + more
         for variant, step in zip(variants, ladder.steps, strict=False):

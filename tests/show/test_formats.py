@@ -25,6 +25,7 @@ SHOWN = {  # by renderer
     "balance": ("balance", SINGLE, "--scheme", "factor", "--factor", "0:1:0.25"),
     "bench": ("bench",),
     "comparison": ("compare", V6, V8),
+    "piston": ("piston", V6),
     "errata": ("tables", "liu-3", "--errata"),
     "field_balancing": ("field", "-"),
     "layouts": ("layouts",),

@@ -95,7 +95,10 @@ def test_loads_before_and_after_are_printed(tmp_path):
     told = ask("balance", tmp_path / "four.toml", "--scheme", "counterweights")
     assert "Order 1 is balanced already: counterweights change no free force or moment." in told
     assert "they lower the largest main bearing load from 48.23 to 12.53 kN." in " ".join(told.split())
-    assert "largest inner moment, kN·m" in told
+    assert "Nothing changes by 1 %." in told
+    weighed = ask("balance", tmp_path / "four.toml", "--scheme", "counterweights", "--planes", "throws")
+    assert "largest main bearing load, kN" in weighed
+    assert "largest inner moment, kN·m" in weighed
     (tmp_path / "single.toml").write_text(FOUR.replace("[0, 180, 180, 0]", "[0]").replace("[1, 3, 4, 2]", "[1]"))
     assert set(ask_json("balance", tmp_path / "single.toml")["before"]["bearings"]) == {"inner_moment_Nm", "inner_mm"}
 

@@ -16,7 +16,7 @@ from balcli.engine.load import load
 from balcli.engine.parse import read
 from balcli.forces.crankshaft import compute_inner_loads
 from balcli.studies.deviations import Tolerances
-from balcli.studies.scatter import Drawing, scatter_engine
+from balcli.studies.scatter import Variants
 from balcli.studies.search.designs import Objective
 
 pytestmark = pytest.mark.stress
@@ -28,7 +28,7 @@ ENGINES = ROOT / "engines"
 def test_equal_shares_of_a_scatter(name: str) -> None:
     """Parts of one kind stand by their numbers."""
     model = read(ENGINES / f"{name}.toml")
-    for spread in scatter_engine(model, None, Tolerances(mass=0.01), Drawing(10, 1)).quantities.values():
+    for spread in Variants(model, None, Tolerances(mass=0.01)).draw(10, 1).quantities.values():
         named = [(*source.rsplit(" ", 1), f"{abs(share):.6g}") for source, share in spread.sensitivity.items()]
         for _, equal in groupby(named, key=lambda one: (one[2], one[0])):
             numbers = [int(number) for _, number, _ in equal]

@@ -26,28 +26,6 @@ def engine(tmp_path: Path) -> str:
 SWEEP = ("--vary", "rod.ratio=0.2,0.3", "--quantity", "force.2.major")
 
 
-def test_sweep_writes_what_it_prints(engine: str, tmp_path: Path) -> None:
-    target = tmp_path / "x.csv"
-    printed, written = (
-        run_command("sweep", engine, *SWEEP),
-        run_command("sweep", engine, *SWEEP, "-o", str(target), "--progress"),
-    )
-    assert (printed.returncode, written.returncode, written.stdout, written.stderr) == (0, 0, "", "")
-    assert printed.stdout == target.read_text()
-    assert printed.stdout.startswith("rod.ratio,force.2.major\n0.2,")
-
-
-def test_a_refused_sweep_leaves_the_older_file(engine: str, tmp_path: Path) -> None:
-    target = write(tmp_path / "x.csv", "old\n")
-    done = run_command(
-        "sweep", engine, "--vary", "crank.stroke=80:400:10", "--quantity", "force.2.major", "-o", str(target)
-    )
-    assert done.returncode == 2
-    assert "the crank cannot turn" in done.stderr
-    assert target.read_text() == "old\n"
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["four.toml", "x.csv"]
-
-
 def test_a_variant_that_cannot_be_is_told_before_anything_is_written(tmp_path: Path) -> None:
     """One between the corners of the grid, the ripple's angle; the first such is named."""
     file = write(
@@ -209,16 +187,6 @@ def test_a_refused_search_names_the_file(engine: str) -> None:
     assert done.stderr.startswith(f"balcli: {engine}: rod.length: the crank cannot turn: ")
 
 
-def test_scatter_as_json_and_table(engine: str) -> None:
-    options = ("scatter", engine, "--mass-scatter", "1%", "--samples", "1000", "--seed", "1", "-q", "force.1.major")
-    document = json.loads(run_command(*options, "-f", "json").stdout)
-    assert document["format"] == "balcli.scatter/1"
-    assert document["samples"] == 1000
-    figures = document["quantities"]["force.1.major"]
-    assert 0 < figures["p05"] < figures["p50"] < figures["p95"] < figures["max"] < figures["bound"]
-    assert "Spread of 1000 random engines" in run_command(*options).stdout
-
-
 def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: Path) -> None:
     """One piston: 3 standard deviations are its tolerance, and 1 of 370 samples lies beyond."""
     file = write(tmp_path / "one.toml", "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
@@ -230,17 +198,3 @@ def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: P
     figures = document["quantities"]["force.1.major"]
     assert document["distribution"] == "normal"
     assert figures["max"] > figures["bound"]
-
-
-def test_compare_in_every_format(engine: str) -> None:
-    document = json.loads(
-        run_command("compare", engine, engine, "--orders", "2", "--only", "force", "-f", "json").stdout
-    )
-    (figure,) = document["figures"]
-    assert (figure["quantity"], figure["order"], figure["ratios"]) == ("force_N", 2, [1.0, 1.0])
-    for form, said in (
-        ("table", "Free force, N: largest by order"),
-        ("csv", "quantity,order,unit,"),
-        ("markdown", "| order 2 |"),
-    ):
-        assert said in run_command("compare", engine, engine, "-f", form).stdout

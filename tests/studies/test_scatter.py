@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 
 import numpy as np
 import pytest
@@ -20,7 +19,7 @@ from balcli.errors import BalcliError
 from balcli.forces.quantity import evaluate_quantities
 from balcli.studies.deviations import Tolerances
 from balcli.studies.quantities import parse_quantities
-from balcli.studies.scatter import Drawing, Spread, Variants, read_tolerances, scatter_engine
+from balcli.studies.scatter import Spread, Variants, read_tolerances
 
 FORCES = "force.1.major,force.2.major,moment.1.major"
 TWIN = changed(
@@ -35,7 +34,6 @@ UNEVEN = changed(  # nothing of it is balanced
 )
 FOUR = PETROL_FOUR.replace("[rod]", "inertia = 90000\n[rod]") + "[cylinder]\n"
 ARTICULATED = RADIAL.replace("radial = 7", "radial = 5").replace("cg = 90", "cg = 30")
-ROTARY = ARTICULATED[: ARTICULATED.index("[articulation]")] + "rotary = true\n"
 
 
 def evaluate(text: str, name: str) -> float:
@@ -45,7 +43,7 @@ def evaluate(text: str, name: str) -> float:
 
 def scatter(text: str, name: str, within: Tolerances, samples: int = 10, shape: str = "uniform") -> list[Spread]:
     """The spreads of quantities of a file."""
-    return [*scatter_engine(load(text), name, within, Drawing(samples, 1, shape)).quantities.values()]
+    return [*Variants(load(text), name, within).draw(samples, 1, shape).quantities.values()]
 
 
 def test_two_pistons_alone_have_a_triangular_difference() -> None:
@@ -129,39 +127,6 @@ def test_a_longer_rod_has_less_of_its_weight_at_its_small_end() -> None:
     assert couple.sensitivity["rod length 1"] == pytest.approx(change, rel=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("text", "number"),
-    [
-        (UNEVEN.replace("cg = 45", "cg = 45\ninertia = 3000"), 3),
-        (UNEVEN.replace("cg = 45", 'cg = 45\npendulum = {pivot = "small_end", period = 0.75}'), 3),
-        (UNEVEN.replace("length = 160", "ratio = 0.28") + "[cylinder.3]\nrod_cg = 60\n", 3),
-        (RADIAL, 2),
-    ],
-    ids=["inertia", "pendulum", "ratio", "articulated"],
-)
-def test_heavier_rods_and_pistons_are_those_of_a_changed_file(text: str, number: int) -> None:
-    """Every mass of a rod grows with it, and its inertia."""
-    names = "force.1.forward,force.2.backward,couple.1.amplitude"
-    spreads, step = scatter(text, names, Tolerances(mass=1e-3)), 1e-3
-    w = dict(zip((e := build(load(text))).numbers, e.weighed, strict=True))[number]
-    up, down = (
-        evaluate_quantities(
-            build(load(text), {f"cylinder.{number}.piston_mass": w.piston * x}), parse_quantities(names)
-        )
-        for x in (1 + step, 1 - step)
-    )
-    for spread, more, less in zip(spreads, up, down, strict=True):
-        size = max(map(abs, spread.sensitivity.values()))
-        expected = (float(more.item()) - float(less.item())) / 2
-        assert spread.sensitivity[f"piston mass {number}"] == pytest.approx(expected, rel=1e-5, abs=1e-6 * size)
-
-
-def test_pistons_of_a_rotary_engine_deviate() -> None:
-    (spread,) = scatter(ROTARY, "force.1.major", Tolerances(0.005))
-    heavier = evaluate(ROTARY + "[cylinder.3]\npiston_mass = 1.3065\n", "force.1.major")
-    assert spread.sensitivity["piston mass 3"] == pytest.approx(heavier - spread.nominal, rel=1e-6)
-
-
 @pytest.mark.parametrize("text", [GOOD, RADIAL], ids=["plain", "articulated"])
 def test_rods_that_might_lock_are_refused(text: str) -> None:
     with pytest.raises(
@@ -172,9 +137,8 @@ def test_rods_that_might_lock_are_refused(text: str) -> None:
 
 
 def test_percentiles_rise_and_a_seed_repeats() -> None:
-    runs = [
-        scatter_engine(load(GOOD), FORCES, Tolerances(0.02), Drawing(20_000, seed)).quantities for seed in (7, 7, 8)
-    ]
+    variants = Variants(load(GOOD), FORCES, Tolerances(0.02))
+    runs = [variants.draw(20_000, seed).quantities for seed in (7, 7, 8)]
     assert runs[0] == runs[1]
     assert runs[0]["force.1.major"].mean != runs[2]["force.1.major"].mean
     for s in runs[0].values():
@@ -241,13 +205,6 @@ def test_mistakes_in_words(given: tuple[str, str, str], message: str) -> None:
 @cases("studies/scatter", "what_cannot_be_scattered_is_refused", GOOD=GOOD, FOUR=FOUR)
 def test_what_cannot_be_scattered_is_refused(text, options, message):
     assert refusal("scatter", "-", *options, stdin=text).startswith(message)
-
-
-def test_a_table_names_what_varies():
-    out = run_here("scatter", ENGINES / "i4_wiebe.toml", "-q", "fluctuation,force.2.major", "--samples", "2").out
-    assert "Spread of 2 random engines" in out
-    assert re.search(r"\nfluctuation +0\.005377", out)
-    assert "a variant may lie slightly beyond" in out
 
 
 def test_a_table_says_tolerances_parts_and_units_that_fit():

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import mpmath
 import numpy as np
+import tomli_w
 from numpy.typing import NDArray
 from support import high_precision
 
@@ -18,6 +19,31 @@ def chain_of(inertia, stiffness, clamped=()) -> Chain:
     """Nodes in a row."""
     shafts = [ChainShaft(i, i + 1, k) for i, k in enumerate(stiffness)]
     return join_chain(inertia, shafts, clamped)
+
+
+def chain_text(nodes, shafts=(), torques=(), gears=(), **head) -> str:
+    """A chain file.
+
+    Args:
+        nodes: Inertia in kg m2 (0: none), or table, by name.
+        shafts: Stiffness in N m/rad, or table, by the names of both ends.
+        torques: Node, order, cos and sin of each.
+        gears: Ratio by the names of both ends.
+        head: Keys of the file.
+    """
+
+    def joined(key, found):
+        given = ((ends, own if isinstance(own, dict) else {key: own}) for ends, own in dict(found).items())
+        return [dict(zip(("from", "to"), ends, strict=True)) | own for ends, own in given]
+
+    tables = ((name, own if isinstance(own, dict) else {"inertia": own * 1e6}) for name, own in nodes.items())
+    lists = {
+        "node": [{"name": name} | {key: each for key, each in own.items() if each} for name, own in tables],
+        "shaft": joined("stiffness", shafts),
+        "gear": joined("ratio", gears),
+        "excitation": [dict(zip(("node", "order", "cos", "sin"), each, strict=False)) for each in torques],
+    }
+    return tomli_w.dumps(head | {key: each for key, each in lists.items() if each})
 
 
 def random_chain(kind: str, seed: int, spread: float = 1.0) -> Chain:

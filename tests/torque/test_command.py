@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,17 +20,16 @@ WHOLE |= {"mean_torque_Nm", "power_W", "torque", "orders", "energy"}
 
 @pytest.fixture
 def four(tmp_path):
-    path = write(tmp_path / "four.toml", FOUR + WIEBE + "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n")
-    return str(path)
+    more = "mechanical_efficiency = 0.8\n[flywheel]\ninertia = 200000\n"
+    return str(write(tmp_path / "four.toml", FOUR + WIEBE + more))
 
 
 @pytest.fixture
 def curve(tmp_path):
-    path = write(tmp_path / "press.csv", TORQUE)
-    return str(path)
+    return str(write(tmp_path / "press.csv", TORQUE))
 
 
-def test_json_has_what_the_file_allows(four):
+def test_json_and_csv_have_what_the_file_allows(four):
     found = ask_json("torque", four, "--fluctuation", "1/300")
     assert set(found) == WHOLE | {"bmep_Pa", "flywheel"}
     assert found["format"] == "balcli.torque/1"
@@ -46,29 +46,21 @@ def test_json_has_what_the_file_allows(four):
     assert set(found["orders"][0]) == kinds | {"order", "one_cylinder"}
     assert set(found["orders"][0]["one_cylinder"]) == kinds
     assert found["orders"][0]["gas_torque_Nm"]["balanced"]
-
-
-def test_what_the_file_does_not_allow_is_left_out(four):
     assert set(ask_json("torque", "-", stdin=FOUR + WIEBE)) == WHOLE
-
-
-def test_a_misfire_is_told_wherever_its_figures_are(four):
+    lines = ask("torque", four, "--misfire", "3", "--misfire", "1", "--format", "csv").splitlines()
+    assert lines[0] == "cylinder,quantity,order,figure,value,unit"
+    assert "0,engine,,no_gas_in,1 3," in lines
+    begins = (
+        "0,flywheel,,fluctuation,0.",
+        "1,gas,0.5,amplitude,",
+        "0,torque_total,2,peak_deg,",
+        "0,torque_total,,max,",
+    )
+    assert [begin for begin in begins if not any(line.startswith(begin) for line in lines)] == []
     for command in ("torque", "analyze"):
-        asked = (command, four, "--misfire", "3")
-        assert ask_json(*asked)["no_gas_in"] == [3]
+        assert ask_json(command, four, "--misfire", "3")["no_gas_in"] == [3]
         assert "no_gas_in" not in ask_json(command, four)
     assert "no gas in" in run_here("analyze", four, "--misfire", "3", "--only", "gas").out
-
-
-def test_csv_lists_every_figure(four):
-    lines = ask("torque", four, "--format", "csv").splitlines()
-    assert lines[0] == "cylinder,quantity,order,figure,value,unit"
-    assert any(line.startswith("0,flywheel,,fluctuation,0.0") for line in lines)
-    assert any(line.startswith("1,gas,0.5,amplitude,") for line in lines)
-    assert any(line.startswith("0,torque_total,2,peak_deg,") for line in lines)
-    assert any(line.startswith("0,torque_total,,max,") for line in lines)
-    silent = ask("torque", four, "--misfire", "3", "--misfire", "1", "--format", "csv").splitlines()
-    assert "0,engine,,no_gas_in,1 3," in silent
 
 
 def test_what_is_written_turns_as_unevenly(four, tmp_path):
@@ -81,17 +73,7 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     assert again == ask_json("torque", four), "torque is that of the mean speed"
 
 
-def test_what_a_crank_needs_that_stalls(four, tmp_path):
-    arguments = (four, "--speed", "100", "--fluctuation", "1/50")
-    assert "speed    the shaft stalls at" in ask("torque", *arguments)
-    found = ask_json("torque", *arguments)["flywheel"]
-    assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2", "stall"}
-    assert found["stall"].startswith("the shaft stalls at")
-    told = refusal("torque", *arguments, "--write", tmp_path / "out.toml")
-    assert told.startswith("--write: the shaft stalls at")
-
-
-def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, curve):
+def test_a_crank_that_stalls_is_an_error_with_the_angle_next_to_all_else(four, curve, tmp_path):
     for arguments in ((four, "--speed", "100"), ("--curve", curve, "--inertia", "1", "--speed", "9")):
         status, out, err = run_here("torque", *arguments)
         assert status == 2
@@ -102,55 +84,46 @@ def test_a_crank_that_stalls_is_an_error_with_the_angle_beside_all_else(four, cu
         status, out, _ = run_here("torque", *arguments, "--format", "json")
         assert status == 2
         assert json.loads(out)["flywheel"]["stall"] in err
-        assert run_here("torque", *arguments, "--fluctuation", "1/50")[::2] == (0, "")
+        found = ask_json("torque", *arguments, "--fluctuation", "1/50")["flywheel"]
+        assert set(found) == {"inertia_kg_m2", "moving_parts_kg_m2", "needed_kg_m2", "stall"}
+    told = refusal("torque", four, "--speed", "100", "--write", tmp_path / "out.toml")
+    assert told.startswith("--write: the shaft stalls at")
 
 
-def test_a_curve_needs_no_engine(curve):
+def test_a_curve_needs_no_engine(curve, tmp_path):
     found = ask_json("torque", "--curve", curve)
     assert set(found) == {"format", "version", "cycle_deg", "mean_torque_Nm", "torque", "orders", "energy"}
     assert found["mean_torque_Nm"] == pytest.approx(250)
     assert found["cycle_deg"] == 360
     assert found["torque"]["max_Nm"] == 1000
-    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * 3.141592653589793)
+    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi)
     assert set(found["orders"][0]) == {"order", "torque_Nm"}
     arguments = ("--curve", curve, "--speed", "300", "--inertia", "2e6", "--fluctuation", "1/100")
     text = ask("torque", *arguments)
     assert "Flywheel\ninertia      2 kg·m²" in text
-    metric = ask("torque", *arguments[:5], "2 kg m^2", *arguments[6:])
-    assert metric == text
-
-
-def test_a_curve_of_several_turns_has_orders_below_1(tmp_path):
-    (tmp_path / "t.csv").write_text("angle_deg,torque_Nm\n0,1\n300,5\n1080,1\n")
-    orders = ask_json("torque", "--curve", tmp_path / "t.csv")["orders"]
+    assert ask("torque", *arguments[:5], "2 kg m^2", *arguments[6:]) == text
+    several = write(tmp_path / "t.csv", "angle_deg,torque_Nm\n0,1\n300,5\n1080,1\n")
+    orders = ask_json("torque", "--curve", several)["orders"]
     assert [entry["order"] for entry in orders[:3]] == pytest.approx([1 / 3, 2 / 3, 1])
 
 
-def test_the_load_takes_its_share(curve, tmp_path):
-    """A load that is the torque itself leaves nothing over."""
-    found = ask_json("torque", "--curve", curve, "--load", curve)
-    assert found["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
-    assert found["energy"]["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
+def test_the_load_takes_its_share_wherever_its_rows_begin(curve, tmp_path):
+    """A triangle at 30 deg is there in any rows, and a load that is the torque itself leaves nothing over."""
+    rows = ("0,50\n30,80\n60,50\n360,50", "-90,50\n0,50\n30,80\n60,50\n270,50")
+    paths = [write(tmp_path / f"{k}.csv", f"angle_deg,torque_Nm\n{text}\n") for k, text in enumerate(rows)]
+    for path in paths:
+        one = ask_json("torque", "--curve", path)
+        assert one["torque"]["max_deg"] == pytest.approx(30)
+        assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
+        ends = [one["energy"][key] for key in ("from_deg", "to_deg")]
+        assert ends == pytest.approx([30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)])
+    for torque, load in ((paths[0], paths[1]), (curve, curve)):
+        energy = ask_json("torque", "--curve", torque, "--load", load)["energy"]
+        assert energy["surplus_J"] == pytest.approx(0, abs=1e-9)
+    assert energy["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = write(tmp_path / "l.csv", "angle_deg,torque_Nm\n0,250\n720,250\n")
     told = refusal("torque", "--curve", curve, "--load", other)
     assert "--load: has a period of 720 deg, the torque 360: give both over the same angle" in told
-
-
-def test_a_curve_may_begin_at_any_angle(tmp_path):
-    """A triangle at 30 deg is there wherever its rows begin, and a load of it leaves nothing."""
-    rows = {"a.csv": "0,50\n30,80\n60,50\n360,50", "b.csv": "-90,50\n0,50\n30,80\n60,50\n270,50"}
-    paths = {name: tmp_path / name for name in rows}
-    for name, text in rows.items():
-        paths[name].write_text(f"angle_deg,torque_Nm\n{text}\n")
-    found = [ask_json("torque", "--curve", p) for p in paths.values()]
-    for one in found:
-        assert one["torque"]["max_deg"] == pytest.approx(30)
-        assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
-        assert [one["energy"][key] for key in ("from_deg", "to_deg")] == pytest.approx(
-            [30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)]
-        )
-    both = ask_json("torque", "--curve", paths["a.csv"], "--load", paths["b.csv"])
-    assert both["energy"]["surplus_J"] == pytest.approx(0, abs=1e-9)
 
 
 IN_OTHER_UNITS = {  # NIST SP 811 (2008), appendix B.8, but for the last: pound times square inch
@@ -228,16 +201,12 @@ def test_loads_are_told_when_they_are_asked_for(tmp_path):
     assert (status, err) == (2, "balcli: --loads: 'wrist'; choose from pin, main\n")
 
 
-def test_curves_of_a_cylinder_go_over_its_cycle(four):
-    out = ask("curves", four, "--cylinder", "3", "--step", "5", "-f", "json")
-    curves = json.loads(out)["curves"] if "curves" in json.loads(out) else json.loads(out)
-    names = {"pressure_Pa", "volume_m3", "gas_force_N", "side_thrust_N", "rod_force_N", "pin_x_N"}
-    assert names | {"pin_y_N", "torque_Nm"} <= set(curves)
-    assert len(curves["torque_Nm"]) == 144
-
-
 # ------------------------------------------------------------------ sweeps and pictures
 def test_curves_of_an_engine_have_the_gas_torque_over_the_cycle(four, tmp_path):
+    cylinder = ask_json("curves", four, "--cylinder", "3", "--step", "5")["curves"]
+    names = {"pressure_Pa", "volume_m3", "gas_force_N", "side_thrust_N", "rod_force_N", "pin_x_N"}
+    assert names | {"pin_y_N", "torque_Nm"} <= set(cylinder)
+    assert len(cylinder["torque_Nm"]) == 144
     found = ask_json("curves", four, "--step", "4")
     curves = found["curves"]
     assert len(found["crank_deg"]) == 180
@@ -264,10 +233,8 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert lines.err == ""
     header, *rows = lines.out.splitlines()
     assert header == f"gas.imep,cylinder.3.gas,{asked}"
-    other = tmp_path / "other.toml"
-    with open(four) as file:
-        text = file.read().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
-    other.write_text(text)
+    text = Path(four).read_text().replace("imep = 9", "imep = 6") + "[cylinder.3]\ngas = 0\n"
+    other = write(tmp_path / "other.toml", text)
     found = ask_json("torque", other, "--orders", "0.5-2")
     by_order = {entry["order"]: entry for entry in found["orders"]}
     row = [float(cell) for cell in rows[0].split(",")]
@@ -278,37 +245,22 @@ def test_sweeps_of_gas_and_torque_are_what_torque_says(four, tmp_path):
     assert row[5] == pytest.approx(found["mean_torque_Nm"], rel=1e-12)
     assert row[6] == pytest.approx(found["torque"]["max_Nm"], rel=1e-12)
     assert row[7] == pytest.approx(found["flywheel"]["fluctuation"], rel=1e-9)
-
-
-def test_sweeps_of_engines_without_gas_have_the_inertia_torque(tmp_path):
-    bare = write(tmp_path / "bare.toml", FOUR)
-    out = ask("sweep", bare, "--vary", "rod.length=140,150", "--quantity", "torque.2.amplitude")
-    assert out.startswith("rod.length,torque.2.amplitude")
-    refused = ("sweep", str(bare), "--vary", "rod.length=140,150", "--quantity", "gas.2.amplitude")
-    assert refusal(*refused) == "gas.2.amplitude: the engine file has no [gas]"
-
-
-@pytest.mark.stress
-@pytest.mark.parametrize("what", ["pressure", "p-v", "torque", "pin", "main"])
-def test_pictures_of_gas(four, tmp_path, what):
-    target = tmp_path / "x.svg"
-    ask("plot", four, "--what", what, "-o", target)
-    assert target.read_text().startswith("<?xml")
+    bare, asked = write(tmp_path / "bare.toml", FOUR), ("--vary", "rod.length=140,150", "--quantity")
+    assert ask("sweep", bare, *asked, "torque.2.amplitude").startswith("rod.length,torque.2.amplitude")
+    assert refusal("sweep", bare, *asked, "gas.2.amplitude") == f"{bare}: gas.2.amplitude: the engine file has no [gas]"
 
 
 # ------------------------------------------------------------------ other commands
 @pytest.mark.slow
 def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
-    """A diagram would be left behind, unless the other folder has it, too."""
+    """A diagram would be left behind, unless the other folder has it as well."""
     (tmp_path / "far").mkdir()
     rows = "\n".join(f"{angle},{5 if angle == 10 else 1}" for angle in range(0, 721, 10))
-    (tmp_path / "p.csv").write_text(f"angle_deg,pressure_bar\n{rows}\n")
-    path = tmp_path / "four.toml"
+    write(tmp_path / "p.csv", f"angle_deg,pressure_bar\n{rows}\n")
     shaft = 'name = "flywheel"\ninertia = 9e6\nstiffness = 1e6\ndiameter = 60\n'
     more = f"[torsion]\nthrow_stiffness = 1e6\nthrow_inertia = 3e4\n[[torsion.rear]]\n{shaft}"
-    turned = FOUR.replace("throws = [0, 180, 180, 0]\n", "")
     wanted = '[gas]\nindicator = "p.csv"\n[flywheel]\ninertia = 9e6\n'
-    path.write_text(turned + wanted + more)
+    path = write(tmp_path / "four.toml", FOUR.replace("throws = [0, 180, 180, 0]\n", "") + wanted + more)
     commands = (
         ("torque",),
         ("balance",),
@@ -321,15 +273,12 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
         assert f'{far}: the engine file names "p.csv", a file in {tmp_path}' in told
         assert f"or copy p.csv into {far.parent} first" in told
         assert not far.exists()
-        near = tmp_path / f"{command}.toml"
-        status, _, err = run_here(command, path, *options, "--write", near)
-        assert (status, err) == (0, "")
-        assert run_here("torque", near).status == 0
     (tmp_path / "far" / "p.csv").write_bytes((tmp_path / "p.csv").read_bytes())
-    for command, *options in commands:
-        copied = tmp_path / "far" / f"{command}.toml"
-        assert run_here(command, path, *options, "--write", copied).status == 0
-        assert run_here("torque", copied).status == 0
+    for folder in (tmp_path, tmp_path / "far"):
+        for command, *options in commands:
+            written = folder / f"{command}.toml"
+            assert run_here(command, path, *options, "--write", written)[::2] == (0, "")
+            assert run_here("torque", written).status == 0
 
 
 @pytest.mark.parametrize("only", ["gas", "inner", "guide"])

@@ -4,13 +4,14 @@ step-by-step integration of the equation of motion.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
 from support.engines import build_text
 from support.gas_engines import FOUR, WIEBE, draw_engine
 
+from balcli.core.speed_ripple import speed_variation
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.curves import (
@@ -44,8 +45,11 @@ def test_the_curve_has_the_harmonics_of_the_orders(seed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_mean_torque_and_pressure(seed):
-    found = analyze_torque(draw_engine(seed))
+    found = analyze_torque(draw_engine(seed), [0.5, 1], cylinder=1)
     gas = found.engine.gas
+    one = gas.cylinders[found.engine.numbers.index(1)]
+    shown = [order.one_cylinder.gas_torque_Nm.amplitude for order in found.orders]
+    assert shown == pytest.approx(one.share * np.abs(one.torque.harmonics([1, 2])), rel=1e-12)
     swept = sum(c.piston.swept for c in gas.cylinders)
     work = sum(c.share * c.torque.imep * c.piston.swept for c in gas.cylinders)
     assert found.imep_Pa == pytest.approx(work / swept, rel=1e-12)
@@ -75,9 +79,7 @@ def test_a_misfire_takes_a_quarter_of_the_work():
 
 @pytest.mark.parametrize("strokes", [2, 4])
 def test_inertia_that_cancels_makes_no_torque(strokes):
-    """Twenty-four cylinders: what is left of orders 24 (two strokes) and 12 is nothing or little,
-    and does no work.
-    """
+    """Twenty-four cylinders: what is left of orders 24 (two strokes) and 12 is nothing or little, and does no work."""
     throws = [15 * strokes // 2 * k % 360 for k in range(24)]
     order = ", ".join(map(str, [1, *range(24, 1, -1)]))
     text = FOUR.replace("throws = [0, 180, 180, 0]", f"throws = {throws}")
@@ -93,13 +95,6 @@ def test_inertia_that_cancels_makes_no_torque(strokes):
     else:
         want = compute_spectra(engine, np.array([12.0]), ["torque"])["torque"].major[0]
         assert 0 < want == pytest.approx(highest, rel=1e-4)
-
-
-def test_one_cylinder_is_shown_with_its_share():
-    found = analyze_torque(draw_engine(1), [0.5, 1], cylinder=1)
-    gas = found.engine.gas.cylinders[found.engine.numbers.index(1)]
-    shown = [order.one_cylinder.gas_torque_Nm.amplitude for order in found.orders]
-    assert shown == pytest.approx(gas.share * np.abs(gas.torque.harmonics([1, 2])), rel=1e-12)
 
 
 # ------------------------------------------------------------------ speed
@@ -142,8 +137,6 @@ def speed_by_steps(found, first: float, steps: int = 24):
 @pytest.mark.parametrize("seed", [0, 5])
 def test_the_speed_against_steps_in_time(seed):
     found = on_crank(150000, seed)
-    from balcli.core.speed_ripple import speed_variation
-
     parts, still = find_moving_inertia(found), found.flywheel_inertia
     gas = find_torque_curves(found).gas
     exact = speed_variation(gas, lambda angle: still + parts(angle), float(found.omega))
@@ -154,14 +147,11 @@ def test_the_speed_against_steps_in_time(seed):
     assert told.fluctuation == pytest.approx(exact.fluctuation, rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_with_a_heavy_flywheel_the_rule_for_small_fluctuations_is_exact(seed):
-    for inertia, agreement in ((1e8, 1e-2), (1e11, 1e-5)):
+def test_fluctuation_and_needed_inertia():
+    """With a heavy flywheel the rule for small fluctuations is exact; the needed inertia keeps the fluctuation."""
+    for seed, (inertia, agreement) in product(range(3), ((1e8, 1e-2), (1e11, 1e-5))):
         speed = analyze_torque(on_crank(inertia, seed)).flywheel
         assert speed.fluctuation == pytest.approx(speed.fluctuation_small, rel=agreement)
-
-
-def test_the_needed_inertia_keeps_the_fluctuation():
     found = analyze_torque(on_crank(3e5, 2), fluctuation=0.01).flywheel
     needed = (found.needed_kg_m2 - found.moving_parts_kg_m2) * 1e6
     again = analyze_torque(on_crank(needed, 2)).flywheel
@@ -177,22 +167,18 @@ def test_lines_of_the_speed_add_up_to_it():
     assert lines == pytest.approx(share, rel=2e-3)
 
 
-def test_throw_masses_are_counted_once():
+def test_inertia_of_the_crank():
+    """Throw masses are counted once; neither the throws nor the own inertia of a rotary engine's crank turn."""
     text = FOUR.replace("spacing = 100", "spacing = 100\nthrow_mass = 0.5")
     without = find_moving_inertia(build_text(text))(np.array([0.3]))
     given = text.replace("spacing = 100", "spacing = 100\ninertia = 9000")
     assert without - find_moving_inertia(build_text(given))(np.array([0.3])) == pytest.approx(4 * 0.5 * 0.045**2)
-
-
-def test_the_crank_of_a_rotary_engine_stands_still():
-    """Neither its throws nor its own inertia turn, whether the file gives it or not."""
-    text = FOUR.replace("throws = [0, 180, 180, 0]", "throw_mass = 0.5").replace(
+    rotary = FOUR.replace("throws = [0, 180, 180, 0]", "throw_mass = 0.5").replace(
         "firing_order = [1, 3, 4, 2]", "radial = 3\nrotary = true\nstrokes = 2"
     )
-    text += WIEBE + FLYWHEEL.format(1e5)
-    more = text.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
-    plain, given = build_text(text), build_text(more)
-    angle = np.linspace(0, 6, 7)
+    rotary += WIEBE + FLYWHEEL.format(1e5)
+    more = rotary.replace("throw_mass = 0.5", "throw_mass = 0.5\ninertia = 90000")
+    plain, given, angle = build_text(rotary), build_text(more), np.linspace(0, 6, 7)
     assert find_moving_inertia(given)(angle) == pytest.approx(find_moving_inertia(plain)(angle))
     assert find_constant_inertia(given) == find_constant_inertia(plain) == pytest.approx(0.1)
 

@@ -1,20 +1,25 @@
-"""How nodes hang together, and chains that cannot be."""
+"""How nodes hang together; dampers as complex inertias, against the same dampers as nodes."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.chains import chain_matrices
+from support.chains import no_damping
 
 from balcli.torsion.chain import (
     ChainShaft,
     Damping,
+    best_viscous_damping,
     find_pieces,
     follow_gears,
     incidence,
     join_chain,
+    pendulum_inertia,
+    pendulum_swing,
     rigid_motions,
+    viscous_inertia,
 )
+from balcli.torsion.motion import respond_chain
 
 
 def test_pieces_that_hang_together():
@@ -24,7 +29,6 @@ def test_pieces_that_hang_together():
     assert pieces.pace.tolist() == [1, 1, 0.25, 1]
     assert not pieces.locked.any()
     assert find_pieces(chain, np.array([False, True])).first.tolist() == [0, 1, 2, 1]
-    assert find_pieces(join_chain([1.0], [])).first.tolist() == [0]
 
 
 def test_contradicting_ratios_of_a_loop_lock_its_piece():
@@ -34,25 +38,71 @@ def test_contradicting_ratios_of_a_loop_lock_its_piece():
     assert rigid_motions(chain).tolist() == [[0, 0, 0, 1]]
 
 
-def test_rigid_motions_turn_at_the_ratios():
-    chain = join_chain([1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7, 1.5)])
+def test_rigid_motions_turn_at_the_ratios_and_angles_follow_gears():
+    shafts = [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7, 1.5)]
+    chain = join_chain([1, 1, 1], shafts)
     assert rigid_motions(chain).tolist() == [[1, -2, -3]]
     assert incidence(chain) @ [1, -2, -3] == pytest.approx([0, 0])
-
-
-def test_independent_angles():
-    chain = join_chain([1, 1, 1, 1], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 7), ChainShaft(2, 3, 7)], [3])
-    follow, independent = follow_gears(chain)
+    follow, independent = follow_gears(join_chain([1, 1, 1, 1], [*shafts, ChainShaft(2, 3, 7)], [3]))
     assert independent.tolist() == [0, 2]
     assert follow.tolist() == [[1, 0], [-2, 0], [0, 1], [0, 0]]
 
 
-def test_matrices_by_hand():
-    """x1 = -2 x0: the shaft 3 twists by x1 - x2, dashpots stand at node 1 and along the shaft."""
-    chain = join_chain([1, 10, 100], [ChainShaft(0, 1, np.inf, -2), ChainShaft(1, 2, 3)])
-    damping = Damping(np.array([0, 0.1]), np.array([0, 5.0]), np.array([0, 7.0, 0]))
-    found = chain_matrices(chain, damping)
-    shaft = np.array([[4, 2], [2, 1]])
-    assert found.stiffness == pytest.approx((3 + 0.3j) * shaft)
-    assert found.damping == pytest.approx(5 * shaft + np.diag([28, 0]))
-    assert found.mass == pytest.approx(np.diag([41, 100]))
+# ------------------------------------------------------------------ dampers
+W = np.array([50.0, 300, 1000])
+LOAD = np.array([1.0, -2j, 0.5])
+CHAIN = join_chain([0.1, 0.2, 2], [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5)])
+DAMPING = Damping(np.full(2, 0.02), np.zeros(2), np.zeros(3))
+
+
+def test_viscous_ring_is_a_node_on_a_dashpot():
+    """The same chain with the damper as a fourth node on a shaft of its own."""
+    attached = np.zeros((len(W), 3), complex)
+    attached[:, 0] = viscous_inertia(0.05, 12.0, W)
+    found = respond_chain(CHAIN, DAMPING, W, LOAD, attached)
+    shafts = [ChainShaft(0, 1, 1e5), ChainShaft(1, 2, 2e5), ChainShaft(0, 3, 0)]
+    damping = Damping(np.array([0.02, 0.02, 0]), np.array([0, 0, 12.0]), np.zeros(4))
+    expected = respond_chain(join_chain([0.1, 0.2, 2, 0.05], shafts), damping, W, np.append(LOAD, 0))
+    assert found.angle == pytest.approx(expected.angle[:, :3], rel=1e-12)
+    assert found.torque == pytest.approx(expected.torque[:, :2], rel=1e-12)
+
+
+def test_limits_of_dampers():
+    """A ring that sticks is inertia, one that slips is none; between them it takes energy."""
+    assert viscous_inertia(0.05, 1e12, W) == pytest.approx(np.full(3, 0.05))
+    assert abs(viscous_inertia(0.05, 1e-12, W)) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert np.all(viscous_inertia(0.05, 12.0, W).imag < 0)
+    assert pendulum_inertia(2.0, 0.1, 0.025, np.zeros(1)) == pytest.approx([2 * 0.125**2])
+
+
+def test_a_pendulum_swings_as_its_equation_of_motion_says():
+    """For a point mass at R + L on a disc that turns at 1 + small: L y'' + R y = -(R + L) x'', y
+    the pendulum's angle against the disc.
+
+    With y = (R + L) n^2 x/(R - L n^2), the disc feels m (R + L) ((R + L) x'' + L y'').
+    """
+    mass, radius, length, order = 0.5, 0.08, 0.02, 1.5
+    y = (radius + length) * order**2 / (radius - length * order**2)
+    felt = mass * (radius + length) * (radius + length + length * y)
+    assert pendulum_inertia(mass, radius, length, np.array(order)) == pytest.approx(felt)
+    assert pendulum_swing(radius, length, np.array(order)) == pytest.approx(y)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.5, 1.0])
+def test_the_best_viscous_damper_magnifies_by_1_plus_2_over_its_ratio(ratio):
+    """Den Hartog, Houdaille damper: the highest peak at w^2 = 2/(2 + ratio), and with any other
+    damping it is higher.
+    """
+    chain = join_chain([1.0, 1.0], [ChainShaft(0, 1, 1.0)], clamped=[0])
+    w = np.append(np.linspace(0.05, 2, 4000), np.sqrt(2 / (2 + ratio)))
+
+    def peak(damping):
+        attached = np.zeros((len(w), 2), complex)
+        attached[:, 1] = viscous_inertia(ratio, damping, w)
+        return abs(respond_chain(chain, no_damping(chain), w, np.array([0, 1]), attached).angle[:, 1])
+
+    best = best_viscous_damping(ratio, ratio, 1.0)
+    assert peak(best).max() == pytest.approx(1 + 2 / ratio, rel=1e-9)
+    assert peak(best)[-1] == pytest.approx(1 + 2 / ratio, rel=1e-12)
+    assert peak(1.1 * best).max() > 1.001 * (1 + 2 / ratio)
+    assert peak(best / 1.1).max() > 1.001 * (1 + 2 / ratio)

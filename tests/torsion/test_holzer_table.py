@@ -12,7 +12,7 @@ from balcli.torsion.motion import respond_chain
 
 
 @pytest.mark.parametrize("kind", [k for k in KINDS if k not in ("looped", "clamped at both ends")])
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_holzers_table_closes_at_natural_frequencies(kind, seed):
     chain = random_chain(kind, seed, 0.4)
     modes = find_chain_modes(chain)
@@ -63,7 +63,7 @@ def test_a_branch_to_a_clamp_is_a_spring_to_ground():
         (chain_of([1, 1, 1], [2, 2], clamped=[1]), "Holzer's table can lead to a clamped node, but not over it"),
         (
             join_chain([1, 1, 1], [ChainShaft(0, 1, 6), ChainShaft(1, 2, np.inf, 2)], clamped=[2]),
-            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as well, and leave the gear out",
+            "Holzer's table does not take gears that mesh with a fixed node",
         ),
         (
             join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]),

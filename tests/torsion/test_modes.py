@@ -4,17 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from support.chains import KINDS, chain_matrices, chain_of, exact_frequencies, no_damping, random_chain, random_damping
+from support.chains import KINDS, chain_matrices, chain_of, exact_frequencies, random_chain, random_damping
 
+import balcli
 from balcli.core.vibration import modal_loss, scale_shapes
-from balcli.torsion.chain import (
-    ChainShaft,
-    Damping,
-    follow_gears,
-    incidence,
-    join_chain,
-    rigid_motions,
-)
+from balcli.torsion.chain import ChainShaft, Damping, follow_gears, incidence, join_chain, rigid_motions
 from balcli.torsion.modes import chain_loss, find_chain_modes, find_chain_poles, locate_nodes
 
 MODES = 1e-13  # relative error of every frequency; the contract says 1e-12
@@ -22,7 +16,7 @@ OF_LARGEST = 1e-15  # error of a low frequency in parts of the highest
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("spread", [1, 5])
 def test_frequencies_against_50_digits(kind, seed, spread):
     chain = random_chain(kind, seed, spread)
@@ -56,17 +50,6 @@ def test_modes_are_orthogonal_and_keep_momentum(kind, seed):
         assert np.all(share < 1e-12)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_modes_fit_the_matrices(kind):
-    chain = random_chain(kind, 8)
-    matrices, modes = chain_matrices(chain, no_damping(chain)), find_chain_modes(chain)
-    _, independent = follow_gears(chain)
-    shapes = modes.shapes[:, independent].T
-    assert pytest.approx(matrices.follow @ shapes, abs=1e-13) == modes.shapes.T
-    forces, inertia = matrices.stiffness.real @ shapes, matrices.mass @ shapes * modes.omega**2
-    assert forces == pytest.approx(inertia, abs=1e-11 * np.abs(forces).max())
-
-
 @pytest.mark.parametrize("ratio", [1, -1, 0.4, -2.5])
 def test_rigid_gears_are_one_inertia(ratio):
     """A wheel on another is an inertia ratio^2 times its own."""
@@ -84,9 +67,6 @@ def test_a_clamp_holds_all_that_meshes_with_it():
     chain = join_chain([1, 2, 3], [ChainShaft(0, 1, np.inf, 2), ChainShaft(1, 2, 12)], clamped=[0])
     assert find_chain_modes(chain).omega == pytest.approx([2])
     assert find_chain_modes(chain).shapes[0].tolist()[:2] == [0, 0]
-
-
-def test_all_clamped_has_no_modes():
     assert find_chain_modes(chain_of([1, 2], [5], clamped=[0, 1])).omega.size == 0
 
 
@@ -110,23 +90,21 @@ def test_shafts_without_stiffness_join_nothing():
     assert modes.omega == pytest.approx([0, 0, np.sqrt(12)])
 
 
+def count_nodes(chain):
+    return [sum(map(len, locate_nodes(chain, shape))) for shape in find_chain_modes(chain).shapes]
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_the_rth_mode_of_a_chain_has_r_nodes(seed):
     chain = random_chain("plain", seed, 0.5)
-    shapes = find_chain_modes(chain).shapes
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in shapes] == list(range(len(shapes)))
+    assert count_nodes(chain) == list(range(len(chain.inertia)))
 
 
-def test_a_node_at_rest_hides_no_node_of_vibration():
-    chain = chain_of([1, 2, 1], [5, 5])
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in find_chain_modes(chain).shapes] == [0, 1, 2]
-
-
-def test_gears_that_reverse_are_no_nodes():
-    chain = join_chain([1, 2], [ChainShaft(0, 1, 5, -1.5)])
-    shapes = scale_shapes(find_chain_modes(chain).shapes)
-    assert shapes[0] == pytest.approx([-1 / 1.5, 1])
-    assert [sum(map(len, locate_nodes(chain, shape))) for shape in shapes] == [0, 1]
+def test_a_node_at_rest_hides_no_node_of_vibration_and_gears_that_reverse_are_none():
+    assert count_nodes(chain_of([1, 2, 1], [5, 5])) == [0, 1, 2]
+    reversing = join_chain([1, 2], [ChainShaft(0, 1, 5, -1.5)])
+    assert scale_shapes(find_chain_modes(reversing).shapes)[0] == pytest.approx([-1 / 1.5, 1])
+    assert count_nodes(reversing) == [0, 1]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -157,3 +135,20 @@ def test_poles_of_two_inertias_and_a_massless_node():
     elastic = poles[np.abs(poles) > 1]
     assert np.sort_complex(elastic) == pytest.approx(np.sort_complex(exact), rel=1e-10)
     assert len(poles) == 4, "two more, of the rigid motion"
+
+
+def test_work_is_that_of_harmonic_torques_on_a_harmonic_motion_of_the_worst_phase():
+    """Torques Re(T e^{i wt}) on angles Re(B shape e^{i wt}), |B| = 1: integrated over a cycle in
+    time, for the phase of B at which they do most.
+    """
+    found = balcli.analyze_torsion(balcli.load_example("i6_diesel"))
+    system, modes = found.system, {mode.number: mode for mode in found.modes}
+    turn = np.exp(2j * np.pi * np.arange(64) / 64)
+    for critical in found.criticals[:12]:
+        mode = modes[critical.mode]
+        k = list(system.excitation.orders).index(critical.order)
+        torques = system.excitation.at(np.full(len(system.excitation.orders), mode.omega / critical.order))[k, k]
+        shape = mode.shape[system.excitation.nodes]
+        rates = np.multiply.outer(np.exp(1j * np.linspace(0, 2 * np.pi, 721)), 1j * turn).real
+        power = (torques[:, None] * turn).real * shape[:, None]
+        assert critical.work == pytest.approx((rates @ power.sum(axis=0)).max() * 2 * np.pi / 64, rel=1e-4)

@@ -4,58 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.cases import cases
 from support.commands import ask_json, refusal, run_here
 from support.paths import write
 
 TWO = """
 name = "one throw and a wheel"
-[crank]
-stroke = 80
-[rod]
-length = 140
-mass = 0
-cg = 0
-[piston]
-mass = 0.4
+crank.stroke = 80
+rod = { length = 140, mass = 0, cg = 0 }
+piston.mass = 0.4
 [torsion]
 throw_inertia = 20000
 loss = 0.05
-[[torsion.rear]]
-name = "wheel"
-inertia = 30000
-stiffness = 2e5
-diameter = 40
-"""
-GAS = """
-[layout]
-firing_order = [1, 3, 2]
-[gas]
-cycle = "wiebe"
-compression_ratio = 10
-imep = 9
+rear = [{ name = "wheel", inertia = 30000, stiffness = 2e5, diameter = 40 }]
 """
 THREE = """
-[crank]
-stroke = 100
-[rod]
-length = 165
-mass = 0.9
-cg = 50
-[piston]
-bore = 86
-mass = 0.6
-[operation]
-speed = 3000
+crank.stroke = 100
+rod = { length = 165, mass = 0.9, cg = 50 }
+piston = { bore = 86, mass = 0.6 }
+operation.speed = 3000
+layout.firing_order = [1, 3, 2]
+gas = { cycle = "wiebe", compression_ratio = 10, imep = 9 }
 [torsion]
 throw_stiffness = 0.9e6
 throw_inertia = 20000
 damping = 1.5
 loss = 0.03
-[[torsion.rear]]
-name = "wheel"
-inertia = 300000
-diameter = 70
-length = 200
+rear = [{ name = "wheel", inertia = 300000, diameter = 70, length = 200 }]
 """
 
 
@@ -83,30 +58,23 @@ def test_two_inertias_by_hand():
 
 
 def test_every_throw_deviates_by_itself_and_with_gas(tmp_path):
-    path = write(tmp_path / "three.toml", THREE + GAS)
-    said = ask_json("scatter", path, "-q", "shaft.wheel.stress", "--samples", "3", "--seed", "1")
-    found = said["quantities"]["shaft.wheel.stress"]
+    path = write(tmp_path / "three.toml", THREE)
+    asked = ("scatter", path, "--samples", "3", "--seed", "1", "-q", "torsion.1.Hz")
+    found = ask_json(*asked)["quantities"]["torsion.1.Hz"]
     assert {*found["sensitivity"]} == {
         *("stiffness throw 1-2", "stiffness throw 2-3", "stiffness wheel", "inertia wheel"),
-        *(f"inertia throw {k}" for k in (1, 2, 3)),
-        *(f"piston mass {k}" for k in (1, 2, 3)),
+        *(f"{what} {k}" for what in ("inertia throw", "piston mass") for k in (1, 2, 3)),
     }
     assert found["p05"] < found["p95"]
-    out = run_here("scatter", path, "-q", "torsion.1.Hz", "--samples", "3").out
-    assert "Spread of 3 random crankshafts" in out
+    assert "Spread of 3 random crankshafts" in run_here(*asked).out
 
 
-def test_what_does_not_scatter(tmp_path):
-    path = write(tmp_path / "two.toml", TWO)
-    told = refusal("scatter", path, "-q", "torsion.1.Hz,force.2.major")
-    assert told == (
-        "torsion.1.Hz, force.2.major: engine, mounts and torsion have different tolerances; ask for "
-        "quantities of one of them at a time"
-    )
-    told = refusal("scatter", path, "-q", "torsion.1.Hz", "--samples", "30000")
-    assert told == "30 000 samples: give from 1 to 20 000, as torsion.1.Hz is computed one by one"
-    none = ("--mass-scatter", "0%", "--stiffness-scatter", "0%")
-    told = refusal("scatter", path, "-q", "torsion.1.Hz", *none)
-    assert told == "all tolerances are 0; give one, such as --stiffness-scatter 15%"
-    told = refusal("scatter", path, "-q", "shaft.x.torque")
-    assert told.startswith('shaft.x.torque: the file has no shaft "x"')
+def test_stress_of_a_shaft_scatters(tmp_path):
+    said = ask_json("scatter", write(tmp_path / "three.toml", THREE), "-q", "shaft.wheel.stress", "--samples", "3")
+    found = said["quantities"]["shaft.wheel.stress"]
+    assert 0 < found["p05"] < found["p95"]
+
+
+@cases("torsion/quantity", "what_does_not_scatter")
+def test_what_does_not_scatter(tmp_path, quantity, options, told):
+    assert refusal("scatter", write(tmp_path / "two.toml", TWO), "-q", quantity, *options) == told

@@ -118,7 +118,7 @@ readings = ["5 @ 0", "6 @ 0", "7 @ 0"]
 
 def test_planes_that_depend_on_one_another_are_named():
     """The middle does twice what the front does; without one of them it balances."""
-    with pytest.raises(Exception, match="front and middle depend on one another") as caught:
+    with pytest.raises(Exception, match="cannot separate the effects of front and middle") as caught:
         find_corrections(parse_runs(DEPENDENT), name="runs.toml")
     assert "rear" not in str(caught.value)
     assert len(find_corrections(parse_runs(DEPENDENT), without=["middle"]).corrections) == 2

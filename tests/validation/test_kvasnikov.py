@@ -10,7 +10,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from balcli.books.answer import recompute
+from balcli.books.answer import tables as recompute
 from balcli.core.mechanisms import closed_form, power_series as series
 from balcli.core.phasors import unit
 

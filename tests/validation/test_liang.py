@@ -11,7 +11,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from balcli.books.answer import recompute
+from balcli.books.answer import tables as recompute
 from balcli.core.mechanisms import closed_form, power_series as series
 from balcli.engine.build import build
 from balcli.engine.parse import parse

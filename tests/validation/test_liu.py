@@ -12,7 +12,7 @@ from math import atan, cos, degrees, pi, radians, sqrt
 import numpy as np
 import pytest
 
-from balcli.books.answer import recompute
+from balcli.books.answer import tables as recompute
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra

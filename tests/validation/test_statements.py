@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy import cos, exp, pi, sin, sqrt
 
-from balcli.books.answer import recompute
+from balcli.books.answer import tables as recompute
 from balcli.books.recomputed import CLASSES
 from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.sizing.single_cylinder import find_optimum

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
-from ..core.records import HIDDEN, INLINE, WrittenAs
+from ..core.records import HIDDEN, INLINE, Node, WrittenAs
 from ..engine.engine import Engine, check_engine
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
@@ -41,6 +41,8 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
 from .records import (
     CylinderShare,
+    Journal,
+    Masses,
     PeaksAndOrders,
     Stroke,
     describe_guide,
@@ -50,7 +52,7 @@ from .records import (
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide")  # computed only when they are named
+EXTRAS = ("inner", "guide", "journals", "masses")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
@@ -72,6 +74,8 @@ class Analysis(Result):
         guide: H- and X-type guide-force moments.
         travel: Strokes and dead centers of articulated cylinders and of the masters; left out where
             all cylinders are plain slider-cranks.
+        journals: Torque in main journals and crank pins.
+        masses: Masses of pistons, rods and throws.
         why: Whether the orders shown are balanced by symmetry.
         small: Share of what one cylinder makes below which a part is small.
     """
@@ -88,6 +92,8 @@ class Analysis(Result):
     inner: Annotated[InnerLoads | None, WrittenAs(describe_inner)] = None
     guide: Annotated[GuideMoments | None, WrittenAs(describe_guide)] = None
     travel: tuple[Stroke, ...] | None = None
+    journals: tuple[Journal, ...] | None = None
+    masses: tuple[Masses, ...] | None = None
     why: Symmetry | None = None
     small: Annotated[float, HIDDEN] = SMALL
 
@@ -175,8 +181,9 @@ def analyze(
         engine: without trailing axes.
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide and
-            gas, or a text of them with commas between; default: all but the four after peak.
+        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
+            journals, masses and gas, or a text of them with commas between; default: all but those
+            after peak.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -203,16 +210,19 @@ def analyze(
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
     of_gas = () if engine.gas is None else list_gas_orders(engine)
-    # near its lock an engine has tens of thousands: peaks need all of them, tables a few
     due = DEFAULT_ORDERS if asked is None else asked
     every = merge_orders(find_relevant_orders(engine), of_gas, due)
-    few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = compute_spectra(engine, few, shown)
-    if asked is None:
-        visible = visible.select_orders(choose_orders(visible, of_gas))
-    peak = None
-    if "peak" in wanted:
-        peak = find_peaks(compute_spectra(engine, every, [kind.name for kind in VECTORS]))
+    computed = every if asked is None or "peak" in wanted else asked
+    peaked = {kind.name for kind in VECTORS} if "peak" in wanted else set()
+    if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
+        everything = compute_spectra(engine, computed, shown | peaked)
+        visible = everything.only(shown)
+    else:  # near its lock an engine has tens of thousands: peaks need them, gas and tables do not
+        few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
+        visible = compute_spectra(engine, few, shown)
+        everything = compute_spectra(engine, computed, peaked) if peaked else visible
+    visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
+    peak = find_peaks(everything) if peaked else None
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -228,7 +238,20 @@ def analyze(
         travel=_list_strokes(engine) if engine.cylinders.linkage is not None else None,
         why=_explain(engine, visible.orders, shown) if reasons else None,
         small=small,
+        **_find_seldom(engine, wanted),
     )
+
+
+def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
+    """Return results that are seldom asked for; their modules are loaded for them alone."""
+    if not {"journals", "masses"}.intersection(wanted):
+        return {}
+    from . import crank_drive
+
+    return {
+        "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
+        "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
+    }
 
 
 def _check_height(guide_height_m: float | None) -> None:

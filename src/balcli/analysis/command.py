@@ -169,6 +169,32 @@ def curves(
     emit(text, output)
 
 
+def piston(
+    path: EnginePath,
+    cylinder: Annotated[int | None, optional("N", "Only this cylinder.")] = None,
+    speed: Speed = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Motion of the pistons: strokes, dead centres, speeds and accelerations, exact and by two
+    terms.
+
+    \b
+    Examples:
+      balcli piston i4.toml
+      balcli piston vr6.toml --cylinder 2 -f json
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
+    from . import piston as chapter
+
+    found = chapter.analyze_pistons(read_engine(path, parse_speed(speed), ()).engine)
+    if cylinder is not None:
+        found = chapter.choose_cylinder(found, cylinder)
+    show([found], chapter.RENDERER, form, output, units)
+
+
 Phase = Annotated[
     str,
     typer.Option(

@@ -358,3 +358,87 @@ def find_value(device: DeviceTable, field: str) -> Any:
         field: Key of the figure in the engine file.
     """
     return find_unbalance(device) if field == "unbalance" else getattr(device, field)
+
+
+class JournalTorque(NamedTuple):
+    """Torque over a cycle, positive in the sense of rotation.
+
+    Attributes:
+        max_Nm: Highest torque.
+        min_Nm: Lowest torque.
+        range_Nm: Highest less lowest torque.
+        mean_Nm: Mean torque.
+        max_deg: Crank angle of the highest torque; left out without torque.
+        min_deg: Crank angle of the lowest torque; left out without torque.
+    """
+
+    max_Nm: float
+    min_Nm: float
+    range_Nm: float
+    mean_Nm: float
+    max_deg: float | None = None
+    min_deg: float | None = None
+
+
+class ShearStress(NamedTuple):
+    """Nominal shear stress of a journal.
+
+    Attributes:
+        mean_Pa: Half of the sum of the extreme stresses.
+        amplitude_Pa: Half of their difference.
+    """
+
+    mean_Pa: float
+    amplitude_Pa: float
+
+
+class Journal(NamedTuple):
+    """A main journal or crank pin.
+
+    Attributes:
+        place: Its name: `main 1`, `pin 1`, ...
+        inertia: Torque of inertia.
+        position_mm: Position along the crank; left out where throws have no known positions.
+        total: Torque of gas and inertia; left out without gas.
+        stress: Stress by the last torque; left out where the file gives no diameter.
+    """
+
+    place: str
+    inertia: JournalTorque
+    position_mm: float | None = None
+    total: JournalTorque | None = None
+    stress: ShearStress | None = None
+
+
+class Masses(NamedTuple):
+    """Masses of cylinders with equal parts.
+
+    Attributes:
+        cylinders: Numbers of the cylinders.
+        piston_kg: Piston with pin, rings and locks.
+        crosshead_kg: Crosshead with piston rod and pin.
+        reciprocating_kg: Piston, crosshead and small end.
+        rotating_kg: Big end with bearing shells and oil, without the throw.
+        throw_kg: Share of the throw at the pin.
+        rod_kg: Rod; left out, like all that follows from it, where the file gives no mass.
+        rod_small_end_kg: Mass that stands for the rod at the piston pin.
+        rod_big_end_kg: Mass that stands for it at the crank pin.
+        rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.
+        radius_of_gyration_m: Radius of gyration of the rod.
+        couple_constant_kg_m2: H: moment of inertia that the two masses have beyond the rod's.
+        reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
+    """
+
+    cylinders: tuple[int, ...]
+    piston_kg: float
+    crosshead_kg: float
+    reciprocating_kg: float
+    rotating_kg: float
+    throw_kg: float
+    rod_kg: float | None = None
+    rod_small_end_kg: float | None = None
+    rod_big_end_kg: float | None = None
+    rod_inertia_kg_m2: float | None = None
+    radius_of_gyration_m: float | None = None
+    couple_constant_kg_m2: float | None = None
+    reduced_length_m: float | None = None

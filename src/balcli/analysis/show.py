@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import replace
+from types import ModuleType
 from typing import TypeAlias
 
 import numpy as np
@@ -42,7 +43,7 @@ TEXTS = frozenset(
     {"verdict", "sizing", "ladder", "textbook"}
 )  # parts that need no crank speed beside them
 TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide"}
+    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
 )  # without a verdict
 
 
@@ -88,8 +89,19 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
+    if result.journals is not None:
+        yield from _import_seldom().lay_out_journals(result.journals, system)
+    if result.masses is not None:
+        yield _import_seldom().lay_out_masses(result.masses)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
+
+
+def _import_seldom() -> ModuleType:
+    """Return the module of parts that are seldom asked for: journals and masses."""
+    from . import crank_drive
+
+    return crank_drive
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -216,12 +228,20 @@ def _all_rows(result: Analysis, system: System, named: Collection[str]) -> Itera
         for part, device in number_devices(result.sizing.remedy.devices):
             for figure, value, unit in device_rows(device, system):
                 yield FigureRow(0, part, None, figure, value, unit)
+    yield from _further_rows(result, system)
+
+
+def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.travel is not None:
         yield from sections.list_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.rows(result.inner, system)
     if result.guide is not None:
         yield from sections.list_guide(result.guide, system)
+    if result.journals is not None:
+        yield from _import_seldom().list_journal_rows(result.journals)
+    if result.masses is not None:
+        yield from _import_seldom().list_mass_rows(result.masses)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

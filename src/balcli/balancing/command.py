@@ -32,7 +32,7 @@ from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme
 from ..shell.values import optional, read_length, read_mass, read_number
 from ..show.formats import Format, Units
 from ..sizing.options import SchemeOptions
-from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, NAMES, SCHEMES
+from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, SCHEMES
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Tools
@@ -53,8 +53,7 @@ FormatOption = Annotated[
     BalanceFormat | None,
     format_option(
         BalanceFormat,
-        "How to write the result; default: by the ending of -o, else table. card: a page for the "
-        "wall of a shop, per pin, in g and oz.",
+        "Default: by the ending of -o, else table. card: for a shop's wall.",
     ),
 ]
 Scheme = Annotated[
@@ -64,15 +63,13 @@ Scheme = Annotated[
         "--with",
         metavar="NAME",
         autocompletion=complete_schemes,
-        show_default="auto; factor where --factor or --measured is given",
-        help=f"Scheme to fit: {', '.join(NAMES[:-1])} or {NAMES[-1]}; --schemes explains them.",
+        show_default=False,
+        help="What to fit: a name of --schemes; default: auto, or factor with --factor.",
     ),
 ]
 
 
-Step = Annotated[
-    str | None, optional("STEP", "Fit this row of the ladder, by name or number, such as 1.")
-]
+Step = Annotated[str | None, optional("STEP", "Fit this row of the ladder: name or number.")]
 
 
 def _list_schemes(wanted: bool) -> None:
@@ -90,36 +87,36 @@ def _list_schemes(wanted: bool) -> None:
 
 
 Schemes = Annotated[
-    bool, typer.Option("--schemes", callback=_list_schemes, is_eager=True, help="List all schemes.")
+    bool,
+    typer.Option(
+        "--schemes",
+        callback=_list_schemes,
+        is_eager=True,
+        help="List all schemes with their options.",
+    ),
 ]
-Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
-Thickness = Annotated[str | None, optional("MM", "Thickness of half discs of steel; default 20.")]
-Disc = Annotated[str | None, optional("MM", "Radius of those discs, instead of their thickness.")]
-Drill = Annotated[str | None, optional("MM", "Drill: list radial holes, from --radius inwards.")]
-MaxDepth = Annotated[str | None, optional("MM", "Deepest hole, for --drill; default: to the axis.")]
-Slug = Annotated[
-    str | None, optional("METAL", "With --drill: slugs of tungsten, lead, or of a density, g/cm3.")
-]
+Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: of the crank.")]
+Thickness = Annotated[str | None, optional("MM", "Thickness of the half discs; default: 20.")]
+Disc = Annotated[str | None, optional("MM", "Their radius instead of the thickness.")]
+Drill = Annotated[str | None, optional("MM", "List holes to drill, from --radius inwards.")]
+MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the axis.")]
+Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]
 Width = Annotated[
     str | None,
-    optional("MM", "Room along the axis for holes; default: the smallest distance of throws."),
+    optional("MM", "Room for holes along z; default: of a throw."),
 ]
 Target = Annotated[
     str | None,
     optional(
         "NAME,...",
-        'Targets of devices with unbalance = "fit" in the file: force, moment, roll, roll_total; '
-        "default: force,moment.",
+        'What devices with unbalance = "fit" cancel: force, moment, roll, roll_total; default: '
+        "force,moment.",
     ),
 ]
-Even = Annotated[str | None, optional("dead-centres|strokes", "Quantity for --scheme knuckles.")]
-Grade = Annotated[
-    str | None, optional("G", "Grade of ISO 21940-11 for residual unbalance, such as G16.")
-]
+Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
+Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
-Write = Annotated[
-    Path | None, optional("OUT.toml", "Write the engine with these devices, and with --speed.")
-]
+Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]
 
 
 def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:

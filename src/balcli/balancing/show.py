@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ..analysis.answer import Analysis, shorten
 from ..analysis.devices_show import (
@@ -19,13 +20,13 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import find_orders_that_matter, name_column, tell_others
+from ..analysis.overview import name_column
 from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import CrankLoads, find_crank_loads
-from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
+from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
 from ..show.csv import Columns, Rows
@@ -35,7 +36,6 @@ from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
     NOTHING,
-    UNKNOWN,
     Facts,
     Grid,
     Sheet,
@@ -107,7 +107,8 @@ def sheet(result: Balance, system: System) -> Sheet:
     if not known:
         parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
-    parts += [_orders(result, system), _peaks(result, system), *_crank_loads(loads, system)]
+    changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
+    parts += changes or [Text("Before and after", ("Nothing changes by 1 %.",))]
     fitted = f"{remedy.step} ({remedy.scheme})" if remedy.step else f"{remedy.scheme}{order}"
     return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
 
@@ -202,77 +203,107 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
 
 
 # ------------------------------------------------------------------ before and after
-def _orders(result: Balance, system: System) -> Grid:
-    """Return the orders that matter before or after; all that were asked for."""
+def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
+    """Return which values change by 1 % of the larger one; not those that are not known (nan).
+
+    Args:
+        before, after: Values of any shape, not negative.
+    """
+    change = np.abs(np.subtract(after, before))
+    return (change > 0) & (change >= 0.01 * np.maximum(before, after))
+
+
+def _tell_unchanged(values: Iterable[tuple[Kind, float]], system: System) -> str:
+    """Return a line on values that do not change; those of 0 are left out."""
+    told = [
+        f"{name_column(kind)} of at most {size_text(size, system.unit(kind))}"
+        for kind, size in values
+        if size > 0
+    ]
+    return f"Unchanged within 1 %: {', '.join(told)}." if told else ""
+
+
+def _orders(result: Balance, system: System) -> Iterator[Grid]:
+    """Yield a table of the orders and kinds that change; of orders that were asked for, all."""
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
     states = [
-        one.spectra.with_moment_if(one.moments_known).only([kind.name for kind in kinds])
-        for one in (result.before, result.after)
+        one.spectra.with_moment_if(one.moments_known) for one in (result.before, result.after)
     ]
-    orders, one = result.before.orders.tolist(), dict(result.before.of_one_cylinder)
+    sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
+    scales = dict(result.before.of_one_cylinder)
     if has_gas:  # of which one cylinder alone has no measure
-        one[ROLL_TOTAL.name] = max(float(state[ROLL_TOTAL.name].major.max()) for state in states)
-    shown = {order for state in states for order in find_orders_that_matter(state, one)}
-    shown = {*orders} if result.every_order else shown
-    units = {
-        kind: fit_largest(system.unit(kind), *(state[kind.name] for state in states))
-        for kind in kinds
-    }
-
-    def cells(k: int) -> Iterator[str]:
-        for kind, unit in units.items():
-            for state in states:
-                size = float(state[kind.name].major[k])
-                small = not result.every_order and size < NEGLIGIBLE * one[kind.name]
-                yield size_cell(size, unit, negligible=small)
-
-    heads = [(f"{name_column(kind)}, {unit.name}", "after") for kind, unit in units.items()]
-    return Grid(
-        "Largest value by order, before and after",
-        ("order", *(head for pair in heads for head in pair)),
-        tuple((order_name(order), *cells(k)) for k, order in enumerate(orders) if order in shown),
-        tell_others(states, [order for order in orders if order in shown], system, hints=False),
+        scales[ROLL_TOTAL.name] = float(sizes[2].max())
+    every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
+    small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
+    changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
+    left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1]).max(axis=1)
+    columns = [
+        (k, kind, fit_largest(system.unit(kind), *(state[kind.name] for state in states)))
+        for k, kind in enumerate(kinds)
+        if changed[k].any()
+    ]
+    rows = tuple(
+        (
+            order_name(result.before.orders[n]),
+            *(
+                size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
+                for k, _, unit in columns
+                for s in (0, 1)
+            ),
+        )
+        for n in np.flatnonzero(changed.any(axis=0))
     )
+    if rows:
+        heads = [(f"{name_column(kind)}, {unit.name}", "after") for _, kind, unit in columns]
+        yield Grid(
+            "Largest value by order, before and after",
+            ("order", *(head for pair in heads for head in pair)),
+            rows,
+            _tell_unchanged(zip(kinds, left.tolist(), strict=True), system),
+        )
 
 
-def _peaks(result: Balance, system: System) -> Grid:
-    rows = []
+def _peaks(result: Balance, system: System) -> Iterator[Grid]:
+    """Yield the largest values over a revolution, as far as they change."""
+    rows, left = [], []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
+        if kind is MOMENT and not result.before.moments_known:
+            continue
+        if not result.every_order and not _find_changes(before.value, after.value):
+            left.append((kind, after.value))
+            continue
         unit = system.unit(kind).fit(max(before.value, after.value))
-        told = kind is not MOMENT or result.before.moments_known
-        cells = (*_peak(before, unit), *_peak(after, unit)) if told else (UNKNOWN,) * 4
-        rows.append((f"{kind.name}, {unit.name}", *cells))
+        rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
     uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
-    return Grid(
-        "Largest over a revolution, all orders",
-        ("", "before", "at, deg", "after", "at, deg"),
-        tuple(rows),
-        note=uneven if result.before.engine.ripple else "",
-    )
+    if rows:
+        notes = (_tell_unchanged(left, system), uneven if result.before.engine.ripple else "")
+        yield Grid(
+            "Largest over a revolution, all orders",
+            ("", "before", "at, deg", "after", "at, deg"),
+            tuple(rows),
+            note=" ".join(filter(None, notes)),
+        )
 
 
 def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
-    """Yield the largest loads within the crankshaft before and after, if they are known."""
-    if None in states:
-        return
+    """Yield the largest loads within the crankshaft before and after, as far as they change."""
     rows = []
     for name, kind, key, place in (
         ("largest main bearing load", FORCE, "main_N", "main_mm"),
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
-        sizes = [getattr(state, key) for state in states]
-        if None in sizes or not any(sizes):
+        sizes = [size for state in states if (size := getattr(state, key, None)) is not None]
+        if len(sizes) < len(states) or not _find_changes(*sizes):  # not known, or as it was
             continue
         unit = system.unit(kind).fit(max(sizes))
         places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
         cells = [(number(unit.of(size)), at) for size, at in zip(sizes, places, strict=True)]
         rows.append((f"{name}, {unit.name}", *cells[0], *cells[1]))
-    if not rows:
-        return
-    at = f"at z, {system.length.name}"
-    note = "Inertia alone, bearings half-way between throws; of equal places the first."
-    yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)
+    if rows:
+        at = f"at z, {system.length.name}"
+        note = "Inertia alone, bearings half-way between throws; of equal places the first."
+        yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)
 
 
 def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:

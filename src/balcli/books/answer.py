@@ -20,7 +20,7 @@ from ..engine.engine import Engine
 from ..engine.parse import parse
 from ..errors import BalcliError, check_type
 from ..file.examples import folder
-from ..file.fields import nearest
+from ..file.fields import suggest_nearest
 from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
@@ -53,24 +53,20 @@ def find_gaps(name: str) -> tuple[float, ...]:
     """Return the different intervals between firings of an example engine, deg, ascending; none
     where the file of several cylinders gives no firing order.
     """
-    engine = _build(_read(name))
-    alone = len(engine.numbers) == 1  # and has no order
-    fires = [0.0] if alone else [*map(float, engine.fires_deg.values())]
+    _, engine = _load(name)
+    several = len(engine.numbers) > 1  # a single cylinder has no order
+    fires = map(float, engine.fires_deg.values()) if several else [0.0]
     instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
 
 
-def _read(name: str) -> EngineFile:
-    return parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
-
-
-def _build(file: EngineFile) -> Engine:
-    return build(file.with_table("piston", offset=0.0))
+def _load(name: str) -> tuple[EngineFile, Engine]:
+    file = parse((folder() / f"{name}.toml").read_text(encoding="utf-8"), name)
+    return file, build(file.with_table("piston", offset=0.0))
 
 
 def _row(name: str) -> Row:
-    file = _read(name)
-    engine = _build(file)
+    file, engine = _load(name)
     found = find_textbook(engine, np.array(ORDERS, float), ("force", "moment"))
     vectors = found.reciprocating.vectors()
     axes = [
@@ -128,17 +124,13 @@ def select_tables(
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
     ranges = Ranges(lams, angles, power)
-    given = [option for option, value in zip(TAKES, ranges, strict=True) if value is not None]
-    if name is None and given:
-        some = [each for each in NAMES if all(each in TAKES[option] for option in given)]
-        known = ", ".join(some) or "these do not go together"
-        raise BalcliError(f"--{given[0]}: name the table that it is for ({known})")
-    names = NAMES if name is None else [_find_name(name)]
-    for option in given:
-        if names[0] not in TAKES[option]:
-            takes = [f"--{each}" for each, takers in TAKES.items() if names[0] in takers]
-            others = " and ".join(takes) or "no other range"
-            raise BalcliError(f"--{option}: table {names[0]} takes {others}")
+    if name is not None and name not in TABLES:
+        near = suggest_nearest(name, NAMES, f"there are {', '.join(NAMES)}")
+        raise BalcliError(f"no table {name!r}; {near}")
+    names = NAMES if name is None else (name,)
+    for (option, takers), value in zip(TAKES.items(), ranges, strict=True):
+        if value is not None and (name is None or names[0] not in takers):
+            raise BalcliError(f"--{option}: name a table that takes it: {', '.join(takers)}")
     return [TABLES[each](load_print(each), ranges) for each in names]
 
 
@@ -146,25 +138,7 @@ def find_errata(
     tables: Sequence[Table], category: ErratumClass | None = None
 ) -> list[tuple[str, Erratum]]:
     """Return the errata of these tables, of one class or of all, each with its table's name."""
-    every = [(table.name, erratum) for table in tables for erratum in table.errata]
-    return [each for each in every if category in (None, each[1].category)]
-
-
-def recompute(
-    name: str, lam: str | None = None, angle: str | None = None, power: int | None = None
-) -> Table:
-    """Return one table; arguments and errors as of `select_tables`."""
-    return select_tables(name, lam, angle, power)[0]
-
-
-def _find_name(name: str) -> str:
-    if name in TABLES:
-        return name
-    if several := [each for each in NAMES if each.startswith(f"{name.lower()}-")]:
-        raise BalcliError(f"{name!r} is the source of {', '.join(several)}: name one")
-    near = nearest(name, NAMES)
-    hint = f"; the nearest name is {near!r}" if near else ""
-    raise BalcliError(f"no table {name!r}{hint}. Tables: {', '.join(NAMES)}")
+    return [(t.name, e) for t in tables for e in t.errata if category in (None, e.category)]
 
 
 @tell_arguments(**{"lambda": "ratios", "angle": "angles"})
@@ -195,4 +169,4 @@ def tables(
     check_type("ratios", ratios, (str, NoneType), 'give a text, such as "0.20:0.40:0.01"')
     check_type("angles", angles, (str, NoneType), 'give a text, such as "0:180:5"')
     highest = None if power is None else check_count("power", power, 0, HIGHEST_POWER)
-    return recompute(name, ratios, angles, highest)
+    return select_tables(name, ratios, angles, highest)[0]

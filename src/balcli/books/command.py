@@ -30,32 +30,21 @@ Name = Annotated[
     ),
 ]
 Errata = Annotated[
-    bool,
-    typer.Option("--errata", help="List wrong figures, equations and sentences by class."),
+    bool, typer.Option("--errata", help="List wrong figures, equations and sentences by class.")
 ]
 Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
     typer.Option(help="Errata of this class alone.", show_default=False),
 ]
 Lam = Annotated[
-    str | None,
-    optional("0.20:0.40:0.01", "Other crank ratios than printed; or a list 0.25,1/3.", "--lambda"),
+    str | None, optional("0.20:0.40:0.01", "Other crank ratios; or a list 0.25,1/3.", "--lambda")
 ]
 Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
 Power = Annotated[
-    int | None,
-    typer.Option(
-        min=0,
-        max=HIGHEST_POWER,
-        show_default=False,
-        help="Highest power of lambda in `series`; default 12.",
-    ),
+    int | None, optional("N", "Highest power in `series`; default 12.", min=0, max=HIGHEST_POWER)
 ]
 Digits = Annotated[
-    int | None,
-    typer.Option(
-        min=0, max=17, show_default=False, help="Decimals; default: as printed (JSON and CSV: all)."
-    ),
+    int | None, optional("N", "Decimals; default: as printed (JSON and CSV: all).", min=0, max=17)
 ]
 
 
@@ -84,9 +73,8 @@ def tables(
 
     from . import answer, show as pages
 
-    if angle:
-        angle = as_bare_angles("--angle", angle)
-    chosen = answer.select_tables(name, lam, angle, power)
+    angles = angle and as_bare_angles("--angle", angle)
+    chosen = answer.select_tables(name, lam, angles, power)
     if errata or kind:
         show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
     elif name and chosen[0].name == "layouts" and digits is None:
@@ -108,4 +96,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
     form = text_format(output, form)
     from . import answer, show as pages
 
-    show([answer.recompute("layouts")], pages.LAYOUTS, form, output)
+    show(answer.select_tables("layouts"), pages.LAYOUTS, form, output)

@@ -37,11 +37,14 @@ def _rough(degrees: Array) -> Array:
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
     """Table 1: radii of the two shafts over gamma, their ratio, and the same for their rates."""
-    gamma = as_numbers(printed.headings())
-    stub = printed.column(printed.columns[0])
-    explanations = [Explanation(ROUGH, head_rows(stub, _paths(gamma, _rough)), "approximation")]
-    rows = head_rows(stub, _paths(gamma, _cos))
-    return printed.compare(printed.columns, rows, explanations=explanations)
+    gamma, stub = as_numbers(printed.headings()), printed.column(printed.columns[0])
+    return _compare(printed, lambda cosine: head_rows(stub, _paths(gamma, cosine)))
+
+
+def _compare(printed: Print, compute: Callable[[Cosine], tuple[Row, ...]], stub: int = 1) -> Table:
+    """Return the exact rows, with those of the rough cosine as the explanation."""
+    rough = Explanation(ROUGH, compute(_rough), "approximation")
+    return printed.compare(printed.columns, compute(_cos), explanations=[rough], stub=stub)
 
 
 def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
@@ -55,9 +58,7 @@ def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
-    explanations = [Explanation(ROUGH, _sliders(printed, gammas, _rough), "approximation")]
-    rows = _sliders(printed, gammas, _cos)
-    return printed.compare(printed.columns, rows, explanations=explanations, stub=2)
+    return _compare(printed, lambda cosine: _sliders(printed, gammas, cosine), stub=2)
 
 
 def _paths(gamma: Array, cosine: Cosine) -> Array:

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from fractions import Fraction
 from importlib.resources import files
@@ -19,7 +19,7 @@ from typing import Annotated, Literal, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.records import WrittenAs
+from ..core.records import HIDDEN, WrittenAs
 from ..errors import BalcliError
 from ..limits import LARGEST_TABLE_VALUE, MOST_TABLE_VALUES
 from ..show.result import Result
@@ -39,8 +39,7 @@ CLASSES: dict[ErratumClass, str] = {
 }
 
 
-@dataclass(frozen=True)
-class Explanation:
+class Explanation(NamedTuple):
     """Figures as the author may have computed them, in the places of the exact ones; None where the
     explanation has no figure.
     """
@@ -55,8 +54,7 @@ def name_class(category: ErratumClass) -> ErratumClass:
     return category
 
 
-@dataclass(frozen=True)
-class Erratum:
+class Erratum(NamedTuple):
     """A printed figure that is not the exact one rounded, or a statement that is wrong.
 
     Attributes:
@@ -78,57 +76,42 @@ class Erratum:
     category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
 
 
+def name_rows(exact: tuple[Row, ...]) -> tuple[Row, ...]:
+    """Return the cells of a table, which a result calls `rows` in JSON alone."""
+    return exact
+
+
 @dataclass(frozen=True, repr=False)
 class Table(Result):
-    """Rows as recomputed and as printed, of one shape; `errata` follow from the two.
+    """A printed table, recomputed: rows as they should be and as printed, of one shape.
 
     Attributes:
         name: Name of the table.
         title: Title of the table.
         source: Book or paper that prints it.
         columns: Names of the columns.
-        exact: Cells of every row.
-        printed: Printed texts of every row.
-        explanations: Explanations of errata.
+        exact: Exact cells of every row.
+        printed: Printed texts of every row; null: not printed.
+        errata: Printed cells that are not the exact ones rounded, or the wrong statements.
         stub: How many leading columns name a row.
         digits: Decimals of the figures that are shown; None: as printed.
-        stated: Errata of a table of statements, which no rule finds.
     """
 
+    format: Literal["balcli.table/1"] = field(default="balcli.table/1", kw_only=True)
     name: str
     title: str
     source: str
     columns: tuple[str, ...]
-    exact: tuple[Row, ...]
+    exact: Annotated[tuple[Row, ...], WrittenAs(name_rows, "rows")]
     printed: tuple[Words, ...]
-    explanations: tuple[Explanation, ...] = ()
-    stub: int = 1
-    digits: int | None = None
-    stated: tuple[Erratum, ...] = ()
+    errata: tuple[Erratum, ...]
+    stub: Annotated[int, HIDDEN] = 1
+    digits: Annotated[int | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:
         """Name and title of the table."""
         return f"{self.name}: {self.title}"
-
-    @property
-    def errata(self) -> tuple[Erratum, ...]:
-        """Printed cells that are not the exact ones rounded, or the wrong statements."""
-        return self.stated or tuple(self._errata())
-
-    def label(self, row: int) -> str:
-        """Return the name of a row: the cells of its stub."""
-        cells = self.exact[row][: self.stub]
-        shown = [c if isinstance(c, str) else f"{c:.15g}" for c in cells if c is not None]
-        return ", ".join(filter(None, shown))
-
-    def _errata(self) -> Iterator[Erratum]:
-        for i, (row, words) in enumerate(zip(self.exact, self.printed, strict=True)):
-            for j, (value, text) in enumerate(zip(row, words, strict=True)):
-                if text is not None and deviates(value, text):
-                    supposed = [(e.category, e.kind, e.rows[i][j]) for e in self.explanations]
-                    category, kind = _explain(value, text, supposed)
-                    yield Erratum(i, self.columns[j], text, value, kind, self.label(i), category)
 
 
 def parse_decimal(text: str) -> Decimal | None:
@@ -151,27 +134,24 @@ def parse_number(cell: Cell) -> Fraction | None:
 
 def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
     """Return the value with the decimals of a printed figure, halves rounded away from zero."""
-    return Decimal(repr(float(value))).quantize(Decimal(1).scaleb(_exponent(like)), rounding)
+    return Decimal(repr(float(value))).quantize(like, rounding)
 
 
 def deviates(value: Cell, text: str) -> bool:
     """Return whether a printed figure is not the exact value rounded; words never deviate."""
-    printed, fraction = parse_decimal(text), parse_number(text)
-    if isinstance(value, (int, float)):
-        if printed is not None:
-            return round_like(value, printed) != printed
-        return fraction is not None and abs(value - fraction) > 1e-12 * abs(fraction)
-    exact = parse_number(value)
-    return exact is not None and fraction is not None and exact != fraction
+    printed = parse_decimal(text)
+    if printed is not None and isinstance(value, (int, float)):
+        return round_like(value, printed) != printed
+    exact, fraction = parse_number(value), parse_number(text)
+    if exact is None or fraction is None:
+        return False
+    return abs(exact - fraction) > abs(fraction) / 10**12
 
 
-def explain_figure(value: Cell, text: str) -> str | None:
+def _derive(value: float, printed: Decimal) -> str | None:
     """Return how a value leads to the printed figure: "", ", truncated", ", digits transposed";
     None: it does not.
     """
-    printed = parse_decimal(text)
-    if printed is None or not isinstance(value, (int, float)):
-        return None
     rounded = round_like(value, printed)
     if rounded == printed:
         return ""
@@ -183,36 +163,32 @@ def explain_figure(value: Cell, text: str) -> str | None:
 
 
 def _explain(
-    value: Cell, text: str, supposed: Sequence[tuple[ErratumClass, str, Cell]]
+    value: Cell, text: str, supposed: Iterable[tuple[Explanation, Cell]]
 ) -> tuple[ErratumClass, str]:
-    """Return the class and kind of an erratum: of the first explanation that leads to it, or by
-    what its digits show.
+    """Return the class and kind of an erratum: of the first explanation whose figure leads to it,
+    or by what its digits show.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
         return "misprint", "misprint"
-    for category, kind, other in supposed:
-        differs = isinstance(other, (int, float)) and abs(other - value) > 1e-9 * abs(value)
-        if differs and (found := explain_figure(other, text)) is not None:
+    for (kind, _, category), other in supposed:
+        if not isinstance(other, (int, float)) or abs(other - value) <= 1e-9 * abs(value):
+            continue
+        if (found := _derive(other, printed)) is not None:
             whose = "author's approximation: " if category == "approximation" else ""
             return category, whose + kind + found
-    error = abs(round_like(value, printed) - printed).scaleb(-_exponent(printed))
-    digits = explain_figure(value, text) or ""
-    return ("misprint", f"misprint{digits}") if error > 1 else ("rounding", f"last digit{digits}")
+    unit = Decimal(f"1e{printed.as_tuple().exponent}")  # of the last digit
+    near = abs(round_like(value, printed) - printed) <= unit
+    category, kind = ("rounding", "last digit") if near else ("misprint", "misprint")
+    return category, kind + (_derive(value, printed) or "")
 
 
-def _exponent(printed: Decimal) -> int:
-    exponent = printed.as_tuple().exponent
-    return exponent if isinstance(exponent, int) else 0
-
-
-@dataclass(frozen=True)
-class Print:
+class Print(NamedTuple):
     """A table as printed; cells that are not printed are None."""
 
     name: str
-    source: str
     title: str
+    source: str
     columns: tuple[str, ...]
     rows: tuple[Words, ...]
 
@@ -254,8 +230,17 @@ class Print:
         """
         if printed is None:
             printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
+        errata = []
+        for i, (row, words) in enumerate(zip(rows, printed, strict=True)):
+            names = (c if isinstance(c, str) else f"{c:.15g}" for c in row[:stub] if c is not None)
+            label = ", ".join(filter(None, names))
+            for j, (value, text) in enumerate(zip(row, words, strict=True)):
+                if text is not None and deviates(value, text):
+                    supposed = ((each, each.rows[i][j]) for each in explanations)
+                    category, kind = _explain(value, text, supposed)
+                    errata.append(Erratum(i, columns[j], text, value, kind, label, category))
         shape = tuple(columns), tuple(rows), tuple(printed)
-        return Table(self.name, self.title, self.source, *shape, tuple(explanations), stub)
+        return Table(*self[:3], *shape, tuple(errata), stub)
 
     def compare_answers(
         self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
@@ -269,14 +254,11 @@ class Print:
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
-        explanations = [
-            Explanation(
-                kind,
-                tuple((*blank[1:], value if k == n else None) for k in range(len(rows))),
-                category,
-            )
-            for category, kind, n, value in others
-        ]
+        explanations = []
+        for category, kind, n, value in others:
+            figures = [blank] * len(rows)
+            figures[n] = (*blank[1:], value)
+            explanations.append(Explanation(kind, tuple(figures), category))
         return self.compare(self.columns, rows, explanations=explanations, stub=4)
 
 
@@ -284,25 +266,24 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     """Return the equations and sentences that are wrong: exact is the right form, every row an
     erratum. The tests compute both forms of each.
     """
-    cells, words, stated = [], list[Words](), []
-    for i, row in enumerate(printed.rows):
-        source, place, wrong, right, category, known = map(str, row)
-        cells.append((source, place, right, category, known))
-        words.append((source, place, wrong, None, None))
-        label, name = f"{source}, {place}", cast("ErratumClass", category)
-        stated.append(Erratum(i, STATEMENT, wrong, right, known, label, name))
-    shape = ("source", "place", STATEMENT, "class", "known"), tuple(cells), tuple(words)
-    return Table(printed.name, printed.title, printed.source, *shape, stub=2, stated=tuple(stated))
+    rows = [tuple(map(str, row)) for row in printed.rows]
+    cells = [(source, place, *others) for source, place, _, *others in rows]
+    words = [(source, place, wrong, None, None) for source, place, wrong, *_ in rows]
+    errata = [
+        Erratum(i, STATEMENT, wrong, right, known, f"{source}, {place}", cast("ErratumClass", name))
+        for i, (source, place, wrong, right, name, known) in enumerate(rows)
+    ]
+    columns = ("source", "place", STATEMENT, "class", "known")
+    return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(errata), stub=2)
 
 
 def load_print(name: str) -> Print:
     """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""
-    text = files(__package__).joinpath("data", f"{name}.csv").read_text(encoding="utf-8")
-    lines = text.splitlines()
+    lines = files(__package__).joinpath("data", f"{name}.csv").read_text("utf-8").splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
     rows = tuple(tuple(cell or None for cell in row) for row in body)
-    return Print(name, notes["source"], notes["title"], tuple(head), rows)
+    return Print(name, notes["title"], notes["source"], tuple(head), rows)
 
 
 def identify(text: str) -> object:

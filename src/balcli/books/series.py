@@ -49,33 +49,29 @@ def tabulate_series(printed: Print, ranges: Ranges) -> Table:
     """
     power = POWER if ranges.power is None else ranges.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]
-    pairs = sorted([*_beside(shown), *_unprinted(shown, power)], key=lambda pair: _place(pair[0]))
-    rows, words = zip(*pairs, strict=True)
+    functions = [*GENERATED, *PRINTED]
+
+    def place(pair: tuple[Row, Words]) -> tuple[int, float, float]:
+        function, order, exponent, *_ = pair[0]
+        return functions.index(str(function)), float(order or 0), float(exponent or 0)
+
+    rows, words = zip(*sorted(_list_rows(shown, power), key=place), strict=True)
     return printed.compare(COLUMNS, rows, words, stub=3)
 
 
-def _beside(shown: list[Words]) -> Iterator[tuple[Row, Words]]:
+def _list_rows(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
+    """Yield coefficients next to their prints, then those up to the power that no source prints."""
     for words in shown:
-        function, order, power, _, source, equation = words
-        generate = {**GENERATED, **PRINTED}[function or ""]
-        n, p = int(order or 0), int(power or 0)
-        exact = generate(n, p).get(p, 0)
+        function, order, exponent, _, source, equation = words
+        n, p = int(order or 0), int(exponent or 0)
+        exact = {**GENERATED, **PRINTED}[function or ""](n, p).get(p, 0)
         yield (function, None if order is None else n, p, str(exact), source, equation), words
-
-
-def _unprinted(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
-    known = {(words[0], words[1], words[2]) for words in shown}
-    for function, generate in GENERATED.items():
+    known = {words[:3] for words in shown}
+    for name, generate in GENERATED.items():
         for n in range(power + 2):
             for p, c in generate(n, power).items():
-                if (function, str(n), str(p)) not in known:
-                    yield (function, n, p, str(c), None, None), (None,) * len(COLUMNS)
-
-
-def _place(row: Row) -> tuple[int, float, float]:
-    functions = [*GENERATED, *PRINTED]
-    function, order, power = row[:3]
-    return functions.index(str(function)), float(order or 0), float(power or 0)
+                if (name, str(n), str(p)) not in known:
+                    yield (name, n, p, str(c), None, None), (None,) * len(COLUMNS)
 
 
 Exact: TypeAlias = Callable[[list[int], Array], Array]

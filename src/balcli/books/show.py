@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from ..core.records import Node, to_document
 from ..show.csv import Rows
 from ..show.formats import Renderer
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
-from ..show.table import fold
+from ..show.table import WIDTH, fold
 from ..show.units import System
 from .answer import find_gaps
 from .recomputed import (
@@ -26,7 +25,6 @@ from .recomputed import (
     Erratum,
     Row,
     Table,
-    Words,
     deviates,
     parse_decimal,
     parse_number,
@@ -36,51 +34,19 @@ from .recomputed import (
 
 def sheet(table: Table, _system: System) -> Sheet:
     """Return source, the table as printed, and how many figures deviate."""
-    facts = Facts((("source", table.source),))
-    title = f"{table.name}: {table.title}"
-    if table.stated:
-        return Sheet(title, (facts, *map(_lay_out_statement, table.stated), _explain(table.stated)))
+    facts, title = Facts((("source", table.source),)), f"{table.name}: {table.title}"
+    if STATEMENT in table.columns:
+        return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
     columns = range(len(table.columns))
-    rows = tuple(tuple(_shown(table, i, j) for j in columns) for i in range(len(table.exact)))
-    wrong = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
     words = tuple(
         j
         for j in columns
         if j == 0 or all(isinstance(row[j], str) and not _is_figure(row[j]) for row in table.exact)
     )
-    grid = Grid("", table.columns, rows, note=count_deviations(table), marked=wrong, words=words)
+    cells = tuple(tuple(_shown(table, i, j) for j in columns) for i, _ in enumerate(table.exact))
+    marked = frozenset((e.row, table.columns.index(e.column)) for e in table.errata)
+    grid = Grid("", table.columns, cells, count_deviations(table), marked, words)
     return Sheet(title, (facts, grid))
-
-
-@dataclass(frozen=True, kw_only=True)
-class TableDocument:
-    """A printed table, recomputed.
-
-    Attributes:
-        name: Name of the table.
-        title: Title of the table.
-        source: Book or paper that prints it.
-        columns: Names of the columns.
-        rows: Exact cells of every row.
-        printed: Printed texts of every row; null: not printed.
-        errata: Printed cells that are not the exact ones rounded.
-    """
-
-    format: Literal["balcli.table/1"] = "balcli.table/1"
-    name: str
-    title: str
-    source: str
-    columns: tuple[str, ...]
-    rows: tuple[Row, ...]
-    printed: tuple[Words, ...]
-    errata: tuple[Erratum, ...]
-
-
-def document(table: Table) -> Node:
-    """Return `balcli.table/1`: the exact figures, the printed texts, and the errata."""
-    head = {key: getattr(table, key) for key in ("name", "title", "source", "columns")}
-    found = TableDocument(**head, rows=table.exact, printed=table.printed, errata=table.errata)
-    return to_document(found)
 
 
 def rows(table: Table, _system: System) -> Rows:
@@ -96,12 +62,8 @@ def rows(table: Table, _system: System) -> Rows:
 def count_deviations(table: Table) -> str:
     """Return a sentence on how many of the printed figures are not the exact ones rounded."""
     printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
-    wrong = len(table.errata)
-    if not printed:
-        return "no printed source"
-    if not wrong:
-        return f"all {printed} printed figures agree"
-    return f"{wrong} of {printed} printed figures deviate (exact ≠ printed)"
+    wrong = f"{len(table.errata)} of {printed} printed figures deviate (exact ≠ printed)"
+    return wrong if printed else "no printed source"
 
 
 # ------------------------------------------------------------------ cells
@@ -113,18 +75,14 @@ def _shown(table: Table, i: int, j: int) -> str:
     """Return a cell as the print would have it, followed by the print where that deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
     like = text or next((row[j] for row in table.printed if row[j]), None)
+    as_whole = (like or "").lstrip("+-").isdigit()  # such as an angle
     if not isinstance(value, (int, float)):
         shown = value or ""
-    elif table.digits is not None and j >= table.stub and not _is_whole(like, value):
+    elif table.digits is not None and j >= table.stub and not (as_whole and value % 1 == 0):
         shown = f"{value:.{table.digits}f}"
     else:
         shown = _round_as_printed(value, text or "")
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
-
-
-def _is_whole(text: str | None, value: float) -> bool:
-    """Return whether a whole number is printed as one, such as an angle."""
-    return text is not None and text.lstrip("+-").isdigit() and float(value).is_integer()
 
 
 def _round_as_printed(value: float, text: str) -> str:
@@ -140,12 +98,11 @@ def _round_as_printed(value: float, text: str) -> str:
     return f"+{shown}" if text.startswith("+") else shown
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows)
+RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 _SHOWN_OF_ERRATUM = ("row", "column", "printed", "exact")
 Errata: TypeAlias = Sequence[tuple[str, Erratum]]
-WIDTH = 80  # columns, to which sentences are folded
 
 
 def lay_out_errata(errata: Errata, _system: System) -> Sheet:
@@ -158,7 +115,7 @@ def lay_out_errata(errata: Errata, _system: System) -> Sheet:
     for (table, category, kind), members in groups.items():
         if kind:
             rows = tuple((e.label, e.column, e.printed, _exact(e)) for e in members)
-            note = _fold(kind if kind != category else "")
+            note = kind if kind != category else ""
             parts.append(Grid(f"{table}, {category}", _SHOWN_OF_ERRATUM, rows, note))
         else:
             parts += map(_lay_out_statement, members)
@@ -166,8 +123,8 @@ def lay_out_errata(errata: Errata, _system: System) -> Sheet:
 
 
 def _lay_out_statement(e: Erratum) -> Text:
-    forms = [f"printed: {e.printed}", f"right: {e.exact}", e.kind]
-    return Text(_fold(f"{e.label} ({e.category})"), tuple(map(_fold, forms)))
+    title = "\n".join(fold(f"{e.label} ({e.category})", WIDTH))
+    return Text(title, (f"printed: {e.printed}", f"right: {e.exact}", e.kind))
 
 
 def _explain(errata: Sequence[Erratum]) -> Grid:
@@ -177,10 +134,6 @@ def _explain(errata: Sequence[Erratum]) -> Grid:
     figures = sum(e.column != STATEMENT for e in errata)
     note = f"{figures} printed figures, {len(errata) - figures} equations and sentences"
     return Grid("Classes", ("class", "errata", "meaning"), rows, note=note, words=(0, 2))
-
-
-def _fold(text: str) -> str:
-    return "\n".join(fold(text, WIDTH))
 
 
 def describe_errata(errata: Errata) -> list[Node]:
@@ -202,16 +155,11 @@ def _exact(erratum: Erratum) -> str:
 ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_errata)
 
 
-_LIST_COLUMNS = ("name", "title", "source", "errata")
-
-
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return one row a table, their sources, and further commands."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
-    errata = [e for t in tables for e in t.errata]
-    misprints = sum(e.category == "misprint" for e in errata)
-    counted = f"{len(errata)} errata, {misprints} of them misprints"
-    note = f"{counted}; --errata lists them, tables NAME a table"
+    errata = sum(len(t.errata) for t in tables)
+    note = f"{errata} errata; --errata lists them, tables NAME a table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
@@ -219,17 +167,17 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
 
 
 def describe_list(tables: Sequence[Table]) -> list[Node]:
-    """One list, an entry a table."""
-    return [dict(zip(_LIST_COLUMNS, line, strict=True)) for line in _list_lines(tables)]
+    """Return one list, an entry a table."""
+    return [
+        {"name": t.name, "title": t.title, "source": t.source, "errata": len(t.errata)}
+        for t in tables
+    ]
 
 
 def list_tables(tables: Sequence[Table], _system: System) -> Rows:
-    """CSV: a table a line."""
-    return Rows(_LIST_COLUMNS, _list_lines(tables))
-
-
-def _list_lines(tables: Sequence[Table]) -> list[tuple[str, str, str, int]]:
-    return [(t.name, t.title, t.source, len(t.errata)) for t in tables]
+    """Return a table a line, for CSV."""
+    entries = describe_list(tables)
+    return Rows([*entries[0]], [[*entry.values()] for entry in entries])
 
 
 TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tables)
@@ -258,4 +206,4 @@ def lay_out_layouts(table: Table, _system: System) -> Sheet:
     return Sheet("Free forces and moments of common engines", (grid,))
 
 
-LAYOUTS = Renderer(sheet=lay_out_layouts, document=document, rows=rows)
+LAYOUTS = Renderer(sheet=lay_out_layouts, rows=rows)

@@ -19,50 +19,45 @@ from .recomputed import (
     Ranges,
     Row,
     Table,
-    Words,
     as_cells,
     as_numbers,
     head_rows,
     parse_number,
 )
 
-ByAngle: TypeAlias = Callable[[Array, Array], Array]  # degrees, lambda
+ByAngle: TypeAlias = Callable[[Array, Array], Array]  # rad, lambda
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
 
-    def row(words: Words, **computed: float) -> Row:
-        pairs = zip(printed.columns, words, strict=True)
-        return tuple(computed.get(head, _given(text)) for head, text in pairs)
-
     heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
     lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
     rows, supposed = [], []
     for words, (r, length, e, stroke, rpm) in zip(printed.rows, lines, strict=True):
-        rows.append(row(words, Cm_m_per_s=stroke * rpm / 30e3, xi=e / r, **{"lambda": r / length}))
-        supposed.append(row(words, **{"lambda": r / 280}))
+        given = dict(zip(printed.columns, map(_given, words), strict=True))
+        exact = {"lambda": r / length, "Cm_m_per_s": stroke * rpm / 30e3, "xi": e / r}
+        rows.append(tuple((given | exact).values()))
+        supposed.append(tuple((given | {"lambda": r / 280}).values()))
     shorter = Explanation("misprint, as with l = 280 mm", tuple(supposed), "misprint")
     return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
 
 
 def tabulate_travel(printed: Print, ranges: Ranges) -> Table:
     """Table 1-2: x/r."""
-    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.displacement(np.radians(a), lam))
+    return _tabulate_by_angle(printed, ranges, sc.displacement)
 
 
 def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
     """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and
     right margins.
     """
-    return _tabulate_by_angle(
-        printed, ranges, lambda a, lam: np.where(a % 180 == 0, 0.0, sc.velocity(np.radians(a), lam))
-    )
+    return _tabulate_by_angle(printed, ranges, sc.velocity)
 
 
 def tabulate_acceleration(printed: Print, ranges: Ranges) -> Table:
     """Table 1-6: j/(r omega^2)."""
-    return _tabulate_by_angle(printed, ranges, lambda a, lam: sc.acceleration(np.radians(a), lam))
+    return _tabulate_by_angle(printed, ranges, sc.acceleration)
 
 
 def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
@@ -99,7 +94,8 @@ def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tab
             f"{MOST_TABLE_VALUES} are tabulated: take larger steps of --angle or --lambda"
         )
     angles = as_numbers(stub)
-    body = function(angles[:, None], as_numbers(headings)[None, :])
+    body = function(np.radians(angles)[:, None], as_numbers(headings)[None, :])
+    body = np.where(np.abs(body) < 1e-15, 0.0, body)  # the speed at 180 degrees
     signs = "sign_left" in printed.columns
     inner = ("sign_left", *headings, "sign_right") if signs else headings
     columns = ("alpha_deg", *inner, "alpha_right_deg")

@@ -9,9 +9,8 @@ is convex in k e^{i alpha}, and a change of sign of alpha only mirrors the curve
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..core.phasors import Array
+from ..core.extrema import find_least
 from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers
 
 SEARCHED = tuple(
@@ -36,8 +35,7 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
         rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    explained = [Explanation(SEARCH, search_rows)]
-    return printed.compare(columns, rows, explanations=explained)
+    return printed.compare(columns, rows, explanations=[Explanation(SEARCH, search_rows)])
 
 
 def _true(lam: float) -> Row:
@@ -47,11 +45,7 @@ def _true(lam: float) -> Row:
     There P = 1 + lam - k, falling with k; the two others, symmetric to the cylinder, rise. The best
     k makes them equal.
     """
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        k = (low + high) / 2
-        sideways = max(size for size, theta in _stationary(lam, k) if abs(theta) > 1)
-        low, high = (k, high) if sideways < 1 + lam - k else (low, k)
+    k = find_least(lambda k: max(_stationary(lam, k))[0], 0.0, 1.0, 80)
     return (1 + lam - k, k, 0.0, 0.0, 0.0)
 
 
@@ -71,16 +65,12 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 def _half_cycle(lam: float) -> Row:
     """The printed search: P, k, alpha, direction phi of the force (undirected) and theta."""
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
-    force = _force(lam, k[:, None, None], alpha[:, None], theta)
+    th = np.radians(theta)
+    weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))
+    force = np.cos(th) + lam * np.cos(2 * th) - weights
     peaks = np.abs(force).max(axis=-1)
     i, j = np.unravel_index(peaks.argmin(), peaks.shape)
     at = np.abs(force[i, j]).argmax()
     worst = force[i, j, at]
     phi = np.degrees(np.arctan(worst.imag / worst.real))
     return tuple(as_cells(map(float, (peaks[i, j], k[i], alpha[j], phi, theta[at]))))
-
-
-def _force(lam: float, k: Array, alpha: Array, theta: Array) -> NDArray[np.complex128]:
-    """P/J for angles in degrees."""
-    th = np.radians(theta)
-    return np.asarray(np.cos(th) + lam * np.cos(2 * th) - k * np.exp(1j * (th + np.radians(alpha))))

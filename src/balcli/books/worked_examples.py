@@ -9,7 +9,6 @@ gravity is 2 in from the crank pin; the piston with pin and rings weighs 1 lb.
 
 from __future__ import annotations
 
-from functools import cache
 from math import floor, log10
 
 import numpy as np
@@ -25,22 +24,22 @@ from ..file.units import POUND_FORCE, STANDARD_GRAVITY
 from .recomputed import ErratumClass, Print, Ranges, Table, as_numbers, load_print
 
 
-@cache
-def _load_uicker() -> Array:
-    """Return the torque of Uicker's table 18-1 every 10 degrees of a cycle, N m."""
-    return as_numbers(load_print("uicker-18-1").column("torque_Nm"))
-
-
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
-    """Return the exact answers with the printed ones."""
-    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*_load_uicker(), _load_uicker()[0]])
-    energy = surplus(uicker).energy
-    answers = (_bevan(), *_khurmi(), _simpson_mean(), _uicker_inertia(energy))
-    whole = _uicker_inertia(_simpson_mean() * 4 * np.pi)
+    """Return the exact answers with the printed ones.
+
+    Uicker 18.1 prints the torque of table 18-1 every 10 degrees of a cycle, integrates by Simpson's
+    rule, and asks for the inertia with a fluctuation of 0.025 at 4600 rpm.
+    """
+    torque = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
+    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*torque, torque[0]])
+    work = float(np.tile([2, 4], 36) @ torque) * np.pi / 18 / 3
+    square = 0.025 * (4600 * RPM) ** 2
+    answers = (_bevan(), *_khurmi(), work / (4 * np.pi), surplus(uicker).energy / square)
+    whole = "the work of a whole cycle is taken for the fluctuation of energy"
     others: list[tuple[ErratumClass, str, int, float]] = [
         ("approximation", "two terms of the motion", 0, _bevan(two_terms=True)),
         ("method", "the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-        ("method", "the work of a whole cycle is taken for the fluctuation of energy", 4, whole),
+        ("method", whole, 4, work / square),
     ]
     return printed.compare_answers(answers, others)
 
@@ -75,18 +74,6 @@ def _khurmi_zero_side() -> float:
     return first.extremes()[1].value / (500 * 0.4**2)
 
 
-# ------------------------------------------------------------------ Uicker 18.1
-def _simpson_mean() -> float:
-    """N m, by the book's rule."""
-    weights = np.tile([2, 4], 36)
-    return float(weights @ _load_uicker()) * np.pi / 18 / 3 / (4 * np.pi)
-
-
-def _uicker_inertia(energy: float) -> float:
-    """Kg m2 for a fluctuation of 0.025 at 4600 rpm."""
-    return energy / (0.025 * (4600 * RPM) ** 2)
-
-
 POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
 CRANK, ROD = 2 / 12, 7 / 12  # ft
 OMEGA = 4000 * RPM
@@ -94,27 +81,29 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 
 
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
-    """Return the exact answers with the printed ones, in the order of the book."""
+    """Return the exact answers with the printed ones, in the order of the book.
+
+    Section 1-3: reciprocating weight (rod weighed at its ends), its greatest acceleration and
+    inertia force. Section 1-4 as of `_second`. Section 2-1: rotating weight (throw, big end),
+    reciprocating weight (piston, small end), and the weight at 3.5 in for the first and half of the
+    second at a crank of 3 in.
+    """
+    mass, rotating, reciprocating = 1 + 2.75 * 2 / 7, 1.0 + 3.0, 6.0 + 2.0
+    force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
+    balancing = (rotating + reciprocating / 2) * 3 / 3.5
+    answers = (mass, _acceleration(), force, *_second(), rotating, reciprocating, balancing)
     rounded = _round(1.79 * 37400 / 32.2)
     others: list[tuple[ErratumClass, str, int, float]] = [
         ("approximation", "omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
         ("rounding", "follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
         ("approximation", "g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
     ]
-    return printed.compare_answers((*_first(), *_second(), *_third()), others)
+    return printed.compare_answers(answers, others)
 
 
 def _acceleration(omega: float = OMEGA) -> float:
     """Return the acceleration of the piston at top dead center, ft/s^2."""
     return CRANK * omega**2 * (1 + CRANK / ROD)
-
-
-def _first() -> tuple[float, ...]:
-    """Return the answers of section 1-3: reciprocating weight (rod weighed at its ends), its
-    greatest acceleration and inertia force.
-    """
-    mass = 1 + 2.75 * 2 / 7
-    return (mass, _acceleration(), mass * _acceleration() * POUND * FOOT / POUND_FORCE)
 
 
 def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
@@ -125,14 +114,6 @@ def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
     peak = -float(rod_acceleration(np.pi / 2, lam)) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)
-
-
-def _third() -> tuple[float, ...]:
-    """Return the answers of section 2-1: rotating weight (throw, big end), reciprocating weight
-    (piston, small end); weight at 3.5 in for the first and half of the second at a crank of 3 in.
-    """
-    rotating, reciprocating = 1.0 + 3.0, 6.0 + 2.0
-    return (rotating, reciprocating, (rotating + reciprocating / 2) * 3 / 3.5)
 
 
 def _round(value: float) -> float:

@@ -21,8 +21,7 @@ from numpy.typing import ArrayLike
 
 from .cylinders import Cylinders, find_travel
 from .mechanisms import slidercrank
-from .mechanisms.linkage import Articulated, Linkage, Rotary
-from .mechanisms.motion import Motion
+from .mechanisms.linkage import Articulated, Rotary
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
 
@@ -71,18 +70,17 @@ class GasPiston:
         """Return the distance from the upper dead centre at cycle angles, m."""
         if self.linkage is None:
             return self.radius * slidercrank.displacement(angle + self.top, self.lam, self.eps)
-        place = self._move(self.linkage, np.append(0.0, angle)).place[0]
+        psi = np.append(0.0, angle) + self.top
+        place = self.linkage.motion(psi, self.lam, self.eps).place[0]
         return np.asarray(self.radius * (place[0] - place[1:]).reshape(angle.shape))
 
     def rate(self, angle: Array) -> Array:
         """Return the derivative of the travel by the angle, m/rad."""
         if self.linkage is None:
             return self.radius * slidercrank.velocity(angle + self.top, self.lam, self.eps)
-        velocity = self._move(self.linkage, angle.reshape(-1)).velocity[0]
+        psi = angle.reshape(-1) + self.top
+        velocity = self.linkage.motion(psi, self.lam, self.eps).velocity[0]
         return np.asarray(-self.radius * velocity.reshape(angle.shape))
-
-    def _move(self, linkage: Articulated, angle: Array) -> Motion:
-        return linkage.motion(angle + self.top, self.lam, self.eps)
 
     def clearance(self, compression_ratio: float) -> float:
         """Return the volume at the upper dead centre, m3."""
@@ -118,7 +116,9 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
         cylinders: Without trailing axes.
         area: Area of the bores, m2, one or one each.
     """
-    linkage = _find_articulation(cylinders.linkage)
+    # What moves the pistons along their axes; in rotary engines it is the same.
+    kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
+    linkage = kind if isinstance(kind, Articulated) else None
     c, found = replace(cylinders, linkage=linkage), []
     lam, eps, *sizes = (np.broadcast_to(v, c.count) for v in (c.lam, c.eps, area, *find_travel(c)))
     for row in range(c.count):
@@ -137,15 +137,6 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
         piston = GasPiston(bore, stroke, upper, lower, float(c.radius), lam[rows], eps[rows], own)
         found.append(piston)
     return found
-
-
-def _find_articulation(linkage: Linkage | None) -> Articulated | None:
-    """Return what moves the pistons along their axes where not all rods are on the crank pin; in
-    rotary engines it is the same.
-    """
-    if isinstance(linkage, Rotary):
-        return linkage.hung
-    return linkage if isinstance(linkage, Articulated) else None
 
 
 # ---------------------------------------------------------------- pressure and torque

@@ -156,28 +156,22 @@ def find_travel(c: Cylinders) -> Travel:
     They have a closed form for plain slider-cranks (`sin tau = e/(l + r)` at the top, `e/(l - r)`
     at the bottom), and are found on the curve of the motion for others.
     """
-    found = _find_by_formula(c) if c.linkage is None else _find_on_curve(c, c.linkage)
-    shape = c.pin_deg.shape
-    each = (np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found)
-    return Travel(*each)
-
-
-def _find_by_formula(c: Cylinders) -> tuple[Array, Array, Array]:
-    top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
-    high = (1 + c.lam) * np.sqrt((1 - top) * (1 + top))
-    low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom))
-    angles = np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
-    return c.radius / c.lam * (high - low), *angles
-
-
-def _find_on_curve(c: Cylinders, linkage: Linkage) -> tuple[Array, Array, Array]:
-    psi = revolution(_STEPS)
-    place = linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
-    top = _refine(c, linkage, psi[place.argmax(axis=-1)])
-    bottom = _refine(c, linkage, psi[place.argmin(axis=-1)])
-    high, low = (linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom))
-    centred = np.remainder(np.degrees(top) + 180, 360) - 180
-    return c.radius * (high - low), centred, np.degrees(bottom) - 180
+    if c.linkage is None:
+        top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
+        high = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) / c.lam
+        low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
+        top_deg, bottom_deg = np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
+    else:
+        psi = revolution(_STEPS)
+        place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
+        top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
+        bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
+        high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
+        low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
+        top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
+        bottom_deg = np.degrees(bottom) - 180
+    shape, found = c.pin_deg.shape, (c.radius * (high - low), top_deg, bottom_deg)
+    return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:

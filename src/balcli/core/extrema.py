@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .vibration import Indices, Real
 
@@ -67,9 +66,12 @@ def find_peaks_between(
     for _ in range(_ROUNDS):
         step = (high - low) / _PARTS
         heights = judge(low + (high - low) * shares, which[going])
-        top, at = np.nonzero(_find_tops(heights))
+        ends = np.full((1, len(low)), -np.inf)
+        rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
+        top, at = np.nonzero(rises[:-1] & ~rises[1:])
         going, step, place = going[at], step[at], low[at] + step[at] * (1 + top)
-        here, around = heights[top, at], _take_around(heights[:, at], top)
+        here, middle = heights[top, at], np.clip(top, 1, _PARTS - 3)
+        around = np.stack([heights[middle + k, at] for k in (-1, 0, 1)])
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
@@ -83,21 +85,6 @@ def find_peaks_between(
     vertex = np.clip(vertex, low, high)
     _raise(best, highest, going, vertex, judge(vertex[None], which[going])[0])
     return best, highest
-
-
-def _find_tops(heights: Real) -> NDArray[np.bool_]:
-    """Return which of the heights (places, intervals) are no lower than their neighbours."""
-    ends = np.full((1, heights.shape[1]), -np.inf)
-    rises = np.diff(np.concatenate([ends, heights, ends]), axis=0) >= 0
-    return rises[:-1] & ~rises[1:]
-
-
-def _take_around(heights: Real, top: Indices) -> Real:
-    """Return three of the heights (places, intervals) of each interval: that at the top and its
-    neighbours, or the three at the end if it is there.
-    """
-    middle = np.clip(top, 1, len(heights) - 2)
-    return np.stack([heights[middle + k, np.arange(len(top))] for k in (-1, 0, 1)])
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:

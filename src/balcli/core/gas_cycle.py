@@ -19,7 +19,6 @@ the heat are released within the duration.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -104,11 +103,9 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
         goal: Figure that the cycle must reach; it determines the heat.
 
     Raises:
-        GasError: The first mistake that `find_cycle_mistakes` finds, or a goal that no heat can
-            reach.
+        GasError: The first mistake in the process, or a goal that no heat can reach.
     """
-    for mistake in find_cycle_mistakes(piston, process, goal):
-        raise mistake
+    _check(piston, process, goal)
     cycle = _Cycle(piston, process)
     heat = cycle.find_heat(goal)
     breaks, curves = [cycle.closes], []
@@ -120,36 +117,25 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
 
 
 # ---------------------------------------------------------------- what is wrong
-def find_cycle_mistakes(piston: GasPiston, process: Process, goal: Goal) -> Iterator[GasError]:
-    """Yield every mistake in a cycle before it is computed.
-
-    Args:
-        piston: Piston of the cylinder.
-        process: Laws of compression, combustion and expansion.
-        goal: Figure that the cycle must reach.
-    """
+def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
+    """Raise GasError for the first mistake in a cycle before it is computed."""
     p, goals = process, GOALS[process.cycle]
     if goal.name not in goals:
         hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
-        yield GasError(goal.name, f"does not make the {p.cycle} cycle: {hint}")
+        raise GasError(goal.name, f"does not make the {p.cycle} cycle: {hint}")
     if not p.expansion_index > 1:
-        yield GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
-    lowest = math.degrees(piston.bottom)
+        raise GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
+    lowest, burnt = math.degrees(piston.bottom), p.burn_start + p.burn_duration
     if p.strokes == 2 and p.exhaust_opens is not None and p.exhaust_opens > lowest:
         message = f"is {p.exhaust_opens:g}°: give up to {lowest:g}°, the lower dead centre"
-        yield GasError("exhaust_opens", message)
-    elif p.cycle == "wiebe":
-        opens, closes = (math.degrees(angle) for angle in _find_valves(piston, process))
-        end = p.burn_start + p.burn_duration
-        if end > opens:
-            yield GasError(
-                "burn_duration",
-                f"a burn over {p.burn_duration:g}° from {p.burn_start:g}° ends at {end:g}°, past "
-                f"{opens:g}°, where the exhaust opens",
-            )
-        if p.burn_start <= closes:
-            message = f"is {p.burn_start:g}°, before {closes:g}°, where compression begins"
-            yield GasError("burn_start", message)
+        raise GasError("exhaust_opens", message)
+    opens, closes = (math.degrees(angle) for angle in _find_valves(piston, process))
+    if p.cycle == "wiebe" and burnt > opens:
+        message = f"makes the burn end at {burnt:g}°, past {opens:g}°, where the exhaust opens"
+        raise GasError("burn_duration", message)
+    if p.cycle == "wiebe" and p.burn_start <= closes:
+        message = f"is {p.burn_start:g}°, before {closes:g}°, where compression begins"
+        raise GasError("burn_start", message)
 
 
 def _find_valves(piston: GasPiston, process: Process) -> tuple[float, float]:
@@ -213,19 +199,16 @@ class _Cycle:
             return [(self.piston.angle_of(travel), _hold(self.limit))]
         if self.process.cycle != "wiebe":
             return []
-        before = self._expand(self.constant)
-        return [
-            (self.start, before),
-            (self.end, lambda angle: before(angle) + heat * self._rise(angle)),
-        ]
+
+        def burn(angle: Array) -> Array:
+            constant = self.constant + (self.index - 1) * heat * self._grow(angle)
+            return constant / self.find_volume(angle) ** self.index
+
+        return [(self.start, self._expand(self.constant)), (self.end, burn)]
 
     def _find_last(self, heat: float) -> float:
         """Return the volume at the end of constant pressure, m3."""
         return self.charge + (heat - self.least) / self.share
-
-    def _rise(self, angle: Array) -> Array:
-        """Return the pressure that one unit of heat adds by Wiebe's law."""
-        return (self.index - 1) * self._grow(angle) / self.find_volume(angle) ** self.index
 
     def _find_burnt(self, angle: Array) -> Array:
         xi = np.clip((angle - self.start) / (self.end - self.start), 0, 1)

@@ -7,7 +7,7 @@ SI units.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from operator import add
@@ -16,7 +16,7 @@ import numpy as np
 
 from .cylinders import Cylinders, Device
 from .mechanisms.closed_form import Harmonics, Series
-from .phases import SUM, Phases, Vectors
+from .phases import SUM, Phases
 from .phasors import Array, Complex, Figure, Phasors, put_together
 
 
@@ -56,10 +56,19 @@ class Loads:
 
     @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m: the cylinders' own, and the forces' arms."""
-        own = find_couples(self.cylinders, self.harmonics, self.square)
-        series = list(own) or [Series(np.zeros_like(self.phases.n))]
-        total = reduce(add, map(self.phases.add_scalars, series))
+        """Free transverse couple about z, N m: `H (-beta'')` of each rod, that of each piston's
+        force on its offset, `-m_rec e (-s'')`, that of a linkage's masses, and the forces' arms.
+        """
+        c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
+        if np.count_nonzero(c.couple):
+            series.append((c.couple * square) * harmonics["rod"])
+        if np.count_nonzero(c.eps) and _has_pistons(c):
+            arms = c.reciprocating * c.offset * c.radius * square
+            series.append(-arms * harmonics["piston"])
+        if c.linkage is not None:
+            series.append((c.linkage.mass * c.radius**2 * square) * harmonics["couple"])
+        own = map(self.phases.add_scalars, series or [Series(np.zeros_like(self.phases.n))])
+        total = reduce(add, own)
         if np.count_nonzero(self.place):
             total += self.phases.add_vectors(self._pulls).about(-self.place)
         for device, force in zip(self.devices, self._of_devices, strict=True):
@@ -83,13 +92,38 @@ class Loads:
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z (needs order 0) times the speed, N m."""
-        mean = find_mean_momentum(self.cylinders, self.harmonics, self.square)
+        """Mean moment of momentum of the cylinders about z (needs order 0) times the speed, N m:
+        that of rotating masses and rods, and of masses on curves.
+        """
+        c = self.cylinders
+        mean = c.rotating * c.radius**2 * self.square
+        if c.linkage is not None:
+            mean = mean - c.linkage.turning * c.couple * self.square  # rods of turning cylinders
+            on_curves = c.linkage.mass * c.radius**2 * self.square
+            mean = mean + on_curves * self.harmonics["swirl"].c[0].real
         return self.phases.add_figures(mean[None])[0]
 
     @cached_property
-    def _pulls(self) -> Vectors:
-        return find_pulls(self.cylinders, self.harmonics, self.phases, self.square)
+    def _pulls(self) -> Series:
+        """Force of each cylinder in its own frame, N, as `Phases.add_vectors` takes it: `m_rec
+        r (-s'') + m_rot r e^{i psi}` times the square of the speed, and that of a linkage's masses
+        on their curves.
+        """
+        c, phases, square = self.cylinders, self.phases, self.square
+        along = Series(np.zeros_like(phases.n))
+        if _has_pistons(c):
+            along = (c.reciprocating * c.radius * square / 2) * self.harmonics["piston"]
+        turning = (phases.n == 1) * (c.rotating * (c.radius * square))
+        forward: Array | Complex = along.c + turning
+        mirrored = along.c
+        error = phases.rounding * (np.abs(along.c) + turning) + along.noise
+        if c.linkage is not None:
+            half = c.linkage.mass * c.radius * square / 2
+            x, y = half * self.harmonics["along"], half * self.harmonics["across"]
+            across: Complex = np.asarray(1j * y.c, np.complex128)
+            forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
+            error = error + phases.rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
+        return Series(put_together(forward, mirrored), error)
 
     @cached_property
     def _inertia(self) -> Series:
@@ -145,56 +179,6 @@ def _has_pistons(c: Cylinders) -> bool:
     return c.linkage is None or bool(np.count_nonzero(c.reciprocating))
 
 
-def find_pulls(
-    cylinders: Cylinders, harmonics: Harmonics, phases: Phases, square: Figure
-) -> Vectors:
-    """Return the force of each cylinder in its own frame, N, shape (orders, cylinders, *trailing):
-    `m_rec r (-s'') + m_rot r e^{i psi}` times the square of the speed, and that of a linkage's
-    masses on their curves.
-
-    Args:
-        cylinders: Cylinders of the engine.
-        harmonics: Series of their mechanisms.
-        phases: Phases of the cylinders by order.
-        square: Square of the crank speed, rad2/s2, shape (*trailing).
-    """
-    c, rounding = cylinders, phases.rounding
-    if _has_pistons(c):
-        along = (c.reciprocating * c.radius * square / 2) * harmonics["piston"]
-    else:
-        along = Series(np.zeros_like(phases.n))
-    turning = (phases.n == 1) * (c.rotating * (c.radius * square))
-    forward: Array | Complex = along.c + turning
-    mirrored = along.c
-    error = rounding * (np.abs(along.c) + turning) + along.noise
-    if c.linkage is not None:
-        half = c.linkage.mass * c.radius * square / 2
-        x, y = half * harmonics["along"], half * harmonics["across"]
-        across: Complex = np.asarray(1j * y.c, np.complex128)
-        forward, mirrored = forward + (x.c + across), mirrored + (x.c - across)
-        error = error + rounding * (np.abs(x.c) + np.abs(y.c)) + (x.noise + y.noise)
-    return Vectors(put_together(forward, mirrored), error)
-
-
-def find_couples(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Iterator[Series]:
-    """Yield the parts of each cylinder's couple about z, N m, shape (orders, cylinders, *trailing):
-    `H (-beta'')` of the rod, that of the piston's force on its offset, `-m_rec e (-s'')`, and that
-    of a linkage's masses.
-
-    Args:
-        cylinders: Cylinders of the engine.
-        harmonics: Series of their mechanisms.
-        square: Square of the crank speed, rad2/s2, shape (*trailing).
-    """
-    c = cylinders
-    if np.count_nonzero(c.couple):
-        yield (c.couple * square) * harmonics["rod"]
-    if np.count_nonzero(c.eps) and _has_pistons(c):
-        yield -(c.reciprocating * c.offset * c.radius * square) * harmonics["piston"]
-    if c.linkage is not None:
-        yield (c.linkage.mass * c.radius**2 * square) * harmonics["couple"]
-
-
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
     """Return the varying part of each cylinder's moment of inertia about the crank times the square
     of the speed, N m: `m_rec s'^2 - H beta'^2`, and that of a linkage's masses.
@@ -213,25 +197,6 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
     if np.count_nonzero(c.couple):
         parts.append(-(c.couple * square) * harmonics["rod_kinetic"])
     return reduce(add, parts)
-
-
-def find_mean_momentum(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Array:
-    """Return each cylinder's mean moment of momentum about z times the speed, N m: that of rotating
-    masses and rods, and of masses on curves, whose first order must be 0; shape (cylinders or 1,
-    *trailing).
-
-    Args:
-        cylinders: Cylinders of the engine.
-        harmonics: Series of their mechanisms.
-        square: Square of the crank speed, rad2/s2, shape (*trailing).
-    """
-    c = cylinders
-    linkage = c.linkage
-    turns = 1.0 if linkage is not None and linkage.turning else 0.0  # of the rods
-    mean = (c.rotating * c.radius**2 - turns * c.couple) * square
-    if linkage is None:
-        return mean
-    return mean + linkage.mass * c.radius**2 * square * harmonics["swirl"].c[0].real
 
 
 # ------------------------------------------------------------------ loads along a shaft
@@ -274,14 +239,3 @@ def find_arms(z: Array, sections: Array) -> Array:
         sections: Axial positions of the sections, m, shape (sections,).
     """
     return find_ahead(z, sections) * (z - sections[:, None])
-
-
-def bound_arms(z: Array, sections: Array) -> Array:
-    """Return the sizes that `find_arms` subtracts from one another, m, which bound the rounding of
-    arms, shape (sections, places).
-
-    Args:
-        z: Axial places, m, shape (places,).
-        sections: Axial positions of the sections, m, shape (sections,).
-    """
-    return find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))

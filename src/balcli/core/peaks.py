@@ -71,7 +71,12 @@ def find_peak(curve: Phasors) -> Peak:
     if not np.any(curve.vectors):
         return Peak(0.0, 0.0)
     value, theta = find_longest(curve.orders, _list_components(curve))
-    return Peak(float(value), float(theta), _find_repetition(curve))
+    # F is a sum of vectors that turn m times a revolution (m < 0: backward), and |F| depends on the
+    # differences of their turns.
+    ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
+    halves = np.rint(2 * np.concatenate([ahead, -against])).astype(int)
+    times = int(np.gcd.reduce(halves - halves[0]))
+    return Peak(float(value), float(theta), 2 * _TURN / times if times else 0.0)
 
 
 def find_largest(curves: Phasors) -> Array:
@@ -92,17 +97,6 @@ def _list_components(curves: Phasors) -> Complex:
     """Return `Re(c e^{i n theta})` along x and y, shape (orders, *trailing, 2)."""
     ahead, astern = curves.forward, np.conj(curves.backward)
     return np.stack([ahead + astern, -1j * (ahead - astern)], axis=-1)
-
-
-def _find_repetition(curve: Phasors) -> float:
-    """Return the angle (rad) after which |F| is the same again, whatever the phasors are: F is a
-    sum of vectors that turn m times a revolution (m < 0: backward), and |F| depends on the
-    differences of their turns.
-    """
-    ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
-    halves = np.rint(2 * np.concatenate([ahead, -against])).astype(int)
-    times = int(np.gcd.reduce(halves - halves[0]))
-    return 2 * _TURN / times if times else 0.0
 
 
 # ------------------------------------------------------------------ curves by their harmonics

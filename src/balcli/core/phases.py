@@ -19,32 +19,18 @@ from __future__ import annotations
 import math
 from functools import cached_property
 from itertools import groupby
-from typing import NamedTuple
 
 import numpy as np
 
 from .cylinders import Cylinders
 from .mechanisms.closed_form import Series
 from .mechanisms.harmonics import narrow
-from .phasors import EPS, Array, Complex, FactoredPhasors, Phasors, unit
+from .phasors import EPS, Array, Complex, Phasors, unit
 
 TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
 ANGLE = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
 _ALL = slice(None)
-
-
-class Vectors(NamedTuple):
-    """A rotating vector of each cylinder in its own frame, x along its axis.
-
-    Attributes:
-        sides: shape (2, orders, cylinders or 1, *trailing); forward ones, then the conjugates of
-            backward ones; a single one stands for all cylinders.
-        error: rounding error of either, shape (orders, cylinders or 1, *trailing).
-    """
-
-    sides: Array | Complex
-    error: Array
 
 
 class Phases:
@@ -86,33 +72,26 @@ class Phases:
 
     # -------------------------------------------------------------- sums over the cylinders
     def add_vectors(
-        self, vectors: Vectors, arms: Array | None = None, sizes: Array | None = None
+        self, vectors: Series, arms: Array | None = None, sizes: Array | None = None
     ) -> Phasors:
         """Sum of the cylinders' vectors, or of these (real) multiples of them.
 
         Args:
+            vectors: A rotating vector of each cylinder in its own frame, x along its axis, shape
+                (2, orders, cylinders or 1, *trailing): forward ones, then the conjugates of
+                backward ones, with the rounding error of either; a single one stands for all
+                cylinders.
             arms: shape (cylinders, *trailing).
             sizes: bounds of the arms that their rounding errors grow with, same shape.
         """
-        sides, error = vectors
-        noise = self.add_figures(error, sizes)
-        if self.n.ndim > 2 and sides.shape[2] == 1:  # of variants
-            ahead, astern = self._add_turned(self._planar, None if arms is None else arms[None])
-            both = (sides[0, :, 0], ahead), (sides[1, :, 0].conj(), astern.conj())
-            return FactoredPhasors(self.orders, both, noise)
-        sums = self._add(self._planar, sides, arms)
+        sums = self._add(self._planar, vectors.c, arms)
         np.conjugate(sums[1], out=sums[1])
-        return Phasors(self.orders, sums, noise)
+        return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Sum of the cylinders' scalars about z."""
+        """Sum of the scalars about z, each bank's turned by `e^{i n (axis_1 - axis)}`."""
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
-        if self.n.ndim > 2 and len(series.c[0]) == 1 and np.all(self.orders):
-            (turned,) = self._add_turned(self._scalar, None)
-            half = series.c[:, 0] / 2
-            sides = (half, turned), (half.conj(), turned.conj())
-            return FactoredPhasors(self.orders, sides, noise)
-        (total,) = self._add(self._scalar, series.c[None], None)
+        (total,) = self._add(unit(-self._turn[None]), series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
@@ -178,11 +157,6 @@ class Phases:
         turns = unit(np.array((self._axis - self._turn, self._axis + self._turn)))
         np.conjugate(turns[1], out=turns[1])
         return turns
-
-    @cached_property
-    def _scalar(self) -> Complex:
-        """Turns of each bank's scalars: `e^{i n (axis_1 - axis)}`, shape as of one side."""
-        return unit(-self._turn[None])
 
 
 class SeparatePhases(Phases):

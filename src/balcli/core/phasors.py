@@ -20,7 +20,6 @@ Array: TypeAlias = NDArray[np.float64]
 Complex: TypeAlias = NDArray[np.complex128]
 Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
-Side: TypeAlias = tuple[Array | Complex, Complex]  # a factor and a vector
 
 EPS = float(np.finfo(float).eps)
 # As arrays without axes, which numpy takes up quicker than Python's numbers.
@@ -178,10 +177,7 @@ class Phasors:
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
         """Return the phasors of these orders, each of which must exist."""
-        return self.select_rows(np.searchsorted(self.orders, np.asarray(orders, float)))
-
-    def select_rows(self, rows: NDArray[np.intp]) -> Phasors:
-        """Return the phasors of the orders in these rows."""
+        rows = np.searchsorted(self.orders, np.asarray(orders, float))
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders[rows], self.vectors[:, rows], noise[rows])
 
@@ -189,12 +185,6 @@ class Phasors:
         """Return the phasors at one place along the trailing axis."""
         noise = np.broadcast_to(self.noise, self.vectors.shape[1:])
         return Phasors(self.orders, self.vectors[:, :, place], noise[:, place])
-
-    def select_row(self, row: int) -> Phasors:
-        """Return the order in this row alone."""
-        only = slice(row, row + 1)
-        noise = self.noise[only] if len(self.noise) == len(self.orders) else self.noise
-        return Phasors(self.orders[only], self.vectors[:, only], noise)
 
     @cached_property
     def _sizes(self) -> Array:
@@ -259,58 +249,6 @@ class Phasors:
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
         curve: Complex = turning @ self.forward + np.conj(turning) @ self.backward
         return curve
-
-
-class FactoredPhasors(Phasors):
-    """Phasors whose vectors are products of a factor (amplitude of equal cylinders) and a vector
-    (their direction), which vary along different axes.
-
-    The size of a product is the product of the sizes, so that amplitudes of many variants need no
-    complex numbers; vectors are multiplied only when they are read.
-
-    Args:
-        orders: shape (orders,).
-        sides: a factor and a vector, each of shape (orders, *trailing), of the vectors with the
-            crank, and of those against it.
-        noise: bound of the rounding error of either, shape (orders, *trailing).
-        settled: whether a product within the noise is exactly 0.
-    """
-
-    _sides: tuple[Side, Side]
-    _settled: bool
-
-    def __init__(
-        self, orders: Array, sides: tuple[Side, Side], noise: Array, *, settled: bool = False
-    ) -> None:
-        vars(self).update(orders=orders, noise=noise, _sides=sides, _settled=settled)
-
-    @cached_property
-    def vectors(self) -> Complex:
-        products = np.array([factor * vector for factor, vector in self._sides], complex)
-        return np.where(self._sizes == 0, 0, products) if self._settled else products
-
-    @cached_property
-    def _sizes(self) -> Array:
-        (factor, vector), _ = self._sides
-        sizes = np.empty((2, *np.broadcast_shapes(factor.shape, vector.shape)))
-        for size, (factor, vector) in zip(sizes, self._sides, strict=True):
-            np.multiply(np.abs(factor), np.abs(vector), out=size)
-        if self._settled:
-            sizes[sizes <= self.noise] = 0
-        return sizes
-
-    def __rmul__(self, factor: complex | Figure | Complex) -> FactoredPhasors:
-        ahead, astern = ((own, factor * vector) for own, vector in self._sides)
-        return FactoredPhasors(self.orders, (ahead, astern), np.abs(factor) * self.noise)
-
-    def drop_noise(self) -> FactoredPhasors:
-        return FactoredPhasors(self.orders, self._sides, self.noise, settled=True)
-
-    def select_row(self, row: int) -> FactoredPhasors:
-        only = slice(row, row + 1)
-        ahead, astern = ((own[only], vector[only]) for own, vector in self._sides)
-        noise, settled = self.noise[only], self._settled
-        return FactoredPhasors(self.orders[only], (ahead, astern), noise, settled=settled)
 
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:

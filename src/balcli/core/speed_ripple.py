@@ -135,7 +135,12 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
         curves: without trailing axes, each of all orders that count.
         orders: (orders,) wanted, whole steps.
     """
-    felt = np.stack([_sample(curve, timetable) * timetable.stay for curve in curves])
+    series = np.zeros((len(curves), len(timetable.clock)), complex)
+    for own, curve in zip(series, curves, strict=True):
+        rows = np.rint(curve.orders / timetable.step).astype(int)
+        np.add.at(own, rows, curve.forward)
+        np.add.at(own, -rows, curve.backward)
+    felt = np.fft.ifft(series, norm="forward") * timetable.stay
     found = np.empty((2, len(orders), len(curves)), complex)
     for k, order in enumerate(orders):
         wave = np.exp(1j * order * timetable.clock)
@@ -146,16 +151,9 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
     return [Phasors(orders, found[:, :, k], noise).drop_noise() for k, noise in enumerate(noises)]
 
 
-def _sample(curve: Phasors, timetable: Timetable) -> Complex:
-    """Return values (samples,) at the crank angles of a timetable."""
-    series = np.zeros(len(timetable.clock), complex)
-    rows = np.rint(curve.orders / timetable.step).astype(int)
-    np.add.at(series, rows, curve.forward)
-    np.add.at(series, -rows, curve.backward)
-    return np.fft.ifft(series, norm="forward")
-
-
-def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
+def apply_to_force(
+    steady: Phasors, w: Complex, mean: Figure = 0.0, *, rate_last: bool = False
+) -> Phasors:
     """Return the force, moment or couple under W.
 
     Args:
@@ -163,24 +161,11 @@ def apply_to_force(steady: Phasors, w: Complex, mean: Figure = 0.0) -> Phasors:
         w: Coefficients from `find_speed` with the same step, up to order k.
         mean: Mean momentum (for the couple: mean moment of momentum), which has no effect at a
             steady speed.
+        rate_last: Whether W multiplies twice before the derivative, as for a torque.
 
     Returns: the force for the same orders, correct up to n - 2k.
     """
-    return _apply(steady, w, mean, rate_last=False)
 
-
-def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
-    """Return the inertia torque under W, as `apply_to_force` does for a force.
-
-    Args:
-        steady: Torque at the mean speed, N m.
-        w: Coefficients of `find_speed`.
-        mean: Mean inertia times the square of the mean speed, N m.
-    """
-    return _apply(steady, w, mean / 2, rate_last=True)
-
-
-def _apply(steady: Phasors, w: Complex, mean: Figure, *, rate_last: bool) -> Phasors:
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
         once = _convolved(momentum, w)
         return -rate * _convolved(once, w) if rate_last else -_convolved(rate * once, w)
@@ -203,6 +188,17 @@ def _apply(steady: Phasors, w: Complex, mean: Figure, *, rate_last: bool) -> Pha
     backward = np.where(order[n:] > 0, result[n::-1], 0)
     # The bound of -n is that of n.
     return Phasors.of(steady.orders, result[n:], backward, error[n:])
+
+
+def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
+    """Return the inertia torque under W, as `apply_to_force` does for a force.
+
+    Args:
+        steady: Torque at the mean speed, N m.
+        w: Coefficients of `find_speed`.
+        mean: Mean inertia times the square of the mean speed, N m.
+    """
+    return apply_to_force(steady, w, mean / 2, rate_last=True)
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:

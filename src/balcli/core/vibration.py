@@ -85,18 +85,11 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
     _, falling, turned = np.linalg.svd(scaled, full_matrices=False)
     elastic = slice(springs.shape[1] - len(rigid))
     omega, turned = falling[elastic][::-1], turned[elastic][::-1]
-    still = _normalise_rigid(rigid, root)
-    shapes = np.concatenate([still, np.linalg.solve(root.T, turned.T).T])
-    return Modes(np.concatenate([np.zeros(len(still)), omega]), shapes, len(still))
-
-
-def _normalise_rigid(rigid: Real, root: Real) -> Real:
-    """Return the same motions, each of unit modal mass and orthogonal to the others; `root` is L of
-    the mass M = L L^T.
-    """
     mixed = np.linalg.qr((rigid @ root).T, mode="r")
     signed = mixed * np.copysign(1, np.diag(mixed))[:, None]
-    return np.linalg.solve(signed.T, rigid)
+    still = np.linalg.solve(signed.T, rigid)  # each of unit modal mass, orthogonal to the others
+    shapes = np.concatenate([still, np.linalg.solve(root.T, turned.T).T])
+    return Modes(np.concatenate([np.zeros(len(still)), omega]), shapes, len(still))
 
 
 def scale_shapes(shapes: Real) -> Real:
@@ -210,10 +203,7 @@ def solve_equations(
         inverse = np.linalg.pinv(matrix[singular], rcond=_RANK)
         solution[singular] = (inverse @ load[singular][..., None])[..., 0]
         left = np.abs((matrix @ solution[..., None])[..., 0] - load).max(axis=-1)
-        _refuse(singular & (left > 1e-8 * np.abs(load).max(axis=-1)), frequency)
+        resonant = singular & (left > 1e-8 * np.abs(load).max(axis=-1))
+        for met in np.broadcast_to(frequency, resonant.shape)[resonant][:1].tolist():
+            raise UndampedResonanceError(met)
     return solution
-
-
-def _refuse(resonant: NDArray[np.bool_], frequency: Real) -> None:
-    if np.any(resonant):
-        raise UndampedResonanceError(float(np.broadcast_to(frequency, resonant.shape)[resonant][0]))

@@ -14,9 +14,8 @@ function of the stages before it. `engine.parts` makes a stage when it is first 
 
 An engine has to keep rules: a rod lets its crank turn, every cylinder is at top dead centre when it
 fires, and so on. The groups of `RULES` go from early stages to late ones; the first group with
-mistakes ends the search. A rule names the keys of the file that it needs. Thus a file with some
-unreadable keys is checked by the same rules as far as it can be read (`engine.parse`), and the user
-sees all mistakes at once.
+mistakes ends the search. A file with mistakes in tables that do not make the engine is checked by
+the same rules, so that the user sees all mistakes at once (`engine.parse`).
 
 Variants take the same way: `varied` puts arrays in place of figures of the file, and every stage
 works on arrays as it does on numbers.
@@ -26,28 +25,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..core.mechanisms import harmonics
-from ..core.phasors import Figure
+from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
+from ..core.mechanisms.motion import Motion
+from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
+from ..file.fields import counted, join_words
 from ..file.model import EngineFile
-from ..limits import MOST_SAMPLES
-from .articulation import check_articulation, check_knuckles
+from ..file.read import Draft
+from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices
 from .engine import Bearings, Engine
 from .figures import FileFigures, divide
-from .gas import EngineGas
-from .layout import are_places_known
+from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
-from .rods import RodPlace, RunningGear, check_ends, check_rod_inertia, check_turning, weigh_rod
+from .rods import check_ends, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
-    from ..file.gas_tables import Bearing, Flywheel
+    from ..file.gas_tables import Flywheel
+    from .gas import EngineGas
 
 
 def build(
@@ -76,6 +78,10 @@ def build(
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
+    bearings = None
+    if (table := model.bearing) is not None:
+        pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
+        bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
     return Engine(
         name=model.name,
         source=model.source,
@@ -96,7 +102,7 @@ def build(
         gas=parts.gas,
         crank_inertia=divide(inertia, 1e6),
         flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
-        bearings=None if model.bearing is None else _find_bearings(model.bearing),
+        bearings=bearings,
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )
@@ -129,51 +135,45 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
     return mass * (radius * 1e-3) ** 2
 
 
-def _find_bearings(table: Bearing) -> Bearings:
-    pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
-    return Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
-
-
 # ------------------------------------------------------------------ rules between the stages
-class Rule(NamedTuple):
-    """A check, and the keys of the file that must be readable for it."""
+# Tables without whose figures no contradiction between tables can be found.
+_NEEDED = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"})
 
-    check: Callable[[Parts], Iterator[Problem]]
-    needs: frozenset[str]
+
+def list_contradictions(draft: Draft) -> list[Problem]:
+    """Return the contradictions between the tables of a file with mistakes; none if a table that
+    makes the engine cannot be read.
+    """
+    return find_contradictions(Parts(draft.model)) if draft.readable >= _NEEDED else []
 
 
 def find_contradictions(parts: Parts) -> list[Problem]:
-    """Return the contradictions between tables of a file, as far as the file could be read.
+    """Return the contradictions between tables of a file.
 
     The rules of a group presuppose those of the groups before it, so that only the first group with
     mistakes is reported, each mistake once.
     """
     for rules in RULES:
-        applicable = [rule for rule in rules if rule.needs <= parts.readable]
-        problems = [problem for rule in applicable for problem in _apply(rule, parts)]
+        problems: list[Problem] = []
+        for check in rules:
+            try:
+                problems += check(parts)
+            except InputError as error:  # a stage that cannot be made
+                problems += error.problems
         if problems:
             return list(dict.fromkeys(problems))
     return []
 
 
-def _apply(rule: Rule, parts: Parts) -> Iterator[Problem]:
-    """Yield the mistakes that a rule finds, or those of a stage that cannot be made for it."""
-    try:
-        yield from rule.check(parts)
-    except InputError as error:
-        yield from error.problems
-
-
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
     """Check that throws and banks make an engine which has all cylinders that tables name."""
-    count = len(parts.plan.cells)
-    made = (
-        f"crank.throws and layout make {count} cylinder{'s' * (count > 1)}; give every throw its "
-        "angle in crank.throws"
-    )
-    for number in parts.model.cylinder:
-        if number not in parts.plan.numbers:
-            yield Problem(f"cylinder.{number}", f"there is no cylinder {number}: {made}")
+    made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
+    strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
+    if strangers:
+        there = join_words([str(number) for number in strangers])
+        none = "are no cylinders" if len(strangers) > 1 else "is no cylinder"
+        told = f"there {none} {there}: {made}; give every throw its angle"
+        yield Problem(f"cylinder.{strangers[0]}", told)
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:
@@ -182,45 +182,97 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
     Whether an articulated rod can follow its knuckle pin depends on its master: `check_knuckles`.
     """
     checked = set()
-    for number, articulated in _list_rods(parts):
-        rod = (number if number in parts.tables else 0, articulated)
-        if rod not in checked:
-            checked.add(rod)
-            yield from _check_rod(parts, parts.find_rod(number, articulated))
+    for number in parts.plan.numbers:
+        place = parts.find_rod(number, number in parts.masters)
+        rod = number if number in parts.tables else 0, place.articulated
+        if rod in checked:
+            continue
+        checked.add(rod)
+        gear, one_end = parts.weigh_gear(place), list(check_ends(place))
+        yield from one_end or check_rod_inertia(place, gear)
+        if not place.articulated:
+            yield from check_turning(place, gear, parts.radius)
 
 
-def _list_rods(parts: Parts) -> list[tuple[int, bool]]:
-    """Return the cylinder of each rod, and whether the rod is articulated. Where the plan is not
-    known, 0 stands for the rod of all cylinders.
+def check_articulation(parts: Parts) -> Iterator[Problem]:
+    """Check that articulated rods have a master rod on their throw, one knuckle angle for each
+    bank, and no crank pins of their own.
     """
-    if not parts.readable >= {*_PLAN, "articulation"}:
-        return [(0, False)]
-    try:
-        return [(number, number in parts.masters) for number in parts.plan.numbers]
-    except InputError:
-        own = () if parts.model.articulation else parts.tables
-        return [(number, False) for number in (0, *own)]
-
-
-def _check_rod(parts: Parts, place: RodPlace) -> Iterator[Problem]:
-    one_end = list(check_ends(place))
-    yield from one_end
-    gear = _weigh_rod(parts, place)
-    if gear is None:
+    if (articulation := parts.model.articulation) is None:
         return
-    if not one_end:
-        yield from check_rod_inertia(place, gear)
-    if "crank.stroke" in parts.readable and not place.articulated:
-        yield from check_turning(place, gear, parts.radius)
+    if fault := _find_no_place(articulation.master, parts.plan):
+        yield fault
+        return
+    angles, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
+    banks, master = parts.plan.banks, articulation.master
+    if angles is not None and len(angles) != banks:
+        told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
+        yield Problem(path, f"{told}: give one for each, the master's own is 0")
+    elif angles is not None and np.any(np.asarray(angles[master - 1]) != 0):
+        angle = max(np.ravel(angles[master - 1]), key=abs)
+        told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
+        yield Problem(path, told)
+    if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
+        told = "articulated rods have no crank pins to split: leave splay out, or [articulation]"
+        yield Problem("crank.splay", told)
+    for number in parts.masters:
+        if parts.override(number, "throw") is not None:
+            told = "its articulated rod hangs on the master rod: leave this out"
+            yield Problem(f"cylinder.{number}.throw", told)
 
 
-def _weigh_rod(parts: Parts, place: RodPlace) -> RunningGear | None:
-    """Return a rod, with its piston as far as [piston] is readable; None without a rod length."""
-    if parts.readable >= {"crank.stroke", "piston"}:
-        return parts.weigh_gear(place)
-    if "crank.stroke" in parts.readable:
-        return weigh_rod(place.rod, place.rod.length_for(parts.radius))
-    return None if place.rod.length is None else weigh_rod(place.rod, place.rod.length)
+def _find_no_place(master: int, plan: Plan) -> Problem | None:
+    """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
+    banks = plan.banks
+    needs = f"needs a throw that carries the rods of several banks; this engine has {banks} bank"
+    if banks < 2:
+        return Problem("articulation", f"{needs}: give bank_angle, banks or radial")
+    if plan.rods_on_throw < banks:
+        told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
+        return Problem("articulation", told)
+    if master > banks:
+        told = f"there is no bank {master}; this engine has banks 1 to {banks}"
+        return Problem("articulation.master", told)
+    return None
+
+
+def check_knuckles(parts: Parts) -> Iterator[Problem]:
+    """Check that every articulated rod can follow its knuckle pin through a revolution, for the
+    worst of all variants.
+    """
+    if parts.model.articulation is None:
+        return
+    cylinders, numbers = parts.cylinders, parts.numbers
+    linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
+    hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
+    # Knuckle pins are at most a crank and a knuckle radius away.
+    if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
+        return
+
+    def find_largest(motion: Motion) -> Array:
+        lean = np.abs(motion.lean)
+        return lean.reshape(len(numbers), -1, lean.shape[-1]).max(axis=1)
+
+    with np.errstate(invalid="ignore"):  # beyond 1 there is no angle
+        leans = hung.sample(find_largest, revolution(STEPS), lam, eps)
+    turned = cylinders.angle_deg.reshape(len(numbers), -1)[:, 0]
+    for row, number in enumerate(numbers):
+        worst = int(leans[row].argmax())
+        before, at, after = (leans[row, (worst + k) % STEPS] for k in (-1, 0, 1))
+        bend = 2 * at - before - after
+        # The top of the parabola through the sampled maximum and its neighbours
+        lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
+        if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
+            continue
+        own, crank_deg = parts.model.cylinder.get(number), (360 / STEPS * worst - turned[row]) % 360
+        general = own is None or (own.rod_length is None and own.rod_ratio is None)
+        yield Problem(
+            "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
+            f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of "
+            f"cylinder {number} stands {lean:.9g} rod lengths off the path of its piston pin; at "
+            f"most 1 - {NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the "
+            "knuckle radius smaller",
+        )
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
@@ -229,10 +281,8 @@ def check_half_orders(parts: Parts) -> Iterator[Problem]:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
         if line.order % 1:
-            yield Problem(
-                f"operation.speed_ripple.{number}.order",
-                f"{line.order:g} is no whole number; half orders take four strokes and [gas]",
-            )
+            told = f"{line.order:g} is no whole number; half orders take four strokes and [gas]"
+            yield Problem(f"operation.speed_ripple.{number}.order", told)
 
 
 def check_speed(parts: Parts) -> Iterator[Problem]:
@@ -249,13 +299,10 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
         slowest = find_slowest(list(map(RippleLine, orders, amplitudes, angles)))
         if slowest.value <= STANDSTILL:
             share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
-            yield Problem(
-                "operation.speed_ripple",
-                f"the crank would {'turn back' if share else 'stop'}: at crank angle "
-                f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean; it "
-                "must stay above 0: make the amplitudes smaller, they are shares of the mean speed "
-                "(0.01 is one per cent)",
-            )
+            told = f"the crank would {'turn back' if share else 'stop'}: at crank angle "
+            told += f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: "
+            told += "make the amplitudes smaller, they are shares of the mean speed"
+            yield Problem("operation.speed_ripple", told)
             return
 
 
@@ -268,12 +315,9 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         return
     different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
-        yield Problem(
-            "cylinder",
-            f"the cylinders have {different} different mechanisms, some so near their lock that "
-            f"all of them need {samples} samples of a revolution; at most {MOST_SAMPLES} are "
-            "taken: make these rods longer, or more of them equal",
-        )
+        told = f"{different} different mechanisms need {samples} samples of a revolution; at most "
+        told += f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal"
+        yield Problem("cylinder", told)
 
 
 def check_gas(parts: Parts) -> Iterator[Problem]:
@@ -287,10 +331,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
             for key in ("gas", "heat", "indicator"):
                 dummy = key == "gas" and parts.order is not None and number not in parts.order
                 if getattr(own, key) is not None and not dummy:
-                    yield Problem(
-                        f"cylinder.{number}.{key}",
-                        "needs [gas], which says what the gas does in all cylinders",
-                    )
+                    told = "needs [gas], which says what the gas does in all cylinders"
+                    yield Problem(f"cylinder.{number}.{key}", told)
     elif parts.gas is None and not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
 
@@ -298,21 +340,11 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
 
 
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
-_BANKS = ("bank_angle", "banks", "radial", "rods", "numbering", "firing_order")
-_PLAN = frozenset(  # keys that decide which cylinders there are
-    {"crank.throws", "crank.positions", *(f"layout.{key}" for key in _BANKS)}
-)
-_WHOLE = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder"})
-RULES = (
-    (  # plan and gears
-        Rule(check_cylinders, _PLAN),
-        Rule(check_articulation, _PLAN | {"crank.splay", "articulation"}),
-        Rule(check_rods, frozenset({"rod"})),
-        Rule(check_half_orders, frozenset({"operation", "layout.strokes", "gas"})),
-        Rule(check_speed, frozenset({"operation"})),
-    ),
-    (Rule(check_knuckles, _WHOLE),),  # pins
-    (Rule(check_numbering, _WHOLE),),  # firing
-    (Rule(check_samples, _WHOLE),),  # cylinders
-    (Rule(check_gas, _WHOLE | {"gas"}),),
+RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
+    # plan and gears
+    (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
+    (check_knuckles,),  # pins
+    (check_numbering,),  # firing
+    (check_samples,),  # cylinders
+    (check_gas,),
 )

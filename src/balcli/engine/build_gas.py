@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, pistons, press
-from ..core.gas_cycle import GasCycle, Goal, Process, find_cycle_mistakes, gas_cycle
+from ..core.gas_cycle import GasCycle, Goal, Process, gas_cycle
 from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
@@ -31,9 +31,9 @@ from .layout import find_first
 from .parts import Parts
 
 _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
-# Heat of fuel that burns all air, over pressure times volume of that air: 2.95 MJ/kg for petrol and
-# Diesel fuel alike, at 300 K; more than HEAT_MOST is doubted.
-HEAT_OF_AIR, HEAT_MOST = 34, 40.0
+# Heat of fuel over pressure times volume of the charge that is doubted: where all air burns it is
+# 34, from 2.95 MJ/kg for petrol and Diesel fuel alike, at 300 K.
+HEAT_MOST = 40.0
 
 
 class _Source(NamedTuple):
@@ -66,7 +66,8 @@ def build_gas(parts: Parts) -> EngineGas:
     gas, strokes = _vary(parts), parts.model.layout.strokes
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     bore = _take(parts, "piston.bore", parts.model.piston.bore)
-    _refuse([*_list_contradictions(parts, gas, sources, bore)])
+    if problems := list(_list_contradictions(parts, gas, sources, bore)):
+        raise InputError(problems)
     found = pistons(parts.cylinders, math.pi / 4 * ((bore or 0.0) / 1e3) ** 2)
     keys = [
         (*mechanism, source.indicator, source.heat)
@@ -82,8 +83,7 @@ def build_gas(parts: Parts) -> EngineGas:
     def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
         return read_columns(locate_beside(parts.model.folder, name), heads)
 
-    torques, problems, doubts = dict[int, GasTorque](), list[Problem](), list[str]()
-    overfed = list[str]()
+    torques, doubts, overfed = dict[int, GasTorque](), list[str](), list[str]()
     for row in sorted(set(like)):
         source, piston = sources[row], found[row]
         name = source.indicator or gas.harmonics
@@ -105,9 +105,12 @@ def build_gas(parts: Parts) -> EngineGas:
         except BalcliError as error:
             path = "gas.harmonics" if source.indicator is None else source.path
             problems.append(Problem(path, str(error)))
-    _refuse(problems)
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
     measured = any(source.indicator is not None for source in sources)
-    doubts += [*overfed[:1], *_list_idle(gas, strokes, measured=measured)]
+    idle = gas.list_idle_keys(strokes, measured, computed=gas.cycle is not None)
+    given = [key for key in ("crankcase", "exhaust") if key in gas.model_fields_set & idle]
+    doubts += [*overfed[:1], *(f"gas.{key} changes nothing in this engine" for key in given)]
     nominal = _find_nominal(parts, [piston.top for piston in found])
     cylinders = (
         CylinderGas(piston, torques[row], angle, source.share, source.heat, row)
@@ -120,11 +123,6 @@ def build_gas(parts: Parts) -> EngineGas:
         gas.compression_ratio,
         tuple(doubts),
     )
-
-
-def _refuse(problems: Sequence[Problem]) -> None:
-    if problems:
-        raise InputError(list(dict.fromkeys(problems)))
 
 
 # ------------------------------------------------------------------ keys of the file
@@ -164,42 +162,22 @@ def _list_contradictions(
     if bore is None:
         yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
-        yield Problem.of_missing(
-            "layout.firing_order",
-            "a four-stroke cylinder fires in every second revolution, and only "
-            "the firing order says in which, such as firing_order = [1, 3, 4, 2]",
-        )
+        told = "it says in which of two revolutions each cylinder fires, such as [1, 3, 4, 2]"
+        yield Problem.of_missing("layout.firing_order", told)
     for number, table in parts.model.cylinder.items():
         if gas.cycle is None and table.heat is not None:
-            yield Problem(
-                f"cylinder.{number}.heat",
-                "belongs to a computed cycle, and [gas] has none; give the cylinder a diagram of "
-                "its own (indicator)",
-            )
+            told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
+            yield Problem(f"cylinder.{number}.heat", told)
     measured = any(source.indicator is not None for source in sources)
     for key in () if measured else DIAGRAM_KEYS:
         if key in gas.model_fields_set:
             yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
-        yield Problem(
-            "gas.intake_closes",
-            "has no meaning in a two-stroke cycle, whose ports close where the exhaust opened: "
-            "leave it out",
-        )
+        told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
+        yield Problem("gas.intake_closes", f"{told}: leave it out")
     if two_stroke and gas.zero == "gas-exchange":
         told = 'a two-stroke cycle has no gas-exchange dead centre; give "firing"'
         yield Problem("gas.zero", told)
-
-
-def _list_idle(gas: Gas, strokes: int, *, measured: bool) -> Iterator[str]:
-    """Yield the keys of [gas] that change nothing of this engine, each with the reason."""
-    if gas.harmonics and not measured and "crankcase" in gas.model_fields_set:
-        yield "gas.crankcase changes nothing with harmonics, which are of the torque"
-    if strokes == 2 and "exhaust" in gas.model_fields_set:
-        yield (
-            "gas.exhaust changes nothing in a two-stroke cycle: while the ports are open the "
-            "pressure is gas.intake"
-        )
 
 
 # ------------------------------------------------------------------ builders' tables
@@ -215,27 +193,20 @@ def _read_harmonics(
     orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
     if not len(orders):
         raise BalcliError(f"{name}: has no rows; give order,cos,sin in each")
-    step = 2 / strokes
-    before = np.append(-math.inf, orders[:-1])
-    mistakes = (
-        (orders <= before, "order {order:g} is not above the {before:g} before it"),
-        (
-            orders > HIGHEST_TABLE_ORDER,
-            f"order {{order:g}} is above {HIGHEST_TABLE_ORDER}, where no table goes",
-        ),
-        (
-            (orders == 0) & (sines != 0),
-            "order 0 has sin {sine:g}; it is the mean, which has no sine: write 0",
-        ),
-        (
-            (orders < 0) | (orders % step != 0),
-            f"order {{order:g}}: a cycle of {strokes} strokes has multiples of {step:g}",
-        ),
-    )
-    for wrong, message in mistakes:
-        for row in np.flatnonzero(wrong)[:1].tolist():
-            text = message.format(order=orders[row], sine=sines[row], before=before[row])
-            raise BalcliError(f"{name}: line {columns.lines[row]}: {text}")
+    step, before = 2 / strokes, -math.inf
+    for order, sine, line in zip(orders.tolist(), sines.tolist(), columns.lines, strict=True):
+        wrong = ""
+        if order <= before:
+            wrong = f"order {order:g} is not above the {before:g} before it"
+        elif order > HIGHEST_TABLE_ORDER:
+            wrong = f"order {order:g} is above {HIGHEST_TABLE_ORDER}, where no table goes"
+        elif order == 0 and sine:
+            wrong = f"order 0 has sin {sine:g}; it is the mean, which has no sine: write 0"
+        elif order < 0 or order % step:
+            wrong = f"order {order:g}: a cycle of {strokes} strokes has multiples of {step:g}"
+        if wrong:
+            raise BalcliError(f"{name}: line {line}: {wrong}")
+        before = order
     size = piston.area * piston.radius * BAR
 
     def torque(angle: Array) -> Array:
@@ -251,7 +222,7 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
     """Return the computed cycle of a cylinder.
 
     Raises:
-        InputError: Keys from which no cycle can be computed.
+        InputError: A key from which no cycle can be computed.
     """
     keys = [field.name for field in fields(Process) if field.name != "strokes"]
     given = {key: getattr(gas, key) for key in keys}
@@ -260,13 +231,10 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
     process, goal = Process(strokes=strokes, **given), _find_goal(gas, source)
     if source.heat == 0:  # it expands as it was compressed
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
-    wrong = list(find_cycle_mistakes(piston, process, goal))
     try:
-        if not wrong:
-            return gas_cycle(piston, process, goal)
+        return gas_cycle(piston, process, goal)
     except GasError as error:
-        wrong = [error]
-    raise InputError([_locate(error, gas, source) for error in wrong])
+        raise InputError([_locate(error, gas, source)]) from None
 
 
 def _find_goal(gas: Gas, source: _Source) -> Goal:
@@ -301,10 +269,9 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     if cycle.heat > HEAT_MOST * charge:
         path = _locate(GasError(_find_goal(gas, source).name, ""), gas, source).path
         yield (
-            f"{path} takes {cycle.heat:.4g} J of heat "
-            f"in each cycle, {cycle.heat / charge:.2g} times the pressure times the volume of its "
-            f"charge; fuel for all of that air gives some {HEAT_OF_AIR:g} times; is gas.intake = "
-            f"{gas.intake:.4g} bar right? It is absolute, and more where the engine is supercharged"
+            f"{path} takes {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
+            f"charge burns; is gas.intake = {gas.intake:.4g} bar right? It is absolute, and more "
+            "where the engine is supercharged"
         )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, list_tables
-from ..names import NOTEBOOK, VARY, import_name
+from ..names import EXPLORE, NOTEBOOK, VARY, import_name
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -140,6 +140,15 @@ class Engine:
         check_type("vary", changes, Mapping, 'give a dict, such as {"rod.length": 150}')
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
+
+    def explore(self) -> Any:
+        """Return the page of the engine for a notebook: the engine in motion, and its numbers to
+        change.
+
+        Raises:
+            BalcliError: No file describes this engine.
+        """
+        return import_name(EXPLORE)(self)
 
     def to_dict(self) -> Node:
         """Return the tables of the engine file, from which `load` makes the same engine, with
@@ -362,10 +371,8 @@ def take_model(engine: Engine) -> EngineFile:
         BalcliError: No file describes this engine.
     """
     if engine.model is None:
-        raise BalcliError(
-            f"{engine.summary}: no engine file can say what this engine is (it has devices that "
-            "none describes, or is a variant); take the one from which it was made"
-        )
+        told = "no file describes this engine, which is a variant, or has devices of its own; take "
+        raise BalcliError(f"{engine.summary}: {told}the one from which it was made")
     return engine.model
 
 
@@ -381,8 +388,7 @@ def find_row(engine: Engine, number: int, option: str) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        some = ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(
-            f"{option} {number}: {engine.name or 'the engine'} has the cylinders {some}"
-        )
+        some = f"{engine.name or 'the engine'} has the cylinders "
+        some += ", ".join(map(str, sorted(engine.numbers)))
+        raise BalcliError(f"{option} {number}: {some}")
     return engine.numbers.index(number)

@@ -7,7 +7,7 @@ fires; which of the two revolutions of a four-stroke cycle that is, the firing o
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -95,9 +95,3 @@ class EngineGas:
         for row, cylinder in enumerate(self.cylinders):
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
-
-    def without_share_of(self, row: int) -> EngineGas:
-        """Return the gas of the engine with a misfire of the cylinder in a row."""
-        changed = list(self.cylinders)
-        changed[row] = changed[row]._replace(share=0.0)
-        return replace(self, cylinders=tuple(changed))

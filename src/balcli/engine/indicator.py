@@ -52,14 +52,14 @@ def build_diagram(
     Raises:
         BalcliError: The first mistake in the file, by its line.
     """
-    kind = "gauge" if _is_gauge(gas, columns) else "absolute"
-    for below in np.flatnonzero(_absolute(gas, columns) < 0).tolist():
-        right, hint = ("at least the vacuum", "") if kind == "gauge" else ("0 or more", ASK_GAUGE)
-        found = columns.as_written(below, 1)
-        message = f"line {columns.lines[below]}: the {kind} pressure is {found}: give {right}"
-        raise BalcliError(f"{name}: {message}{hint}")
-    period = 180.0 * strokes
-    angle, pressure, count = _average_cycles(gas, columns, period)
+    gauge, period = gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS, 180.0 * strokes
+    angle, pressure = np.array(columns.column(0)), np.array(columns.column(1)) * BAR
+    pressure += ATMOSPHERE if gauge else 0.0
+    for below in np.flatnonzero(pressure < 0).tolist():
+        found = f"line {columns.lines[below]}: the pressure is {columns.as_written(below, 1)}"
+        right = "give at least the vacuum" if gauge else f"give 0 or more{ASK_GAUGE}"
+        raise BalcliError(f"{name}: {found}: {right}")
+    angle, pressure, count = _average_cycles(angle, pressure, period)
     for row, message in find_diagram_mistakes(angle, pressure, strokes=strokes):
         line = "" if row is None else f"line {columns.lines[row]}: "
         raise BalcliError(f"{name}: {line}{message}")
@@ -81,39 +81,26 @@ def _name_unit(columns: NumberColumns) -> str:
     return columns.units[1].removesuffix("g")
 
 
-def _absolute(gas: Gas, columns: NumberColumns) -> Array:
-    """Return the absolute pressures of all rows, Pa."""
-    gauge = ATMOSPHERE if _is_gauge(gas, columns) else 0.0
-    return np.array(columns.column(1)) * BAR + gauge
-
-
-def _average_cycles(gas: Gas, columns: NumberColumns, period: float) -> tuple[Array, Array, int]:
-    """Return angles (deg) and absolute pressures (Pa) of a cycle, and how many the file has: of
-    several, one after the other, the mean at the angles of the first.
+def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array, Array, int]:
+    """Return angles (deg) and pressures of a cycle, and how many cycles the rows have: of several,
+    one after the other, the mean at the angles of the first. Other rows are returned as they are.
     """
-    angle, pressure = np.array(columns.column(0)), _absolute(gas, columns)
     steps = np.diff(angle)
     starts = np.flatnonzero(steps < -period / 2)  # every cycle counts from its own beginning
     if len(angle) < 2 or not (np.delete(steps, starts) > 0).all():
         return angle, pressure, 1
-    angle = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
-    span = angle[-1] - angle[0]
-    kept = np.append(
-        True, np.diff(angle) > _SAME
-    )  # the end of a cycle is the beginning of the next
-    if not (np.diff(angle) > -_SAME).all():
-        return np.array(columns.column(0)), pressure, 1
-    count = round((span + np.median(steps)) / period)
-    if count < 2 or abs(span - count * period) > 2 * np.median(steps) + _SAME:
-        return angle, pressure, 1
-    first = angle < angle[0] + period - _SAME
-    every = angle[first] + period * np.arange(count)[:, np.newaxis]
-    mean = np.interp(every, angle[kept], pressure[kept]).mean(axis=0)
-    return angle[first], mean, count
-
-
-def _is_gauge(gas: Gas, columns: NumberColumns) -> bool:
-    return gas.pressure == "gauge" or columns.units[1] in GAUGE_UNITS
+    through = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
+    steps, span = np.diff(through), through[-1] - through[0]
+    usual = np.median(np.diff(angle))
+    count = round((span + usual) / period)
+    gap = abs(span - count * period)
+    if count < 2 or gap > 2 * usual + _SAME or not (steps > -_SAME).all():
+        return (angle if (steps <= -_SAME).any() else through), pressure, 1
+    kept = np.append(True, steps > _SAME)  # the end of a cycle is the beginning of the next
+    first = through < through[0] + period - _SAME
+    every = through[first] + period * np.arange(count)[:, np.newaxis]
+    mean = np.interp(every, through[kept], pressure[kept]).mean(axis=0)
+    return through[first], mean, count
 
 
 def _is_closed(angle: Array, period: float) -> bool:

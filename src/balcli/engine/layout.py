@@ -23,7 +23,7 @@ from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
 from ..file.fields import counted
-from ..file.model import Crank, EngineFile, Layout
+from ..file.model import EngineFile, Layout
 from ..limits import MOST_PARTS
 from .figures import FileFigures
 
@@ -65,25 +65,33 @@ def plan_cylinders(model: EngineFile) -> Plan:
     crank, layout = model.crank, model.layout
     banks = count_banks(layout)
     shared = layout.rods == "shared" or banks == 1
-    throws = _count_throws(crank, layout, banks if shared else 1)
-    _refuse_too_many(throws, banks, shared)
+    rods, cylinders = banks if shared else 1, len(layout.firing_order or ())
+    if crank.throws is None and cylinders % rods:
+        told = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
+        told += f"give crank.throws, or a multiple of {rods} cylinders"
+        raise InputError([Problem("layout.firing_order", told)])
+    throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
+    if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # more than there is memory for
+        told = (
+            f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
+            f"no engine has more than {MOST_PARTS} cylinders"
+        )
+        raise InputError([Problem("layout" if banks > 1 else "crank.throws", told)])
     all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
     places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
     numbers, problems = _number_cylinders(layout, places, banks)
-    problems += _check_positions(crank, throws)
+    if crank.positions is not None and len(crank.positions) != throws:
+        told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
+        problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
-        problems.append(
-            Problem(
-                "layout.rods",
-                f'"alternating" gives every throw one rod, but there are {banks} banks and only '
-                f'{counted(throws, "throw")}: give more throws, or "shared"',
-            )
-        )
+        told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
+        told += f'{counted(throws, "throw")}: give more throws, or "shared"'
+        problems.append(Problem("layout.rods", told))
     problems += _check_firing_order(model, sorted(numbers), throws)
     if problems:
         raise InputError(problems)
     cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
-    return Plan(banks, throws, cells, banks if shared else 1)
+    return Plan(banks, throws, cells, rods)
 
 
 def count_banks(layout: Layout) -> int:
@@ -112,40 +120,6 @@ def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
 def cycle_deg(layout: Layout) -> float:
     """Return the crank angle from one firing of a cylinder to its next, deg."""
     return TURN * layout.strokes / 2
-
-
-def _count_throws(crank: Crank, layout: Layout, rods: int) -> int:
-    """Return the number of throws: as given, or for the firing order with `rods` on each."""
-    if crank.throws is not None:
-        return len(crank.throws)
-    cylinders = len(layout.firing_order or ())
-    if cylinders % rods:
-        message = (
-            f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
-            f"give crank.throws, or a multiple of {rods} cylinders"
-        )
-        raise InputError([Problem("layout.firing_order", message)])
-    return max(cylinders // rods, 1)
-
-
-def _refuse_too_many(throws: int, banks: int, shared: bool) -> None:
-    """Raise InputError for more cylinders (banks x throws) than there is memory for."""
-    if max(banks, throws, throws * banks * shared) <= MOST_PARTS:
-        return
-    message = (
-        f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
-        f"no engine has more than {MOST_PARTS} cylinders"
-    )
-    raise InputError([Problem("layout" if banks > 1 else "crank.throws", message)])
-
-
-def _check_positions(crank: Crank, throws: int) -> Iterator[Problem]:
-    if crank.positions is not None and len(crank.positions) != throws:
-        yield Problem(
-            "crank.positions",
-            f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}: "
-            "give one position a throw",
-        )
 
 
 def _number_cylinders(
@@ -203,10 +177,7 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
     missing = [n for n in wanted if n not in times]
-    if len(missing) == 1:
-        parts.append(f"cylinder {missing[0]} is missing")
-    elif missing:
-        parts.append(f"cylinders {_join(missing)} are missing")
+    parts += [f"missing is {_join(missing)}"] * bool(missing)
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
 
 
@@ -290,10 +261,25 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
         InputError: The order takes more than a cycle.
     """
     following = [*order[1:], order[0]]
-    intervals = [_to_whole_turn(ready[b] - ready[a]) for a, b in zip(order, following, strict=True)]
+    turned = [(ready[b] - ready[a]) % 360 for a, b in zip(order, following, strict=True)]
+    # An angle within the tolerance of 0 is a whole turn.
+    intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        raise InputError([_impossible(order, ready, total, cycle)])
+        each = cycle / len(order)
+        gaps = [ready[i] - ready[order[0]] - k * each for k, i in enumerate(order)]
+        off = (
+            i
+            for i, gap in zip(order, gaps, strict=True)
+            if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG
+        )
+        told = (
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
+            f"cycle has {cycle:g}; evenly, every {each:g} deg, cylinder {next(off, order[-1])} is "
+            "the first that is not at top dead centre when it fires: change firing_order or "
+            "crank.throws, or leave crank.throws out"
+        )
+        raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):
         shortest = min(reversed(range(len(intervals))), key=lambda k: round(intervals[k], 6))
         intervals[shortest] += 360.0
@@ -334,7 +320,7 @@ def check_firing(
     first = find_first(fires)
     for i, wanted in find_pins(fires, tops, sense).items():
         ahead = pins[i] - pins[first]
-        off = float(np.max(np.abs(_centred(ahead - wanted))))
+        off = float(np.max(np.abs(np.remainder(ahead - wanted + 180.0, 360.0) - 180.0)))
         if off > TOLERANCE_DEG:
             yield Problem(
                 "layout.firing_order",
@@ -344,33 +330,3 @@ def check_firing(
                 "deg); change crank.throws, crank.splay, firing_order or firing_intervals",
             )
             return
-
-
-def _impossible(
-    order: Sequence[int], ready: Mapping[int, float], total: float, cycle: float
-) -> Problem:
-    """Return the message for a firing order that takes longer than a cycle, with the first cylinder
-    that would be late if the engine fired evenly.
-    """
-    interval = cycle / len(order)
-    off = np.array([ready[i] - ready[order[0]] - k * interval for k, i in enumerate(order)])
-    late = np.flatnonzero(np.abs(_centred(off)) > TOLERANCE_DEG)
-    culprit = order[late[0] if len(late) else -1]
-    return Problem(
-        "layout.firing_order",
-        f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a cycle "
-        f"has {cycle:g}; firing evenly, every {interval:g} deg, cylinder {culprit} is the first "
-        f"that is not at top dead centre when it fires (allowed difference {TOLERANCE_DEG:g} deg): "
-        "change firing_order or crank.throws, or leave crank.throws out",
-    )
-
-
-def _to_whole_turn(angle: float) -> float:
-    """Return an angle in (0, 360]; an angle within the tolerance of 0 is a whole turn."""
-    turned = angle % 360
-    return turned if turned > TOLERANCE_DEG else turned + 360
-
-
-def _centred(angle: Figure) -> Figure:
-    """Return an angle in [-180, 180)."""
-    return np.remainder(angle + 180.0, 360.0) - 180.0

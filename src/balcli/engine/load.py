@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 import numpy as np
 
@@ -17,8 +18,10 @@ from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .gas import EngineGas
 from .parse import parse, parse_dict, parse_tables
+
+if TYPE_CHECKING:
+    from .gas import EngineGas
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
 
@@ -127,23 +130,17 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
         raise mistakes from None
 
 
-_WHOLE = frozenset({"gas", "layout", "articulation"})  # tables all of whose figures count
-_KEYS = {
-    "crank": frozenset({"stroke", "throws", "splay"}),
-    "rod": frozenset({"length", "ratio"}),
-    "piston": frozenset({"bore", "offset"}),
-}
-_OF_CYLINDER = frozenset(
-    {"piston_offset", "rod_length", "rod_ratio", "bank", "throw", "gas", "heat"}
+# Figures on which the gas torque of a cylinder depends, by their dotted names
+_OF_GAS = (
+    r"(gas|layout|articulation)\..*|crank\.(stroke|throws.*|splay)|rod\.(length|ratio)"
+    r"|piston\.(bore|offset)"
+    r"|cylinder\.\d+\.(piston_offset|rod_length|rod_ratio|bank|throw|gas|heat)"
 )
 
 
 def concerns_gas(path: str) -> bool:
     """Return whether the gas torque of a cylinder depends on a figure, by its dotted name."""
-    table, _, key = path.partition(".")
-    if table == "cylinder":
-        return key.partition(".")[2] in _OF_CYLINDER
-    return table in _WHOLE or key.partition(".")[0] in _KEYS.get(table, ())
+    return re.fullmatch(_OF_GAS, path) is not None
 
 
 Key = TypeVar("Key")
@@ -199,7 +196,7 @@ class EngineVariants:
         return remember(self._engines, tuple(values.items()), make)
 
 
-class FiguresOfVariants(Generic[Asked]):
+class FiguresOfVariants(EngineVariants, Generic[Asked]):
     """Evaluates quantities of variants of a file one by one.
 
     Args:
@@ -214,8 +211,8 @@ class FiguresOfVariants(Generic[Asked]):
         model: EngineFile,
         quantities: Sequence[Asked],
     ) -> None:
+        super().__init__(model)
         self._evaluate, self._quantities = evaluate, quantities
-        self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for one variant, by the figures that vary.
@@ -223,7 +220,7 @@ class FiguresOfVariants(Generic[Asked]):
         Raises:
             InputError, BalcliError: No engine can have these figures, or a quantity is not known.
         """
-        return self._evaluate(self._engines.build(values), self._quantities)
+        return self._evaluate(self.build(values), self._quantities)
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:

@@ -31,7 +31,7 @@ from ..core.phases import RPM, TURN, Phases
 from ..core.phasors import Phasors
 from ..errors import InputError, Problem
 from ..file.model import EngineFile
-from ..file.plain_tables import list_chapter_defaults, list_mass_defaults
+from ..file.plain_tables import list_chapter_defaults
 from ..limits import SMALL
 from .devices import build_devices
 from .figures import place_in_plane
@@ -101,13 +101,11 @@ class Candidate:
             intervals or another splay.
         numberings: Numberings of this engine, the one of `model` first.
         change: The other key that makes it fit, with its value; may be empty.
-        splay: The other splay, deg; 0 without.
     """
 
     model: EngineFile
     numberings: list[Rows]
     change: str = ""
-    splay: float = 0.0
 
     @cached_property
     def parts(self) -> Parts:
@@ -141,7 +139,7 @@ class Candidate:
         0.1 m apart where the file gives no spacing.
         """
         model, orders = self.model, np.array([1.0, 2.0])
-        if not self._knows_places:
+        if not self._places_known:
             model = model.with_table("crank", spacing=100.0)
         parts = Parts(model)
         c, (x, y, z) = parts.cylinders, parts.places.reference
@@ -163,13 +161,12 @@ class Candidate:
         mass = max(float(each.reciprocating) for each in parts.weighed.values())
         radius = float(np.max(c.radius))
         one = mass * radius * (self.model.operation.speed * RPM) ** 2
-        known = self._knows_places or parts.plan.throws == 1
-        return max(force, known * moment / max(float(np.ptp(c.z)), 2 * radius)) / (one or np.inf)
+        arm = max(float(np.ptp(c.z)), 2 * radius)
+        return max(force, self._places_known * moment / arm) / (one or np.inf)
 
     @property
-    def _knows_places(self) -> bool:
-        crank = self.model.crank
-        return crank.spacing is not None or crank.positions is not None
+    def _places_known(self) -> bool:
+        return are_places_known(self.model, self.parts.plan)
 
     def describe(self) -> str:
         """Return the line of this engine in a list: keys to copy, throws, balance."""
@@ -177,24 +174,21 @@ class Candidate:
         force, moment = (
             " and ".join(f"{v:.4g}" for v in sizes) for sizes in (p.major for p in self.balance)
         )
-        known = self._knows_places or self.parts.plan.throws == 1
-        told = f"{moment} N m" if known else "not known"
+        told = f"{moment} N m" if self._places_known else "not known"
         same = " or ".join(map(write_rows, self.numberings[1:]))
+        first = next(c for c in self.parts.plan.cells if c.number == 1)
+        angles = bank_angles(self.model.layout, self.parts.figures)
+        side = float(np.remainder(angles[first.bank] + 180.0, 360.0)) - 180.0
+        bank = f"bank {first.bank + 1}"
+        if len(angles) == 2 and side:
+            bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
         return (
             f"{keys}{self.change and ', '}{self.change}: throws "
-            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 {self._place_first()};"
+            f"{_join(_count_throws_from_first(self.parts))}; cylinder 1 on {bank}, throw "
+            f"{first.throw + 1};"
             f" orders 1 and 2: force {force} N, moment {told}"
             + (f"; the same engine: {same}" if same else "")
         )
-
-    def _place_first(self) -> str:
-        cell = next(c for c in self.parts.plan.cells if c.number == 1)
-        angles = bank_angles(self.model.layout, self.parts.figures)
-        side = float(np.remainder(angles[cell.bank] + 180.0, 360.0)) - 180.0
-        bank = f"bank {cell.bank + 1}"
-        if len(angles) == 2 and side:
-            bank = f"the {'left' if side < 0 else 'right'} bank seen from the free end"
-        return f"on {bank}, throw {cell.throw + 1}"
 
     def rank(self, position: int) -> tuple[float, ...]:
         """Return the key to sort lines by: force and moment that counterweights leave, splay, and
@@ -203,7 +197,16 @@ class Candidate:
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
         left = (float(abs(p.backward[0]) + p.major[1]) for p in self.balance)
-        return *(float(f"{size:.6g}") for size in left), abs(self.splay), position
+        return *(float(f"{size:.6g}") for size in left), abs(self.model.crank.splay), position
+
+
+def _change(
+    model: EngineFile, path: str, value: float | Sequence[float], numberings: Sequence[Rows] = ()
+) -> Candidate:
+    """Return the engine of a file with another value of a key."""
+    table, _, key = path.partition(".")
+    text = f"{value:g}" if isinstance(value, (int, float)) else f"[{_join(value)}]"
+    return Candidate(model.with_table(table, **{key: value}), [*numberings], f"{path} = {text}")
 
 
 def find_missed(parts: Parts) -> list[Problem]:
@@ -339,8 +342,7 @@ def _split_pins(one: Candidate) -> Iterator[Candidate]:
     """Yield the engine with the splay that makes it fit, if there is one."""
     splay = find_fitting_splay(one.model)
     if splay is not None:
-        split = one.model.with_table("crank", splay=splay)
-        yield Candidate(split, one.numberings, f"crank.splay = {splay:g}", splay)
+        yield _change(one.model, "crank.splay", splay, one.numberings)
 
 
 def _find_remedies(parts: Parts) -> list[Candidate]:
@@ -354,12 +356,8 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
     tier = next(list_tiers(plan, radial=model.layout.radial is not None))
     uneven = [] if model.layout.firing_intervals else list(_list_shared_intervals(parts))
     by_intervals = [
-        Candidate(
-            model.with_table("layout", numbering=rows, firing_intervals=intervals),
-            [rows],
-            f"layout.firing_intervals = [{_join(intervals)}]",
-        )
-        for rows in tier
+        _change(one.model, "layout.firing_intervals", intervals, one.numberings)
+        for one in _number(model, tier)
         for intervals in uneven
     ]
     by_splay = [split for one in _number(model, tier) for split in _split_pins(one)]
@@ -389,7 +387,7 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
         twin = next(filter(one.is_same, engines), None)
         if twin is None:
             engines.append(one)
-        elif one.numberings[0] not in twin.numberings and one.splay == twin.splay:
+        elif one.numberings[0] not in twin.numberings and one.change == twin.change:
             twin.numberings += one.numberings
     return sorted(engines, key=lambda one: one.rank(tier.index(one.numberings[0])))
 
@@ -405,20 +403,18 @@ def _suggest(parts: Parts) -> str:
     ways: list[Candidate] = []
     if intervals is not None:
         later = (*intervals[1:], intervals[0])
-        keys = f"layout.firing_intervals = [{_join(later)}]"
-        ways.append(Candidate(model.with_table("layout", firing_intervals=later), [], keys))
+        ways.append(_change(model, "layout.firing_intervals", later))
     usual = find_engines_meant(parts)[0][:1] if model.layout.numbering else []
     for one in usual:
         one.change = f"layout.numbering = {write_rows(one.numberings[0])}"
     ways += usual
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
-        keys = f"crank.throws = [{_join(throws)}], which count in the sense of rotation"
-        ways.append(Candidate(model.with_table("crank", throws=throws), [], keys))
+        ways.append(_change(model, "crank.throws", throws))
+        ways[-1].change += ", which count in the sense of rotation"
         if len(throws) > 1:
-            free = model.with_table("crank", throws=None)
-            listed = _join(_count_throws_from_first(Parts(free)))
-            ways.append(Candidate(free, [], f"crank.throws = [{listed}]"))
+            needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
+            ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:
         ways += _split_pins(Candidate(model, []))
     fitting = [way for way in ways if not find_missed(way.parts)]
@@ -458,39 +454,39 @@ def _list_firing(parts: Parts) -> Iterator[str]:
 
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield the defaults of speed, places, inertia and gas that the file does not give."""
-    model, gas = parts.model, parts.model.gas
-    together = parts.plan.rods_on_throw > 1 and model.articulation is None
-    if "speed" not in model.operation.model_fields_set:
-        yield f"operation.speed = {model.operation.speed:g}"
-    if not are_places_known(model, parts.plan):
-        yield "crank.spacing = 0"
-    if together and "stagger" not in model.layout.model_fields_set:
-        yield "layout.stagger = 0"
-    yield from _list_masses(parts)
-    if gas is not None:
-        own = sum(one.indicator is not None for one in model.cylinder.values())
-        computed = gas.cycle is not None and own < len(parts.plan.cells)
-        measured = gas.indicator is not None or own > 0
-        yield from gas.list_assumed(model.layout.strokes, measured, computed)
-
-
-def _list_masses(parts: Parts) -> Iterator[str]:
-    """Yield masses and inertias that the file does not give, those of rods as of two masses at the
-    ends, and the piston offset of a narrow vee.
+    """Yield the defaults of speed, places, masses, inertias and gas that the file does not give:
+    inertias of rods as of two masses at the ends, the piston offset for a narrow vee.
     """
-    model, hinged = parts.model, parts.model.articulation
-    yield from list_mass_defaults(model)
-    rods = {"rod": model.rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
-    for path, rod in rods.items():
-        spin = float(parts.weigh_gear(parts.find_rod(0, rod is not model.rod)).spin)
-        if spin > 0 and rod.inertia is None and rod.pendulum is None:
+    model, gas, hinged = parts.model, parts.model.gas, parts.model.articulation
+    crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
+    together = parts.plan.rods_on_throw > 1 and hinged is None
+    uneven = model.flywheel is not None or running.speed_ripple
+    left_out = {
+        f"operation.speed = {running.speed:g}": not running.has("speed"),
+        "crank.spacing = 0": not are_places_known(model, parts.plan),
+        "layout.stagger = 0": together and not layout.has("stagger"),
+        "crank.throw_mass = 0": not (crank.has("throw_mass") or layout.rotary),
+        "crank.inertia = 0": crank.inertia is None and uneven,
+        "flywheel.inertia = 0": crank.inertia is not None and model.flywheel is None,
+        "rod.mass = 0": rod.mass is None and rod.small_end is None,
+        "rod.cg = 0": rod.mass and rod.cg is None,
+    }
+    yield from (default for default, counts in left_out.items() if counts)
+    rods = {"rod": rod} | ({} if hinged is None else {"articulation.rod": hinged.rod})
+    for path, each in rods.items():
+        spin = float(parts.weigh_gear(parts.find_rod(0, each is not rod)).spin)
+        if spin > 0 and each.inertia is None and each.pendulum is None:
             yield f"{path}.inertia = {1e6 * spin:g}"
-    first, *others = (float(angle) for angle in bank_angles(model.layout, parts.figures))
+    first, *others = (float(angle) for angle in bank_angles(layout, parts.figures))
     own = any(one.piston_offset is not None for one in model.cylinder.values())
     if len(others) == 1 and not (model.piston.has("offset") or own):
         vee = abs((others[0] - first + 180) % TURN - 180)
         yield from ["piston.offset = 0"] * (0 < vee < NARROW_DEG)
+    if gas is not None:
+        diagrams = sum(one.indicator is not None for one in model.cylinder.values())
+        computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
+        measured = gas.indicator is not None or diagrams > 0
+        yield from gas.list_assumed(layout.strokes, measured, computed)
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:
@@ -570,21 +566,18 @@ def _find_usual_orders(parts: Parts) -> str:
     if plan.banks == 1:
         order = parts.order or ()
         turned = "-".join(map(str, order[order.index(1) :] + order[: order.index(1)]))
-        built = len(throws) % 2 or throws == throws[::-1] or _is_two_fours(throws)
+        built = len(throws) % 2 or throws == throws[::-1]
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
+        if len(throws) == 8 and not built:  # two cranks of straight fours in series, at 90 deg
+            fours = [[round((t - one[0]) % TURN) for t in one] for one in (throws[:4], throws[4:])]
+            across = round(abs(throws[4] - 180)) == 90
+            built = across and fours == [[0, 180, 180, 0]] * 2
         return "" if built else USUAL_ORDERS.get(len(throws), "")
     if plan.banks > 2 or plan.rods_on_throw > 1 or not _are_opposite(*angles):
         return ""
     built = all(map(_are_opposite, throws[::2], throws[1::2]))
     return "" if built else USUAL_FLAT_ORDERS.get(len(throws), "")
-
-
-def _is_two_fours(throws: Sequence[float]) -> bool:
-    """Return whether throws are those of two cranks of straight fours in series, at 90 deg."""
-    fours = [[round((throw - one[0]) % TURN) for throw in one] for one in (throws[:4], throws[4:])]
-    across = len(throws) == 8 and round(abs(throws[4] - 180)) == 90
-    return across and fours == [[0, 180, 180, 0]] * 2
 
 
 def _are_opposite(first: float, second: float) -> bool:

@@ -13,9 +13,8 @@ from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
-from .build import find_contradictions
+from .build import list_contradictions
 from .numbering import infer_numbering
-from .parts import Parts
 
 
 def read(path: str | Path) -> EngineFile:
@@ -71,5 +70,4 @@ def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> Engi
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     if not draft.problems:
         return infer_numbering(draft.model)
-    contradictions = find_contradictions(Parts(draft.model, readable=draft.readable))
-    raise refuse([*draft.problems, *contradictions], name)
+    raise refuse([*draft.problems, *list_contradictions(draft)], name)

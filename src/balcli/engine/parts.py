@@ -10,7 +10,7 @@ What belongs to a cylinder is keyed by its number. Angles count from x in the se
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
@@ -22,7 +22,7 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
-from ..file.model import ONE_BY_ONE, PISTON_PARTS, Articulation, EngineFile
+from ..file.model import PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
     RodFigures,
@@ -33,7 +33,6 @@ from .figures import (
     value_or,
 )
 from .layout import (
-    Cell,
     Plan,
     bank_angles,
     cycle_deg,
@@ -48,11 +47,6 @@ from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
     from .gas import EngineGas
-
-# Keys of a file without mistakes that can be relied on (`file.read.Draft`).
-ALL_KEYS = frozenset(EngineFile.model_fields) | {
-    f"{path}.{key}" for path, table in ONE_BY_ONE.items() for key in table.model_fields
-}
 
 
 # ------------------------------------------------------------------ pistons and rods
@@ -154,10 +148,17 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
     piston, weighed = tuple(parts.find_piston_masses().items()), {}
+    leads = parts.pins.leads_deg
+    crosshead = take("crosshead.mass", parts.model.crosshead.mass)
     for cell in parts.plan.cells:
         number, hung = cell.number, cell.number in parts.masters
         gear, own = parts.gears[number], parts.override(number, "piston_mass")
-        shared = 0.0 if hung or oil_per_pin is None else oil_per_pin / _count_on_pin(parts, cell)
+        shared: Figure = 0.0
+        if oil_per_pin is not None and not hung:  # over the rods on the same crank pin
+            rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
+            apart = (leads[n] - leads[number] for n in rods if n not in parts.masters)
+            together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
+            shared = oil_per_pin / sum((np.asarray(each, float) for each in together), 0.0)
         weighed[number] = CylinderMasses(
             cell.throw,
             piston=gear.piston,
@@ -167,17 +168,9 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
             share=share,
             rod_bearing=0.0 if hung else rod_bearing,
             oil=0.0 if hung else or_zero(oil) + shared,
+            crosshead=value_or(parts.override(number, "crosshead_mass"), crosshead),
         )
     return weighed
-
-
-def _count_on_pin(parts: Parts, cell: Cell) -> Figure:
-    """Return how many rods are on the crank pin of a cylinder."""
-    leads = parts.pins.leads_deg
-    rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
-    apart = (leads[n] - leads[cell.number] for n in rods if n not in parts.masters)
-    together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
-    return sum((np.asarray(each, float) for each in together), 0.0)
 
 
 # ------------------------------------------------------------------ places along the crank
@@ -255,17 +248,12 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
 def arrange_cylinders(parts: Parts) -> Cylinders:
     """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
     (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
-    gears, weighed, radius = parts.gears, parts.weighed, parts.radius
+    gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
 
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of piston and rod, one row for all where they are equal."""
         return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
-
-    def turns_at_pin(number: int) -> Figure:
-        return weighed[number].share + (
-            0.0 if number in parts.masters else weighed[number].rotating
-        )
 
     at_pistons = of_each(lambda n: weighed[n].reciprocating)
     linkage = _link(parts, at_pistons)
@@ -281,7 +269,9 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
         lam=of_each(lambda n: radius / gears[n].length),
         eps=of_each(lambda n: gears[n].offset / gears[n].length),
         reciprocating=0 * at_pistons if turning else at_pistons,
-        rotating=of_each(lambda n: 0.0 if turning else turns_at_pin(n)),
+        rotating=of_each(
+            lambda n: (not turning) * (weighed[n].share + (n not in masters) * weighed[n].rotating)
+        ),
         couple=of_each(lambda n: gears[n].couple),
         linkage=linkage,
     )
@@ -335,8 +325,6 @@ class Parts:
         model: The file.
         varied: Arrays of variants in place of some figures, by dotted name.
         rank: Trailing axes of the engine, if more than `varied` has.
-        readable: Keys of the file that can be relied on (`file.read.Draft`). A stage that needs
-            others must not be asked for.
         known_gas: Gas of the cylinders, if that is known; else the rules build it.
     """
 
@@ -356,17 +344,15 @@ class Parts:
         model: EngineFile,
         varied: Mapping[str, Figure] | None = None,
         rank: int = 0,
-        readable: Iterable[str] = ALL_KEYS,
         known_gas: EngineGas | None = None,
     ) -> None:
         self.model, self.gas = model, known_gas
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
-        self.readable = frozenset(readable)
         # In which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
-        given = "crank.throws" in self.readable and model.crank.throws is not None
+        given = model.crank.throws is not None
         # Beside given throws a firing order would have to fit every variant; only the gas of a
         # single one needs it.
         needed = model.gas is not None and not self.rank

@@ -14,7 +14,7 @@ from ..core.phasors import EPS, Figure
 from ..errors import Problem
 from ..file.units import STANDARD_GRAVITY
 from ..limits import NEAREST_TO_LOCK
-from .figures import PendulumTest, RodFigures, or_zero
+from .figures import RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
@@ -54,6 +54,7 @@ class CylinderMasses(NamedTuple):
         piston: Piston with pin, rings and locks.
         piston_parts: Parts of the piston by the keys of [piston]: `mass` alone, or piston, pin,
             rings and locks as far as they are given.
+        crosshead: Crosshead with piston rod and pin.
         small_end, big_end: Ends of the rod, without bearing shells.
         share: Share of the throw's unbalanced mass for this cylinder's pin.
         rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin as well.
@@ -67,11 +68,12 @@ class CylinderMasses(NamedTuple):
     share: Figure
     rod_bearing: Figure
     oil: Figure
+    crosshead: Figure = 0.0
 
     @property
     def reciprocating(self) -> Figure:
         """Reciprocating mass of the cylinder, kg."""
-        return self.piston + self.small_end
+        return self.piston + self.crosshead + self.small_end
 
     @property
     def rotating(self) -> Figure:
@@ -162,7 +164,16 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     if np.all(gear.spin >= 0):
         return
     if (pendulum := place.rod.pendulum) is not None:
-        yield Problem(place.path("pendulum"), _describe_pendulum(pendulum, gear))
+        from_big_end = gear.length * gear.small_end / (gear.small_end + gear.big_end)
+        arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
+        spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
+        worst = spin.argmin()
+        shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
+        told = f"period {period.flat[worst]:g} s is too quick: a full swing takes more than "
+        told += (
+            f"{shortest:.4g} s with the centre of mass {1e3 * arm.flat[worst]:g} mm from the pivot"
+        )
+        yield Problem(place.path("pendulum"), told)
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
@@ -170,26 +181,8 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
         path, what = place.path(*LENGTHS), f"{path} = "
-    yield Problem(
-        path,
-        f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm, and two masses at its ends "
-        f"cannot stand for such a rod, one would be negative: give a cg from 0 to {length_mm:g} "
-        "mm, or the rod's inertia",
-    )
-
-
-def _describe_pendulum(pendulum: PendulumTest, gear: RunningGear) -> str:
-    whole = gear.small_end + gear.big_end
-    from_big_end = gear.length * gear.small_end / whole
-    arm = from_big_end if pendulum.pivot == "big_end" else gear.length - from_big_end
-    spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
-    worst = spin.argmin()
-    shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-    return (
-        f"period {period.flat[worst]:g} s is too quick: with the centre of mass "
-        f"{1e3 * arm.flat[worst]:g} mm from the pivot a full swing takes more than "
-        f"{shortest:.4g} s"
-    )
+    told = f"{what}{cg_mm:g} mm is outside the rod of {length_mm:g} mm: give a cg from 0 to "
+    yield Problem(path, f"{told}{length_mm:g} mm, or the rod's inertia")
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
@@ -204,16 +197,7 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
-    with_offset, or_offset = "", ""
-    if eps:
-        aside = np.max(np.abs(gear.offset)) * 1e3
-        with_offset = (
-            f", with the piston offset of {aside:g} mm lambda + |offset|/length = {lam + eps:.9g}"
-        )
-        or_offset = " or the offset smaller"
-    yield Problem(
-        place.path(*LENGTHS),
-        f"the crank cannot turn: crank radius {np.max(radius) * 1e3:g} mm over rod length "
-        f"{np.min(gear.length) * 1e3:g} mm is lambda = {lam:.9g}{with_offset}; at most 1 - "
-        f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer{or_offset}",
-    )
+    aside = f", with the piston offset over rod length {lam + eps:.9g}" if eps else ""
+    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{aside}; at most 1 - "
+    told += f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
+    yield Problem(place.path(*LENGTHS), told)

@@ -8,21 +8,21 @@ coefficients. Places and largest weights are constraints of that problem where t
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..core.least_squares import find_dependent_columns, minimise as make_small, solve
-from ..core.phasors import Array, Complex
+from ..core.phasors import Complex
 from ..core.records import HIDDEN, INLINE, Axes, Polar, angle_deg
 from ..core.unbalance import find_permitted_unbalance
-from ..errors import BalcliError, InputError, Problem, check_type
-from ..file.fields import counted, join_words, nearest, shorten
+from ..errors import BalcliError, InputError, Problem, check_type, list_words
+from ..file.fields import counted, join_words, shorten, suggest_nearest
 from ..file.plain_tables import take_tables
 from ..file.units import ask_unit
 from ..shell.arguments import tell_arguments
@@ -55,6 +55,7 @@ _SURPRISING = 0.5
 
 def find_doubts(result: FieldBalance) -> Iterator[str]:
     """Yield everything suspicious about a result and its runs."""
+    file = result.file
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
         yield (
@@ -63,82 +64,86 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
             f"is its own (condition {result.condition:.3g}), so reading errors grow as much; if "
             f"their weights are large, try --without {alike[0].plane}"
         )
-    if result.file.grade is not None or result.file.shares is not None:
-        for key, hint in list_missing(result.file).items():
+    if file.grade is not None or file.shares is not None:
+        for key, hint in list_missing(file).items():
             yield f"{key}: is missing, so no unbalance is judged; give it, such as {hint}"
     if result.left_out and result.permitted is not None:
         yield (
             f"the permitted unbalance is judged without {' and '.join(result.left_out)}, whose "
             f"unbalance is unknown; readings of up to {result.largest:.4g} {result.unit or ''}"
         ).rstrip() + " remain"
-    trials = _find_largest_trials(result.file)
-    if result.file.influence is None:
-        for correction in result.corrections:
-            yield from _doubt_trials(result, correction, trials[correction.plane])
-    yield from _doubt_runs(result)
-    yield from _doubt_units(result.file, trials)
-    yield from _doubt_phases(result.file)
-
-
-def _find_largest_trials(file: RunsFile) -> dict[str, float]:
-    """Return the largest weight that was on in each plane, of those that had any."""
-    found: dict[str, float] = {}
-    for run in file.run:
-        for plane, weight in run.weights.items():
-            found[plane] = max(abs(weight), found.get(plane, 0.0))
-    return found
-
-
-def _doubt_trials(result: FieldBalance, correction: Correction, trial: float) -> Iterator[str]:
-    """Yield doubts about trial weights that changed little, and a correction far beyond them."""
-    plane, influence = correction.plane, result.runs
-    speeds = list(dict.fromkeys(influence.speeds_rpm))
-    for speed in speeds:
-        runs = [run for run in result.file.run if run.speed == speed]
-        heaviest = max(abs(run.weights.get(plane, 0)) for run in runs)
-        rows = [k for k, each in enumerate(influence.speeds_rpm) if each == speed]
-        effects = influence.coefficients[rows, result.file.planes.index(plane)]
-        change = heaviest * float(np.abs(effects).max())
-        largest = float(np.abs(influence.found[rows]).max())
-        if change < _SMALL_CHANGE * largest:
-            at = f" at {speed:g} rpm" if len(speeds) > 1 else ""
-            yield (
-                f"the trial weight in {plane}{at} changes no reading by more than {change:.3g}, "
-                f"{100 * change / largest:.2g}% of the largest; use a heavier one"
-            )
-    weight = abs(correction.weight)
-    if weight > _FAR_BEYOND * trial:
+    series = collect_series(file)
+    if file.influence is None:
+        yield from _doubt_trials(result, series)
+    for each in series:
+        yield from _doubt_runs(result, each)
+    if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
+        yield f"radius is {radius:g} mm; {ask_unit('mm', f'{radius:g} m')}"
+    phases = np.degrees(np.angle([each for run in file.run for each in run.readings if each]))
+    most = float(np.abs(phases).max(initial=0.0))
+    several = len(phases) >= _FEWEST_PHASES and np.ptp(phases) > _EQUAL_PHASES_DEG
+    if several and most <= 2 * math.pi:  # and yet they differ
         yield (
-            f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
-            f"{weight / trial:.3g} times the largest weight tried there; put it on, read again, "
-            "and add that run to the file"
+            f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
+            f"{most:.3g} rad is {math.degrees(most):.1f} deg"
         )
 
 
-def _doubt_runs(result: FieldBalance) -> Iterator[str]:
-    """Yield a doubt for each speed about the reading that follows least from the other runs."""
+def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
+    """Yield doubts about trial weights that changed little, corrections far beyond them, and
+    kilograms for grams in one of the planes.
+    """
+    trials = {}
+    for correction in result.corrections:
+        plane, weight = correction.plane, abs(correction.weight)
+        k = result.file.planes.index(plane)
+        for each in series:
+            alpha, found = fit_coefficients(each)
+            change = np.abs(np.outer(alpha[:, k], each.weights[:, k])).max()
+            if change < _SMALL_CHANGE * (largest := np.abs(found).max()):
+                at = f" at {each.speed_rpm:g} rpm" if len(series) > 1 else ""
+                yield (
+                    f"the trial weight in {plane}{at} changes no reading by more than "
+                    f"{change:.3g}, {100 * change / largest:.2g}% of the largest; use a heavier one"
+                )
+        trial = trials[plane] = max(float(np.abs(each.weights[:, k]).max()) for each in series)
+        if weight > _FAR_BEYOND * trial:
+            yield (
+                f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
+                f"{weight / trial:.3g} times the largest weight tried there; put it on, read "
+                "again, and add that run to the file"
+            )
+    light, heavy = min(trials, key=trials.__getitem__), max(trials, key=trials.__getitem__)
+    if trials[heavy] > _UNEQUAL_TRIALS * trials[light]:
+        unit = result.weight_unit
+        yield (
+            f"the weights tried are {trials[light]:.3g} {unit} in {light} and {trials[heavy]:.3g} "
+            f"{unit} in {heavy}; are both in {unit}?"
+        )
+
+
+def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
+    """Yield a doubt about the reading of a speed that follows least from the other runs."""
     file = result.file
     used = [k for k, plane in enumerate(file.planes) if plane not in result.left_out]
-    for series in collect_series(file):
-        predicted, largest = _predict(series, used)
-        errors = np.abs(series.readings - predicted)
-        row, sensor = np.unravel_index(int(errors.argmax()), errors.shape)
-        if errors[row, sensor] <= _SURPRISING * largest:
-            continue
-        read, expected = (
-            f"{abs(value):.4g} @ {angle_deg(value):.1f}"
-            for value in (series.readings[row, sensor], predicted[row, sensor])
-        )
-        turned, _ = _predict(series._replace(weights=np.conj(series.weights)), used)
-        remedy = "check its weights and the state of the machine, or leave the run out"
-        if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
-            other = "with" if file.senses[1] == "against" else "against"
-            remedy = f'with weights = "{other}", angles of weights the other way round, it fits'
-        yield (
-            f"'{file.name_run(series.numbers[row])}' reads {read} at "
-            f"{result.readings[sensor].sensor}; the other runs predict {expected}; "
-            f"{remedy}"
-        )
+    predicted, largest = _predict(series, used)
+    errors = np.abs(series.readings - predicted)
+    row, sensor = np.unravel_index(int(errors.argmax()), errors.shape)
+    if errors[row, sensor] <= _SURPRISING * largest:
+        return
+    read, expected = (
+        f"{abs(value):.4g} @ {angle_deg(value):.1f}"
+        for value in (series.readings[row, sensor], predicted[row, sensor])
+    )
+    turned, _ = _predict(series._replace(weights=np.conj(series.weights)), used)
+    remedy = "check its weights and the state of the machine, or leave the run out"
+    if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
+        other = "with" if file.senses[1] == "against" else "against"
+        remedy = f'with weights = "{other}", angles of weights the other way round, it fits'
+    yield (
+        f"'{file.name_run(series.numbers[row])}' reads {read} at "
+        f"{result.readings[sensor].sensor}; the other runs predict {expected}; {remedy}"
+    )
 
 
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
@@ -153,30 +158,6 @@ def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     return np.where(np.abs(predicted) <= _ROUNDING * largest, 0, predicted), largest
 
 
-def _doubt_units(file: RunsFile, trials: dict[str, float]) -> Iterator[str]:
-    """Yield doubts about meters for millimeters, and kilograms for grams in one of the planes."""
-    if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
-        yield f"radius is {radius:g} mm; {ask_unit('mm', f'{radius:g} m')}"
-    by_weight = sorted((weight, plane) for plane, weight in trials.items())
-    if by_weight and by_weight[-1][0] > _UNEQUAL_TRIALS * by_weight[0][0]:
-        unit = file.weight_unit
-        ends = (by_weight[0], by_weight[-1])
-        light, heavy = (f"{weight:.3g} {unit} in {plane}" for weight, plane in ends)
-        yield f"the weights tried are {light} and {heavy}; are both in {unit}?"
-
-
-def _doubt_phases(file: RunsFile) -> Iterator[str]:
-    """Yield a doubt if phases seem to be in radians: all within 2 pi degrees, and yet different."""
-    phases = [math.degrees(cmath.phase(each)) for run in file.run for each in run.readings if each]
-    most = max(map(abs, phases), default=0.0)
-    several = len(phases) >= _FEWEST_PHASES and max(phases) - min(phases) > _EQUAL_PHASES_DEG
-    if several and most <= 2 * math.pi:
-        yield (
-            f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
-            f"{most:.3g} rad is {math.degrees(most):.1f} deg"
-        )
-
-
 Minimise = Literal["squares", "max"]
 Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
@@ -187,8 +168,7 @@ _AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
 _G_MM = 1e-6  # kg m
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sensor:
+class Sensor(NamedTuple):
     """Identity of a reading: a sensor at a speed.
 
     Attributes:
@@ -262,8 +242,7 @@ class PlanePermitted:
         return "uncertain" if near else "not reached"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Permitted:
+class Permitted(NamedTuple):
     """Permitted residual unbalance of the rotor (ISO 21940-11).
 
     Attributes:
@@ -376,17 +355,15 @@ def find_corrections(
         each.make_region(complex(runs.weights_on[k]), 1 if phases == senses else -1)
         for k, each in zip(used, limits, strict=True)
     ]
-    speeds = len(now) // len(file.run[0].readings)
-    factors = np.tile(file.reading_weights or np.ones(len(now) // speeds), speeds)
+    factors = runs.factors
     negligible = _NEGLIGIBLE * np.abs(now).max() / np.abs(matrix).max(axis=0)
     best = small = make_small(matrix, -now, factors, largest=minimise == "max")
-    step, at_limit = best.x, [False] * len(used)
-    fits = [abs(r.project(x)[0] - x) for r, x in zip(regions, best.x, strict=True)] <= negligible
-    if not fits.all():
+    outside = [abs(r.project(x)[0] - x) for r, x in zip(regions, best.x, strict=True)] > negligible
+    if outside.any():
         small = make_small(matrix, -now, factors, regions, largest=minimise == "max")
-        step = np.where(np.abs(small.x) <= negligible, 0, small.x)
-        depths = [r.find_depth(x) for r, x in zip(regions, step, strict=True)]
-        at_limit = (np.abs(depths) <= _AT_EDGE * negligible).tolist()
+    step = np.where(outside.any() & (np.abs(small.x) <= negligible), 0, small.x)
+    depths = np.abs([r.find_depth(x) for r, x in zip(regions, step, strict=True)])
+    at_limit = (outside.any() & (depths <= _AT_EDGE * negligible)).tolist()
     noise = _NOISE * (np.abs(now) + np.abs(matrix) @ np.abs(step))
     residual = np.where(np.abs(small.residual) <= noise, 0, -small.residual)
     left = factors * np.abs(residual)
@@ -409,7 +386,7 @@ def find_corrections(
                 pieces=limits[j].plan(add, float(negligible[j])),
             )
         )
-    sensors = file.sensors or [f"sensor {k}" for k in range(1, len(now) // speeds + 1)]
+    sensors = file.sensors or [f"sensor {k}" for k, _ in enumerate(file.run[0].readings, 1)]
     return FieldBalance(
         name=file.name,
         unit=file.unit,
@@ -419,7 +396,7 @@ def find_corrections(
         minimise=minimise,
         readings=tuple(
             Sensor(sensor=sensor, speed_rpm=speed)
-            for sensor, speed in zip([*sensors] * speeds, runs.speeds_rpm, strict=True)
+            for sensor, speed in zip(cycle(sensors), runs.speeds_rpm, strict=False)
         ),
         influence=runs.coefficients,
         corrections=tuple(corrections),
@@ -430,7 +407,7 @@ def find_corrections(
         condition=solve(matrix, now).condition,
         bound=small.bound,
         trimmed=runs.trimmed or None,
-        permitted=_find_permitted(file, runs, used, factors, step),
+        permitted=_find_permitted(file, runs, used, step),
         file=file,
         runs=runs,
     )
@@ -444,10 +421,8 @@ def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
     """
     for name in without:
         if name not in file.planes:
-            near = nearest(name, file.planes)
-            hint = f" Did you mean {near}?" if near else ""
-            planes = ", ".join(file.planes)
-            raise BalcliError(f"--without {shorten(name)}: is no plane; there are {planes}.{hint}")
+            hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
+            raise BalcliError(f"--without {shorten(name)}: is no plane; {hint}")
     used = [k for k, plane in enumerate(file.planes) if plane not in without]
     if not used:
         raise BalcliError("--without: leaves no plane to put a weight in")
@@ -462,27 +437,20 @@ def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
         planes: Names of the planes.
         name: Name of the file for messages.
     """
-    readings, more = len(matrix), len(planes) - len(matrix)
     dead = [plane for plane, column in zip(planes, matrix.T, strict=True) if not column.any()]
-    if more > 0:
-        message = (
-            f"{counted(len(planes), 'plane')} cannot be distinguished by "
-            f"{counted(readings, 'reading')}; add sensors or speeds, or leave "
-            f"{counted(more, 'plane')} out with --without"
-        )
-    elif dead:
+    dependent = dead[:1] or [planes[k] for k in find_dependent_columns(matrix)]
+    if not dependent:
+        return
+    message = (
+        f"{counted(len(matrix), 'reading')} cannot separate the effects of "
+        f"{join_words(dependent)}; add sensors or speeds, or leave one plane out, such as "
+        f"--without {dependent[-1]}"
+    )
+    if dead:
         message = (
             f"a weight in {dead[0]} changes no reading, so none can be found for it; use a heavier "
             f"trial weight, or --without {dead[0]}"
         )
-    elif dependent := [planes[k] for k in find_dependent_columns(matrix)]:
-        *front, last = dependent
-        message = (
-            f"{', '.join(front)} and {last} depend on one another: what one does, the others do as "
-            f"well, at every sensor and speed; leave one out, such as --without {last}"
-        )
-    else:
-        return
     raise InputError([Problem("planes", message)], name)
 
 
@@ -502,7 +470,7 @@ def list_missing(file: RunsFile) -> dict[str, str]:
 
 
 def _find_permitted(
-    file: RunsFile, runs: Influence, used: list[int], factors: Array, step: Complex
+    file: RunsFile, runs: Influence, used: list[int], step: Complex
 ) -> Permitted | None:
     """Return permitted and present unbalance; None without a grade or keys that it needs.
 
@@ -510,13 +478,12 @@ def _find_permitted(
         file: Runs.
         runs: Their influence coefficients.
         used: Numbers of the planes that get a weight, from 0.
-        factors: How much each reading counts, shape (readings,).
         step: Weights to add, shape (planes,).
     """
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
         return None
-    best = make_small(runs.coefficients[:, used], -runs.start, factors).x
-    scatter = find_scatter(file, runs, used, best, factors)
+    best = make_small(runs.coefficients[:, used], -runs.start, runs.factors).x
+    scatter = find_scatter(file, runs, used, best)
     whole = find_permitted_unbalance(file.grade, file.mass, file.speed)
     shares = np.array(file.shares or np.ones(len(file.planes)))
     planes = []
@@ -576,11 +543,7 @@ def balance_rotor(
     check_type("minimise", minimise, str, 'give "squares" or "max"')
     if minimise not in ("squares", "max"):
         raise BalcliError(f'minimise {minimise!r}: choose "squares" or "max"')
-    without = [without] if isinstance(without, str) else without
-    hint = 'give names of planes, such as ["front"]'
-    check_type("without", without, Collection, hint)
-    for plane in without:
-        check_type("without", plane, str, hint)
+    planes = [without] if isinstance(without, str) else list_words("without", without, '["front"]')
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("balance_rotor", runs, wanted)
-    return find_corrections(check_runs(tables, name), minimise, without, name or _UNNAMED)
+    return find_corrections(check_runs(tables, name), minimise, planes, name or _UNNAMED)

@@ -34,14 +34,10 @@ def field(
         list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
     ] = None,
     plot: Annotated[
-        Path | None,
-        optional("FILE", "Draw readings and weights in polar form; .svg, .png or .pdf."),
+        Path | None, optional("FILE", "Draw readings and weights; .svg, .png or .pdf.")
     ] = None,
     check: Annotated[
-        bool,
-        typer.Option(
-            "--check", help="Exit status 1 unless every plane is within the file's grade."
-        ),
+        bool, typer.Option("--check", help="Exit status 1 unless all planes reach the grade.")
     ] = False,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,

@@ -64,6 +64,7 @@ class Influence(NamedTuple):
             without such a run.
         start: Readings from which balancing goes on, shape (readings,): those with the weights
             `weights_on`, computed from `latest` where other weights were on.
+        factors: How much each reading counts, shape (readings,).
         trimmed: Name of the last run with a correction in, at any speed; empty without one.
         weights_on: Weights that were on in that run, shape (planes,); otherwise 0.
     """
@@ -73,6 +74,7 @@ class Influence(NamedTuple):
     found: Complex
     latest: Complex
     start: Complex
+    factors: Array
     trimmed: str
     weights_on: Complex
 
@@ -135,6 +137,7 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
         found=found,
         latest=latest,
         start=bare + alpha @ goes_on,
+        factors=np.resize(file.reading_weights or 1.0, len(found)),
         trimmed="" if trim < 0 else file.name_run(trim),
         weights_on=goes_on,
     )
@@ -161,9 +164,7 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
     return alpha, np.asarray(series.readings[bare].mean(axis=0)) if bare.any() else found
 
 
-def find_scatter(
-    file: RunsFile, runs: Influence, used: list[int], step: Complex, factors: Array
-) -> Array | None:
+def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex) -> Array | None:
     """Return how far the unbalance of each plane may lie from its estimate, with 95 % probability.
 
     Args:
@@ -171,13 +172,13 @@ def find_scatter(
         runs: Their influence coefficients.
         used: Numbers of the planes that get a weight, from 0.
         step: Weights that cancel the readings best, by least squares, shape (planes used,).
-        factors: How much each reading counts, shape (readings,).
 
     Returns:
         Weights, shape (planes used,); None if there are no more readings than unknowns.
     """
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step
+    factors = runs.factors
     gains = []  # square of an error of a reading to cancel, over that of an error of a run
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
         design, readings = _design(series), series.readings
@@ -247,24 +248,17 @@ def _count_unknowns(series: Series, used: Collection[int]) -> int:
 def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int]) -> Problem:
     """Return why not even all runs at a speed determine the coefficients."""
     at = "" if series.speed_rpm is None else f" at {series.speed_rpm:g} rpm"
-    if bool(series.weights.any(axis=1).all()):
-        return Problem(
-            f"run.{series.numbers[0] + 1}",
-            f"has weights, and so has every other run{at}; give the readings of the rotor as "
-            "found, in a run without weights",
-        )
     tried = np.asarray(series.weights.any(axis=0))
-    if bare := [file.planes[k] for k in used if not tried[k]]:
-        return Problem(
-            "run",
-            f"there is no trial weight in {join_words(bare)}{at}; add a run with one, such as "
-            f'weights = {{ {bare[0]} = "10 @ 0" }}, give influence, or leave the plane out with '
-            f"--without {bare[0]}",
-        )
-    names = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
+    bare = [file.planes[k] for k in used if not tried[k]]
+    lacking = [f"with a trial weight in {join_words(bare)}"] if bare else []
+    if series.weights.any(axis=1).all():
+        lacking.insert(0, "of the rotor as found, without weights")
+    if not lacking:
+        named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
+        lacking = [f"in which the trial weights in {join_words(named)} are apart"]
     return Problem(
         "run",
-        f"the trial weights in {join_words(names)} are never apart{at}, so their effects cannot be "
-        f"separated; of {len(series.numbers)} runs here, {_count_unknowns(series, used)} that "
-        "differ are needed: one as found, and one for each plane",
+        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} that differ "
+        f"are needed, and {len(series.numbers)} are here: one as found, and one for each plane; "
+        "or give influence, or leave a plane out (--without)",
     )

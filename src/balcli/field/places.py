@@ -7,7 +7,7 @@ Weights at given angles, each from 0 to a largest one, make together any weight 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -22,8 +22,7 @@ from .tables import RunsFile
 _ROUNDING = 1e-9  # share of a weight that is rounding
 
 
-@dataclass(frozen=True, kw_only=True)
-class Piece:
+class Piece(NamedTuple):
     """Weight at a place, or a drilled hole: a part of a correction.
 
     Attributes:
@@ -39,41 +38,36 @@ class Piece:
     depth_mm: float | None = None
 
 
-class _Hole(NamedTuple):
-    """Radial hole into a rim: radius of the rim and diameter of the hole, m; and the unbalance of
-    one unit of weight at the rim, kg m.
-    """
-
-    rim: float
-    diameter: float
-    per_weight: float
-
-
 class PlaneLimits(NamedTuple):
     """Where one plane takes weights, and how heavy they may be. Angles are those of the file.
 
     Attributes:
         places_deg: Angles of the places, deg; empty: any angle.
         most: Largest weight in the plane, at one place, or of one hole; infinite: no limit.
-        hole: Shape of holes, which remove weight opposite to it; None: weights are put on.
+        find_depth: Depth, m, of the hole that removes as much as a weight at the rim has; holes
+            are opposite to the weight. None: weights are put on.
     """
 
     places_deg: tuple[float, ...]
     most: float
-    hole: _Hole | None
+    find_depth: Callable[[float], float] | None
 
     @classmethod
     def of_plane(cls, file: RunsFile, k: int) -> PlaneLimits:
         """Return the limits of the k-th plane, from 0."""
         places = file.places[k] if file.places else ()
         most = file.most[k] if file.most else math.inf
-        per_weight = file.find_unbalance_per_weight(k)
-        if file.drill is None or file.radius is None or per_weight is None:
+        unit = file.find_unbalance_per_weight(k)
+        if file.drill is None or file.radius is None or unit is None:
             return cls(places, most, None)
-        hole = _Hole(file.radius[k] / 1e3, file.drill[k] / 1e3, per_weight)
-        deepest = file.deepest[k] / 1e3 if file.deepest else hole.rim
-        removed = find_drilled_unbalance(deepest, hole.rim, hole.diameter)
-        return cls(places, min(most, removed / per_weight), hole)
+        rim, drill = file.radius[k] / 1e3, file.drill[k] / 1e3
+        deepest = file.deepest[k] / 1e3 if file.deepest else rim
+        heaviest = min(most, find_drilled_unbalance(deepest, rim, drill) / unit)
+
+        def find_depth(weight: float) -> float:
+            return find_drill_depth(min(weight, heaviest) * unit, rim, drill)
+
+        return cls(places, heaviest, find_depth)
 
     def make_region(self, weight_on: complex, sense: int) -> Region:
         """Return the region of weights that can be added, in the sense of the readings.
@@ -83,9 +77,9 @@ class PlaneLimits(NamedTuple):
             sense: -1 if phases of readings count against angles of weights, otherwise 1.
         """
         if self.places_deg:
-            angles_deg = sense * np.array(self.places_deg) + (180 if self.hole else 0)
+            angles_deg = sense * np.array(self.places_deg) + (180 if self.find_depth else 0)
             return find_region(angles_deg, self.most)
-        return Region(0j if self.hole or math.isinf(self.most) else -weight_on, self.most)
+        return Region(0j if self.find_depth or math.isinf(self.most) else -weight_on, self.most)
 
     def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
         """Return the weights or holes that together make a weight in the region.
@@ -96,19 +90,15 @@ class PlaneLimits(NamedTuple):
         """
         if abs(weight) <= negligible:
             return ()
-        amount = -weight if self.hole else weight
+        amount = -weight if self.find_depth else weight
         pieces: tuple[Piece, ...] | None = (Piece(weight=abs(amount), angle_deg=angle_deg(amount)),)
         if self.places_deg:
             pieces = split_weight(amount, np.array(self.places_deg), self.most, negligible)
         if pieces is None:
             raise AssertionError(f"{amount} is not in the region of {self.places_deg}")
-        return tuple(map(self._drill, pieces)) if self.hole else pieces
-
-    def _drill(self, piece: Piece) -> Piece:
-        """Return a weight as a hole."""
-        rim, diameter, per_weight = self.hole or (0.0, 0.0, 0.0)
-        unbalance = min(piece.weight, self.most) * per_weight
-        return replace(piece, depth_mm=1e3 * find_drill_depth(unbalance, rim, diameter))
+        if (find := self.find_depth) is None:
+            return pieces
+        return tuple(piece._replace(depth_mm=1e3 * find(piece.weight)) for piece in pieces)
 
 
 def split_weight(

@@ -1,16 +1,17 @@
-"""A file of runs: read and checked, every mistake at once by its path."""
+"""A file of runs, read and checked: first every mistake of a value, then every contradiction
+between values, each by its path.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from pydantic_core import ErrorDetails
 
 from ..errors import Problem
 from ..file.fields import counted, printable, shorten, suggest_nearest
-from ..file.messages import RUNS, describe_finding, join_path, refuse_other_kind
+from ..file.messages import RUNS, describe_finding, refuse_other_kind
 from ..file.read import TableReader
 from ..file.table import FileTable
 from ..file.toml import name_file, parse_toml, read_bytes
@@ -48,28 +49,17 @@ def check_runs(data: Mapping[str, object], file: str = "") -> RunsFile:
     """Return the runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
     refuse_other_kind(data, file, RUNS)
     reader = TableReader(RUNS.name, _describe)
-    stand_in = {"run": [Run.model_construct(readings=(0j,))]}  # runs are read one by one
-    model = reader.read_table("", {**data, **stand_in}, RunsFile)
-    runs: tuple[Run | None, ...] = ()
-    if "run" not in data:
+    stand_in = [Run.model_construct(readings=(0j,))]  # runs are read one by one
+    head = reader.read_table("", {**data, "run": stand_in}, RunsFile)
+    if not (tables := data.get("run", [])) and isinstance(tables, list):
         reader.problems.append(Problem.of_missing("run", _NEEDED["run"]))
-    elif data["run"] == []:
-        reader.problems.append(Problem("run", f"is an empty list; {_NEEDED['run']}"))
-    else:
-        runs = reader.read_list("run", data["run"], Run, MOST_RUNS) or ()
-    if not reader.problems and model is not None:
-        model = model.model_copy(update={"run": runs})
-    head, broken = model, set[str]()
-    if model is None:
-        refused = reader.refused[""]
-        if isinstance(refused.draft, RunsFile) and "planes" not in refused.broken:
-            head, broken = refused.draft, refused.broken  # as far as it can be read
-    if head is not None:
-        misfits = _find_misfits(head, runs, data.get("run"))
-        reader.problems += (misfit for misfit in misfits if broken.isdisjoint(misfit.missing))
-    if reader.problems or model is None:
+    runs = reader.read_list("run", tables, Run, MOST_RUNS)
+    if head is not None and not reader.problems:
+        head = head.model_copy(update={"run": runs})
+        reader.problems += _find_misfits(head)
+    if head is None or reader.problems:
         raise reader.refusal(file)
-    return model
+    return head
 
 
 def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
@@ -80,50 +70,35 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
         value = shorten(finding["input"])
         text = f"{value} is one value; give one for each plane, such as {last} = [{value}, {value}]"
         return Problem(last, text)
-    if finding["type"] == "dict_type":
-        text = f'{shorten(finding["input"])} is not a table; write it like {{ front = "1.15 @ 0" }}'
-        return Problem(join_path(path, finding["loc"]), text)
     return describe_finding(path, finding, table)
 
 
-def _find_misfits(file: RunsFile, runs: Sequence[Run | None], tables: Any) -> Iterator[Problem]:
-    """Yield contradictions, as far as the file can be read.
-
-    Args:
-        file: The file without its runs.
-        runs: The runs; None for each with mistakes.
-        tables: The runs as TOML is read.
-    """
-    yield from _check_lists(file)
-    yield from _check_holes(file)
-    readable = {k: run for k, run in enumerate(runs, 1) if run is not None}
-    if readable:
-        yield from _check_runs(file, readable, len(readable) == len(runs))
-    for k, run in enumerate(runs, 1):  # a run that has mistakes may name wrong planes as well
-        if run is None and isinstance(tables[k - 1], Mapping):
-            weights = tables[k - 1].get("weights")
-            yield from _check_planes(file, k, weights if isinstance(weights, Mapping) else ())
-
-
-def _check_count(path: str, values: Sized | None, what: str, wanted: int, of: str) -> list[Problem]:
-    """Return a problem if there is not one value for each plane or reading."""
-    if values is None or len(values) == wanted:
-        return []
-    text = f"has {counted(len(values), what)}, but there are {of}; give one for each"
-    return [Problem(path, text)]
-
-
-def _check_lists(file: RunsFile) -> Iterator[Problem]:
+def _find_misfits(file: RunsFile) -> Iterator[Problem]:
+    """Yield contradictions between keys, and between runs."""
     for key in ("planes", "sensors"):
         names = getattr(file, key) or ()
         if twice := sorted({name for name in names if names.count(name) > 1}):
             yield Problem(key, f"names {shorten(twice[0])} twice; each needs a name of its own")
-    planes = len(file.planes)
-    for key in BY_PLANE:
-        yield from _check_count(key, getattr(file, key), "value", planes, counted(planes, "plane"))
+    planes = counted(len(file.planes), "plane")
+    counts = [(key, getattr(file, key), "value", len(file.planes), planes) for key in BY_PLANE]
     for k, row in enumerate(file.influence or (), 1):
-        path = f"influence.{k}"
-        yield from _check_count(path, row, "coefficient", planes, counted(planes, "plane"))
+        counts.append((f"influence.{k}", row, "coefficient", len(file.planes), planes))
+    sensors = len(file.sensors or file.run[0].readings)
+    readings = counted(sensors, "reading")
+    in_a_run = f"{readings} in a run"
+    counts.append(("reading_weights", file.reading_weights, "value", sensors, in_a_run))
+    speeds = {run.speed for run in file.run}
+    if None not in speeds or len(speeds) == 1:  # otherwise the speeds are not known
+        at = f" at {counted(len(speeds), 'speed')}" if len(speeds) > 1 else ""
+        wanted = sensors * len(speeds)
+        counts.append(("influence", file.influence, "row", wanted, f"{readings}{at}"))
+    for path, values, what, wanted, of in counts:
+        if values is not None and len(values) != wanted:
+            text = f"has {counted(len(values), what)}, but there are {of}; give one for each"
+            yield Problem(path, text)
+    yield from _check_holes(file)
+    for k, run in enumerate(file.run, 1):
+        yield from _check_run(file, k, run, sensors)
 
 
 def _check_holes(file: RunsFile) -> Iterator[Problem]:
@@ -131,50 +106,29 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
         yield Problem.of_missing("radius", "a drill needs the radius of the rim, in every plane")
     if file.deepest is not None and file.drill is None:
         yield Problem.of_missing("drill", "deepest belongs to holes, which have a diameter")
-    for k, rim in enumerate(file.radius or ()):
-        if (drill := _find_kth(file.drill, k)) > 2 * rim:
-            text = f"hole {k + 1} of {drill:g} mm is wider than its rim of radius {rim:g} mm"
-            yield Problem("drill", text)
-        if (depth := _find_kth(file.deepest, k)) > rim:
-            text = f"hole {k + 1} of {depth:g} mm passes the axis, {rim:g} mm below the rim"
-            yield Problem("deepest", text)
+    for key, most, fault in (
+        ("drill", 2.0, "is wider than its rim of radius {:g} mm"),
+        ("deepest", 1.0, "passes the axis, {:g} mm below the rim"),
+    ):
+        pairs = zip(getattr(file, key) or (), file.radius or (), strict=False)
+        for k, (size, rim) in enumerate(pairs, 1):
+            if size > most * rim:
+                yield Problem(key, f"hole {k} of {size:g} mm {fault.format(rim)}")
 
 
-def _find_kth(values: Sequence[float] | None, k: int) -> float:
-    return values[k] if values and k < len(values) else 0.0
-
-
-def _check_runs(file: RunsFile, runs: Mapping[int, Run], whole: bool) -> Iterator[Problem]:
-    """Yield contradictions in runs, given by their numbers; `whole`: whether these are all."""
-    first, pattern = next(iter(runs.items()))
-    sensors = len(file.sensors or pattern.readings)
-    whose = "sensors names" if file.sensors else f"run.{first} has"
-    with_speed = [k for k, run in runs.items() if run.speed is not None]
-    for k, run in runs.items():
-        if len(run.readings) != sensors:
-            yield Problem(
-                f"run.{k}.readings",
-                f"has {counted(len(run.readings), 'reading')}, but {whose} {sensors}; give one for "
-                "each sensor, in the same order in every run",
-            )
-        yield from _check_planes(file, k, run.weights)
-        if with_speed and run.speed is None:
-            hint = f"run.{with_speed[0]} gives its speed, so every run must"
-            yield Problem.of_missing(f"run.{k}.speed", hint)
-    readings = counted(sensors, "reading")
-    key = "reading_weights"
-    yield from _check_count(key, file.reading_weights, "value", sensors, f"{readings} in a run")
-    if whole and len(with_speed) in (0, len(runs)):  # otherwise the speeds are not known
-        speeds = len({run.speed for run in runs.values()})
-        at = f" at {counted(speeds, 'speed')}" if speeds > 1 else ""
-        yield from _check_count(
-            "influence", file.influence, "row", sensors * speeds, f"{readings}{at}"
+def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Problem]:
+    """Yield what does not fit in the k-th run, from 1; others have this many sensors."""
+    if len(run.readings) != sensors:
+        whose = "sensors names" if file.sensors else "run.1 has"
+        yield Problem(
+            f"run.{k}.readings",
+            f"has {counted(len(run.readings), 'reading')}, but {whose} {sensors}; give one for "
+            "each sensor, in the same order in every run",
         )
-
-
-def _check_planes(file: RunsFile, k: int, names: Iterable[object]) -> Iterator[Problem]:
-    """Yield names under `weights` of the k-th run that are no planes."""
-    for name in names:
-        if isinstance(name, str) and name not in file.planes:
-            hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
-            yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
+    with_speed = [n for n, other in enumerate(file.run, 1) if other.speed is not None]
+    if with_speed and run.speed is None:
+        hint = f"run.{with_speed[0]} gives its speed, so every run must"
+        yield Problem.of_missing(f"run.{k}.speed", hint)
+    for name in [name for name in run.weights if name not in file.planes]:
+        hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
+        yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")

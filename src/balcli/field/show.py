@@ -5,13 +5,12 @@ Polar picture of field balancing: readings before and after on the left, weights
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from itertools import cycle
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from ..core.phasors import Complex
 from ..core.records import Node, angle_deg, list_figures, to_document
 from ..show.csv import Rows, name_cell
 from ..show.formats import Renderer
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
 
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
+Column: TypeAlias = tuple[str, list[str]]  # of a table: heading and cells
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
@@ -87,38 +87,39 @@ def _show_senses(result: FieldBalance) -> Text:
     return Text("How angles count", (senses, picture))
 
 
-def _polar(value: complex, digits: int = 4) -> tuple[str, str]:
-    """Return the cells of a weight or reading: magnitude and angle."""
-    return number(abs(value), digits), degrees(angle_deg(value)) if value else UNKNOWN
+def _list_polar(head: str, values: Iterable[complex], digits: int = 4) -> list[Column]:
+    """Return two columns of weights or readings: magnitudes below `head`, and angles."""
+    values = [complex(value) for value in values]
+    angles = [degrees(angle_deg(value)) if value else UNKNOWN for value in values]
+    return [(head, [number(abs(value), digits) for value in values]), ("at, deg", angles)]
 
 
-def _weight_text(result: FieldBalance, value: complex) -> str:
-    amount, angle = _polar(value)
-    return f"{amount} {result.weight_unit} at {angle} deg"
+def _tell_weight(result: FieldBalance, value: complex) -> str:
+    return f"{number(abs(value), 4)} {result.weight_unit} at {degrees(angle_deg(value))} deg"
 
 
 def _show_corrections(result: FieldBalance, system: System) -> Grid:
-    file, unit = result.file, result.weight_unit
-    columns = ["plane", f"weight, {unit}", "at, deg"]
-    columns += [f"add now, {unit}", "at, deg"] if result.trimmed else []
+    file, unit, every = result.file, result.weight_unit, result.corrections
+    columns = [("plane", [each.plane for each in every])]
+    columns += _list_polar(f"weight, {unit}", [each.weight for each in every])
+    if result.trimmed:
+        columns += _list_polar(f"add now, {unit}", [each.step for each in every])
     if file.radius is not None:
-        columns += [f"radius, {system.length.name}", f"unbalance, {system.unbalance.name}"]
-    lines = []
-    for each in result.corrections:
-        cells = [each.plane, *_polar(each.weight), *(_polar(each.step) if result.trimmed else ())]
-        if file.radius is not None:
-            radius = file.radius[file.planes.index(each.plane)]
-            cells.append(number(system.length.of(radius / 1e3), 4))
-            cells.append(number(system.unbalance.of((each.unbalance_g_mm or 0.0) / 1e6), 4))
-        limit = ", at its limit" if each.at_limit else ""
-        lines.append((*cells, f"{each.own_effect:.0%}{limit}"))
-    return Grid(
-        "Corrections",
-        (*columns, "own effect"),
-        tuple(lines),
-        " ".join(_explain_corrections(result)),
-        frozenset((k, 1) for k, each in enumerate(result.corrections) if each.at_limit),
-    )
+        radii = dict(zip(file.planes, file.radius, strict=True))
+        lengths = [number(system.length.of(radii[each.plane] / 1e3), 4) for each in every]
+        columns.append((f"radius, {system.length.name}", lengths))
+        unbalances = [_show_g_mm(each.unbalance_g_mm, system) for each in every]
+        columns.append((f"unbalance, {system.unbalance.name}", unbalances))
+    limits = (", at its limit" if each.at_limit else "" for each in every)
+    shares = [f"{each.own_effect:.0%}{limit}" for each, limit in zip(every, limits, strict=True)]
+    columns.append(("own effect", shares))
+    note = " ".join(_explain_corrections(result))
+    marked = frozenset((k, 1) for k, each in enumerate(every) if each.at_limit)
+    return Grid.of_columns("Corrections", columns, note)._replace(marked=marked)
+
+
+def _show_g_mm(value: float | None, system: System) -> str:
+    return UNKNOWN if value is None else number(system.unbalance.of(value / 1e6), 4)
 
 
 def _explain_corrections(result: FieldBalance) -> Iterator[str]:
@@ -128,21 +129,20 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     yield f"Own effect: share that no other planes have; condition {number(result.condition, 3)}."
     for each in result.corrections:
         if each.wanted is not None:
-            best = _weight_text(result, each.wanted)
+            best = _tell_weight(result, each.wanted)
             yield f"Without its limit, {each.plane} would take {best}."
     if result.left_out:
         yield f"Left out: {', '.join(result.left_out)}."
     for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
         if weight and plane in result.left_out:
-            kept = _weight_text(result, result.file.turn(complex(weight)))
+            kept = _tell_weight(result, result.file.turn(complex(weight)))
             yield f"What was on in '{result.trimmed}' stays on in {plane}: {kept}."
 
 
 def _show_pieces(result: FieldBalance, system: System) -> Grid:
     file, length = result.file, system.length
-    columns = ["plane", "hole" if file.drill else "place", "at, deg"]
-    columns += [f"weight, {file.weight_unit}"]
-    columns += [f"drill, {length.name}", f"depth, {length.name}"] if file.drill else []
+    heads = ["plane", "hole" if file.drill else "place", "at, deg", f"weight, {file.weight_unit}"]
+    heads += [f"drill, {length.name}", f"depth, {length.name}"] if file.drill else []
     lines: list[tuple[str, ...]] = []
     for each in result.corrections:
         k = file.planes.index(each.plane)
@@ -155,63 +155,52 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
                 cells.append(number(length.of(piece.depth_mm / 1e3), 3))
             lines.append(tuple(cells))
         if not each.pieces:
-            lines.append((each.plane, *[UNKNOWN] * (len(columns) - 1)))
+            lines.append((each.plane, *[UNKNOWN] * (len(heads) - 1)))
     what = "Holes to drill" if file.drill else "Weights to put on"
     when = f", on top of '{result.trimmed}'" if result.trimmed else ""
-    note = " ".join(_explain_pieces(result))
-    return Grid(f"{what}{when}", tuple(columns), tuple(lines), note)
-
-
-def _explain_pieces(result: FieldBalance) -> Iterator[str]:
-    file, drilled = result.file, result.file.drill is not None
-    if drilled:
-        yield "Radial holes in steel, from the rim inwards, opposite to where weights would go."
-        as_much = "Each does as much as this weight at the rim; its steel, further in, weighs more."
-        yield as_much if file.weighs_masses else "Each removes this unbalance."
-    else:
-        yield "Together they are equal to the corrections."
-    if drilled and result.trimmed:
-        yield "Depths are of new holes: those drilled before are not in the file."
-    elif result.trimmed and file.most is not None:
-        yield "The limit is for these alone: weights already at a place are not in the file."
+    note = "Together they are equal to the corrections."
+    if file.drill:
+        note = (
+            "Radial holes in steel, from the rim inwards, opposite to where weights would go. Each "
+            "does as much as this weight at the rim; its steel, further in, weighs more."
+        )
+    if result.trimmed and (file.drill or file.most):
+        note += " Limits and depths are of these alone: earlier ones are not in the file."
     if result.limited:
-        yield "Places and limits allow no better: see the readings below."
-    if result.limited and drilled and file.places is None:
-        example = [24] * len(file.planes)
-        yield f"For more than one hole in a plane give places, such as places = {example}."
+        note += " Places and limits allow no better: see the readings below."
+    return Grid(f"{what}{when}", tuple(heads), tuple(lines), note)
 
 
 def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> Grid:
-    file, unit, mass = result.file, system.unbalance, system.mass
-    lines = []
-    for x in found.planes:
-        permitted, present, scatter, after = (
-            UNKNOWN if g_mm is None else number(unit.of(g_mm / 1e6), 4)
-            for g_mm in (x.permitted_g_mm, x.present_g_mm, x.scatter_g_mm, x.after_g_mm)
-        )
-        lines.append((x.plane, permitted, present, scatter, x.verdict, after))
+    file, unit, mass, every = result.file, system.unbalance.name, system.mass, found.planes
+    figures: dict[str, list[float | None]] = {
+        "permitted": [each.permitted_g_mm for each in every],
+        "there now": [each.present_g_mm for each in every],
+        "scatter": [each.scatter_g_mm for each in every],
+        "after": [each.after_g_mm for each in every],
+    }
+    *columns, after = (
+        (f"{name}, {unit}", [_show_g_mm(value, system) for value in values])
+        for name, values in figures.items()
+    )
+    plane = ("plane", [each.plane for each in every])
+    verdict = ("", [each.verdict for each in every])
     spread = "how far the true unbalance may lie from it (95 %), by how badly the readings fit"
-    if found.planes[0].scatter_g_mm is None:
+    if every[0].scatter_g_mm is None:
         spread = "unknown, the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "in the rotor as found"
-    return Grid(
+    return Grid.of_columns(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
-        (
-            "plane",
-            *(f"{name}, {unit.name}" for name in ("permitted", "there now", "scatter")),
-            "",
-            f"after, {unit.name}",
-        ),
-        tuple(lines),
+        [plane, *columns, verdict, after],
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
         f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: "
         f"what the corrections leave of it. Scatter: {spread}.",
-        frozenset((k, 4) for k, each in enumerate(found.planes) if not each.reached),
-        words=(0, 4),
+    )._replace(
+        marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached), words=(0, 4)
     )
 
 
-def name_readings(result: FieldBalance) -> list[str]:
+def _name_readings(result: FieldBalance) -> list[str]:
     """Return a name for every reading: its sensor, and its speed where there are several."""
     several = len({each.speed_rpm for each in result.readings}) > 1
     return [
@@ -222,10 +211,11 @@ def name_readings(result: FieldBalance) -> list[str]:
 
 def _show_readings(result: FieldBalance) -> Grid:
     unit = f", {result.unit}" if result.unit else ""
-    states = {f"as found{unit}": result.runs.found}
+    columns = [("reading", _name_readings(result))]
+    columns += _list_polar(f"as found{unit}", result.runs.found)
     if result.trimmed:
-        states[f"{result.runs.state}{unit}"] = result.before
-    states[f"after{unit}"] = result.residual
+        columns += _list_polar(f"{result.runs.state}{unit}", result.before)
+    columns += _list_polar(f"after{unit}", result.residual)
     weighted = " weighted" if result.file.reading_weights else ""
     note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
     if not result.residual.any():
@@ -236,37 +226,21 @@ def _show_readings(result: FieldBalance) -> Grid:
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of their squares is the least {which}."
-    title = "Readings, predicted after the corrections"
-    return _show_polar(title, result, [*states], [*states.values()], 4, note)
+    return Grid.of_columns("Readings, predicted after the corrections", columns, note)
 
 
 def _show_influence(result: FieldBalance) -> Grid:
-    planes = [each.plane for each in result.corrections]
-    columns = [result.influence[:, result.file.planes.index(plane)] for plane in planes]
+    columns = [("reading", _name_readings(result))]
+    for each in result.corrections:
+        effects = result.influence[:, result.file.planes.index(each.plane)]
+        columns += _list_polar(each.plane, effects, 5)
     note = (
         f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count as "
         f"phases do, {result.phases} rotation."
     )
     if result.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
-    return _show_polar("Influence coefficients", result, planes, columns, 5, note)
-
-
-def _show_polar(
-    title: str,
-    result: FieldBalance,
-    names: Sequence[str],
-    columns: Sequence[Complex],
-    digits: int,
-    note: str,
-) -> Grid:
-    """Return a table of complex columns, a line for each reading."""
-    heads = [head for name in names for head in (name, "at, deg")]
-    lines = [
-        (name, *(cell for value in values for cell in _polar(complex(value), digits)))
-        for name, *values in zip(name_readings(result), *columns, strict=True)
-    ]
-    return Grid(title, ("reading", *heads), tuple(lines), note)
+    return Grid.of_columns("Influence coefficients", columns, note)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
@@ -299,7 +273,7 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
     """Draw each reading from a hollow dot (in the last run) to a full one (predicted)."""
     hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
     ends = [*zip(result.before, result.residual, strict=True)]
-    for name, (start, end) in zip(name_readings(result), ends, strict=True):
+    for name, (start, end) in zip(_name_readings(result), ends, strict=True):
         angles, sizes = [np.angle(start or end), np.angle(end or start)], [abs(start), abs(end)]
         ax.plot(angles, sizes, color=SOFT, linewidth=1, linestyle=(0, (4, 2)))
         ax.plot(angles[:1], sizes[:1], "o", **hollow)
@@ -319,16 +293,14 @@ def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
     sizes = [0.0]
     for each, (line, colour) in zip(result.corrections, cycle(MANY_LOOKS), strict=False):
         name = fit_name(each.plane, 30)
-        rays = [(each.step, name, line, 2.0)]
+        rays = {name: (each.step, line)}
         if each.wanted is not None:
-            wanted = each.wanted - each.weight + each.step
-            rays.append((wanted, f"{name}, wanted", ":", 1.0))
-        for weight, label, style, width in rays:
-            text = f"{label}: {number(abs(weight), 3)} at {angle_deg(weight):.1f} deg"
-            look: Look = {"color": colour, "linestyle": style, "linewidth": width}
+            rays[f"{name}, wanted"] = (each.wanted - each.weight + each.step, ":")
+        for label, (weight, style) in rays.items():
             angle, size = np.angle(weight), abs(weight)
-            ax.plot([angle, angle], [0, size], label=text, **look)
-            ax.plot([angle], [size], "o", color=colour, markersize=5)
+            text = f"{label}: {number(size, 3)} at {angle_deg(weight):.1f} deg"
+            look: Look = {"color": colour, "linestyle": style, "marker": "o", "markersize": 5}
+            ax.plot([angle, angle], [0, size], label=text, markevery=[1], **look)
             sizes.append(size)
         if drilled or result.file.places:
             for piece in each.pieces:

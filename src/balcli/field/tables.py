@@ -10,13 +10,13 @@ import cmath
 import math
 import re
 from contextlib import suppress
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from pydantic import Field
 
 from ..core.records import Node
-from ..file.fields import Flag, Label, Number, OneOf, shorten
-from ..file.table import FileTable, Name, Size, Speed
+from ..file.fields import Label, Number, OneOf, shorten
+from ..file.table import FileTable, Name, Size, Speed, Switch
 from ..file.units import ANGLE, BARE_FIGURE, MASS, PLAIN, UNBALANCE, Dimension, Unit, read_unit
 from ..limits import LONGEST_FIGURE, MOST_BALANCING_PLANES, MOST_PLACES, MOST_RUNS, MOST_SENSORS
 
@@ -24,9 +24,7 @@ if TYPE_CHECKING:
     from ..core.phasors import Complex
 
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
-_AT = rf"\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*"
-_POLAR = re.compile(rf"\s*({BARE_FIGURE}){_AT}", re.ASCII)
-_WITH_UNIT = re.compile(rf"\s*({BARE_FIGURE})\s*([^\s\d.,@+-][^@]*?){_AT}", re.ASCII)
+_POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _FARTHEST_DEG = 1e6
 FREE = "free"  # places of a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
@@ -53,47 +51,32 @@ class Polar(Number):
     Args:
         example: A right value, for messages.
         zero: Whether the amplitude may be 0.
-        unit: Key of the file that names the unit of all such values, if there is one.
     """
 
-    def __init__(self, example: str, *, zero: bool, unit: str = "") -> None:
+    def __init__(self, example: str, *, zero: bool) -> None:
         super().__init__(PLAIN)
-        self.example, self.zero, self.unit = example, zero, unit
+        self.example, self.zero = example, zero
 
     def read(self, value: object) -> complex:  # type: ignore[override]
         text = value if isinstance(value, str) and len(value) <= LONGEST_FIGURE else ""
         match = _POLAR.fullmatch(text)
         if match is None:
-            raise ValueError(f"{shorten(value)} {self._describe_misfit(text)}")
+            raise ValueError(
+                f"{shorten(value)} is no amplitude @ angle in degrees; write it like "
+                f'"{self.example}", without a unit'
+            )
         amplitude, angle = map(float, match.groups())
-        wrong = ""
-        if amplitude < 0:
-            wrong = "has a negative amplitude; leave the minus out, turn the angle by 180 degrees"
-        elif amplitude == 0 and not self.zero:
-            wrong = (
-                "is a weight of 0, which has no effect; give the weight that was on, or leave the "
-                "plane out"
+        if amplitude == 0 and not self.zero:
+            raise ValueError(
+                f"{shorten(value)} is a weight of 0, which has no effect; give the weight that was "
+                "on, or leave the plane out"
             )
-        elif not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
-            wrong = (
-                "is too large or small; amplitudes are 0 or 1e-12 to 1e+12, angles up to "
-                f"{_FARTHEST_DEG:g} degrees"
+        if not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
+            raise ValueError(
+                f"{shorten(value)} is too large or small; amplitudes are 0 or 1e-12 to 1e+12, "
+                f"angles up to {_FARTHEST_DEG:g} degrees; turn the angle by 180 in place of a minus"
             )
-        if wrong:
-            raise ValueError(f"{shorten(value)} {wrong}")
         return make_polar(amplitude, angle)
-
-    def _describe_misfit(self, text: str) -> str:
-        """Return the mistake in a text that is not amplitude and angle."""
-        if self.unit and (found := _WITH_UNIT.fullmatch(text)):
-            figure, unit, angle = found.groups()
-            return (
-                f'names a unit, which stands once at the head of the file: write "{figure} @ '
-                f'{angle}", and {self.unit} = {shorten(unit)} there'
-            )
-        comma = re.search(r"\d,\d", text)
-        hint = "; decimals take a point, thousands no comma" if comma else ""
-        return f'is no amplitude @ angle in degrees; write it like "{self.example}"{hint}'
 
     def json(self) -> Node:
         return {"type": "string", "pattern": rf"^{_POLAR.pattern}$"}
@@ -155,8 +138,8 @@ T = TypeVar("T")
 Weights = TypeVar("Weights", complex, "Complex")
 ByPlane = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_BALANCING_PLANES)]
 BySensor = Annotated[tuple[T, ...], Field(min_length=1, max_length=MOST_SENSORS)]
-Reading = Annotated[complex, Polar("170 @ 112", zero=True, unit="unit")]
-Weight = Annotated[complex, Polar("1.15 @ 0", zero=False, unit="weight_unit")]
+Reading = Annotated[complex, Polar("170 @ 112", zero=True)]
+Weight = Annotated[complex, Polar("1.15 @ 0", zero=False)]
 Coefficient = Annotated[complex, Polar("0.0155 @ 113", zero=True)]
 Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
 Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]
@@ -166,86 +149,68 @@ _PHASES = "lag: phases count against rotation, as most instruments do; lead: wit
 _ANGLES = "with: their angles go the way the rotor turns; against: the other way"
 
 
-def _key(example: object, description: str, default: object = None) -> Any:
-    """Return the declaration of a key that may be left out."""
-    return Field(default, examples=[example], description=description)
-
-
 class Run(FileTable):
     """One run of the machine."""
 
-    name: Name | None = _key("trial front", "what to call it")
-    readings: BySensor[Reading] = Field(
-        examples=[["170 @ 112", "53 @ 78"]],
-        description="amplitude @ phase in degrees of every sensor, in the same order in every run",
-    )
-    weights: dict[str, Weight] = Field(
-        default_factory=dict,
-        examples=[{"front": "1.15 @ 0"}],
-        description="weights put on for this run: amount @ angle in degrees, by plane; none: the "
-        "rotor as found",
-    )
-    keep_trial: Annotated[bool, Flag()] = _key(
-        True, "true: these weights stay on in the later runs at this speed", False
-    )
-    speed: Speed | None = _key(1500, "speed of this run; each speed is a series of its own")
+    name: Name | None = None
+    """What to call it. Example: 'trial front'"""
+    readings: BySensor[Reading]
+    """Amplitude @ phase in degrees of every sensor, in the same order in every run. Example:
+    ['170 @ 112', '53 @ 78']"""
+    weights: dict[str, Weight] = Field(default_factory=dict)
+    """Weights put on for this run: amount @ angle in degrees, by plane; none: the rotor as found.
+    Example: { front = '1.15 @ 0' }"""
+    keep_trial: Switch = False
+    """True: these weights stay on in the later runs at this speed. Example: true"""
+    speed: Speed | None = None
+    """Speed of this run; each speed is a series of its own. Example: 1500"""
 
 
 class RunsFile(FileTable):
     """Readings of a rotor with and without trial weights."""
 
-    name: Name | None = _key("fan 3", "what to call the rotor")
-    planes: ByPlane[Name] = Field(
-        examples=[["front", "rear"]], description="names of the planes that take weights"
-    )
-    sensors: BySensor[Name] | None = _key(["front x", "rear x"], "names of the sensors")
-    rotation: Annotated[str, OneOf("lag", "lead", meaning=_PHASES)] = _key(
-        "lag", "phases of readings count against rotation (lag) or with it (lead)", "lag"
-    )
-    weights: Annotated[Sense, OneOf("with", "against", meaning=_ANGLES)] | None = _key(
-        "with",
-        "angles of weights count with or against rotation; left out: the same way as the phases of "
-        "readings",
-    )
-    unit: Name | None = _key("um", "unit of the readings, to show")
-    weight_unit: Annotated[str, AmountUnit()] = _key(
-        "g", "unit of the weights: of mass, or of mass times radius", "g"
-    )
-    reading_weights: BySensor[Factor] | None = _key(
-        [1, 2], "how much each sensor counts; left out: alike"
-    )
-    influence: BySensor[ByPlane[Coefficient]] | None = _key(
-        [["0.0155 @ 113", "0.009 @ 10"]],
-        "influence coefficients, known from before: a row for each reading (of each speed), "
-        "reading per unit of weight for each plane",
-    )
-    radius: ByPlane[Size] | None = _key(
-        [200, 200], "radius of the weights, or of the rim, by plane"
-    )
-    most: ByPlane[Amount] | None = _key(
-        [40, 40], "largest weight of a plane, or at one of its places, by plane"
-    )
-    places: ByPlane[Places] | None = _key(
-        [12, [0, 30, 60]],
-        "where a plane takes weights, by plane: a number of places, evenly spaced from 0 on, a "
-        'list of angles, or "free": at any angle',
-    )
-    drill: ByPlane[Size] | None = _key(
-        [12, 12],
-        "diameter of radial holes that remove steel from the rim, opposite to the weight, by plane",
-    )
-    deepest: ByPlane[Size] | None = _key([25, 25], "deepest hole, by plane")
-    grade: Annotated[float, Grade()] | None = _key(
-        6.3, "balance quality grade G of ISO 21940-11, mm/s"
-    )
-    mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = _key(120, "mass of the rotor")
-    speed: Speed | None = _key(3000, "service speed, for which the grade permits an unbalance")
-    shares: ByPlane[Factor] | None = _key(
-        [0.4, 0.6], "shares of the permitted unbalance, by plane; left out: equal ones"
-    )
-    run: tuple[Run, ...] = Field(
-        min_length=1, max_length=MOST_RUNS, examples=[], description="the runs, in their order"
-    )
+    name: Name | None = None
+    """What to call the rotor. Example: 'fan 3'"""
+    planes: ByPlane[Name]
+    """Names of the planes that take weights. Example: ['front', 'rear']"""
+    sensors: BySensor[Name] | None = None
+    """Names of the sensors. Example: ['front x', 'rear x']"""
+    rotation: Annotated[str, OneOf("lag", "lead", meaning=_PHASES)] = "lag"
+    """Phases of readings count against rotation (lag) or with it (lead). Example: 'lag'"""
+    weights: Annotated[Sense, OneOf("with", "against", meaning=_ANGLES)] | None = None
+    """Angles of weights count with or against rotation; left out: the same way as the phases of
+    readings. Example: 'with'"""
+    unit: Name | None = None
+    """Unit of the readings, to show. Example: 'um'"""
+    weight_unit: Annotated[str, AmountUnit()] = "g"
+    """Unit of the weights: of mass, or of mass times radius. Example: 'g'"""
+    reading_weights: BySensor[Factor] | None = None
+    """How much each sensor counts; left out: alike. Example: [1, 2]"""
+    influence: BySensor[ByPlane[Coefficient]] | None = None
+    """Influence coefficients, known from before: a row for each reading (of each speed), reading
+    per unit of weight for each plane. Example: [['0.0155 @ 113', '0.009 @ 10']]"""
+    radius: ByPlane[Size] | None = None
+    """Radius of the weights, or of the rim, by plane. Example: [200, 200]"""
+    most: ByPlane[Amount] | None = None
+    """Largest weight of a plane, or at one of its places, by plane. Example: [40, 40]"""
+    places: ByPlane[Places] | None = None
+    """Where a plane takes weights, by plane: a number of places, evenly spaced from 0 on, a list of
+    angles, or "free": at any angle. Example: [12, [0, 30, 60]]"""
+    drill: ByPlane[Size] | None = None
+    """Diameter of radial holes that remove steel from the rim, opposite to the weight, by plane.
+    Example: [12, 12]"""
+    deepest: ByPlane[Size] | None = None
+    """Deepest hole, by plane. Example: [25, 25]"""
+    grade: Annotated[float, Grade()] | None = None
+    """Balance quality grade G of ISO 21940-11, mm/s. Example: 6.3"""
+    mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = None
+    """Mass of the rotor. Example: 120"""
+    speed: Speed | None = None
+    """Service speed, for which the grade permits an unbalance. Example: 3000"""
+    shares: ByPlane[Factor] | None = None
+    """Shares of the permitted unbalance, by plane; left out: equal ones. Example: [0.4, 0.6]"""
+    run: Annotated[tuple[Run, ...], Field(min_length=1, max_length=MOST_RUNS)]
+    """The runs, in their order."""
 
     @property
     def weighs_masses(self) -> bool:
@@ -273,6 +238,3 @@ class RunsFile(FileTable):
         if not self.weighs_masses:
             return scale
         return scale * self.radius[k] / 1e3 if self.radius else None
-
-
-# ------------------------------------------------------------------ what does not fit together

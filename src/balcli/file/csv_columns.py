@@ -70,18 +70,16 @@ class NumberColumns(NamedTuple):
     """Columns of numbers in a file.
 
     Attributes:
-        heads: Heads as the file has them, in the wanted order.
-        rows: A number for each head.
+        rows: A number for each wanted head.
         lines: Line of each row in the file, from 1.
         units: Unit of each head, as the file has it; empty where the head has none.
         scales: Size of that unit in the unit of the column's dimension.
     """
 
-    heads: tuple[str, ...]
     rows: tuple[tuple[float, ...], ...]
     lines: tuple[int, ...]
-    units: tuple[str, ...] = ()
-    scales: tuple[float, ...] = ()
+    units: tuple[str, ...]
+    scales: tuple[float, ...]
 
     def column(self, number: int) -> list[float]:
         """Return all numbers under one of the heads, counted from 0, in its quantity's unit."""
@@ -107,10 +105,7 @@ def locate_beside(folder: Path, name: str) -> Path:
     except ValueError as error:  # letters that names of files have not here: LC_ALL=C
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
-        raise BalcliError(
-            f"{shorten(name)} lies outside the folder of the engine file; put it next to that "
-            "file, or in a folder below it"
-        )
+        raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
     return folder / name
 
 
@@ -148,9 +143,7 @@ def _list_lines(text: str) -> dict[int, str]:
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
         if len(lines) > MOST_ROWS:  # besides the heading
-            raise ValueError(
-                f"has more than {MOST_ROWS} rows; keep every tenth row, or the mean of the cycles"
-            )
+            raise ValueError(f"has more than {MOST_ROWS} rows; keep the mean of the cycles")
         lines[number] = line.rstrip("\n")
     return lines
 
@@ -185,9 +178,8 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
     )
-    heads = tuple(heading[place] for place in places)
     _, units, scales = zip(*found, strict=True)
-    return NumberColumns(heads, figures, tuple(numbers), units, scales)
+    return NumberColumns(figures, tuple(numbers), units, scales)
 
 
 def _join_units(heading: list[str], below: list[str]) -> list[str]:

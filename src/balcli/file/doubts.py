@@ -29,6 +29,7 @@ SMALL_END = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
 # little.
 INERTIA = 0.02, 0.4
+TWO_MASSES = 1.6  # rod inertia / that of two masses at its ends: engines have 0.6 to 1.35
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
 SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9.55
 # Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
@@ -92,7 +93,11 @@ def find_suspicious(model: EngineFile) -> list[str]:
     Args:
         model: the engine file.
     """
-    figures = (*_list_pistons(model), *_list_rods(model), *_list_cranks(model), *_list_gas(model))
+    figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
+    question = ask_unit("bar", "130 psi", "0.9 MPa")
+    for key, usual in PRESSURES.items() if model.gas else ():
+        if (value := getattr(model.gas, key)) is not None:
+            figures.append(Figure(f"gas.{key} is", value, *usual, question))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
 
@@ -132,15 +137,9 @@ def _round(value: float) -> str:
 def _find_missing(model: EngineFile) -> Iterator[str]:
     """Yield warnings for keys that are left out, and probably forgotten."""
     if _weigh_piston(model) == 0:
-        yield (
-            "piston.mass is 0: only the rod moves to and fro; give the mass of piston, pin, rings "
-            "and locks"
-        )
+        yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
-        yield (
-            "rod.cg is not given: all of the rod counts at the crank pin; measure it from the "
-            "big-end centre"
-        )
+        yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
@@ -202,6 +201,10 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
     if mass and rod.inertia is not None:
         least, most = (share * mass * length**2 for share in INERTIA)
         about = "it is taken about the centre of mass, in kg mm^2"
+        if rod.cg is not None and 0 < rod.cg < length:
+            two_masses = TWO_MASSES * mass * rod.cg * (length - rod.cg)
+            if two_masses < rod.inertia <= most:
+                most, about = two_masses, "does it belong to this mass, cg and length?"
         yield Figure("rod.inertia is", rod.inertia, least, most, " kg mm^2", about)
 
 
@@ -238,13 +241,6 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
         if inertia:
             question = ask_unit("kg mm^2", f"{inertia:.4g} kg m^2")
             yield Figure(f"{name}.inertia is", inertia, least, math.inf, " kg mm^2", question)
-
-
-def _list_gas(model: EngineFile) -> Iterator[Figure]:
-    question = ask_unit("bar", "130 psi", "0.9 MPa")
-    for key, usual in PRESSURES.items() if model.gas else ():
-        if (value := getattr(model.gas, key)) is not None:
-            yield Figure(f"gas.{key} is", value, *usual, question)
 
 
 def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:

@@ -33,7 +33,9 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
     from tomlkit.exceptions import TOMLKitError
 
     wanted = tomllib.loads(text)
-    place = _open(wanted, table)
+    place: Any = wanted
+    for name in table.split("."):
+        place = place[int(name) - 1] if isinstance(place, list) else place.setdefault(name, {})
     changes = {key: value for key, value in keys.items() if place.get(key) != value}
     if not changes:
         return text
@@ -89,13 +91,6 @@ def format_value(value: object) -> str:
         inner = ", ".join(f"{key} = {format_value(part)}" for key, part in value.items())
         return f"{{ {inner} }}"
     return f'"{value}"' if isinstance(value, str) else repr(value)
-
-
-def _open(data: Any, table: str) -> Node:
-    """Return a table in the data of a file; it is put there if it is missing."""
-    for name in table.split("."):
-        data = data[int(name) - 1] if isinstance(data, list) else data.setdefault(name, {})
-    return data
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:

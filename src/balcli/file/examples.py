@@ -94,8 +94,6 @@ def text(name: str) -> str:
         return known[name].read_text(encoding="utf-8")
     near = get_close_matches(name.lower()[:100], known, 3)
     hint = f" Did you mean {' or '.join(near)}?" if near else ""
-    if name.lower() in groups():
-        hint = f" It is a class: balcli engines --class {name.lower()}."
     raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
 
 
@@ -107,10 +105,7 @@ def folder() -> Path:
     """
     place = next(filter(Path.is_dir, _PLACES), None)
     if place is None:
-        raise BalcliError(
-            f"the example engines are missing from this installation ({_PLACES[0]}): install "
-            "balcli again"
-        )
+        raise BalcliError(f"there is no folder of examples ({_PLACES[0]}): install balcli again")
     return place
 
 
@@ -147,13 +142,11 @@ def template(kind: str) -> str:
         BalcliError: No such kind; the error lists all of them and the nearest.
     """
     if kind not in KINDS:
-        near = nearest(kind, KINDS)
+        near, like = nearest(kind, KINDS), [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
-        if kind in names():
-            hint = f" A finished one is among the examples: balcli engines {kind}."
-        raise BalcliError(
-            f'"{kind[:60]}" is no kind of file to start from; there are {", ".join(KINDS)}.{hint}'
-        )
+        if like:
+            hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
+        raise BalcliError(f'"{kind[:60]}" is no kind of file; there are {", ".join(KINDS)}.{hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
     return _read_template(kind)

@@ -257,7 +257,7 @@ class Flag(_Field):
     def read(self, value: object) -> bool:
         if not isinstance(value, bool):
             raise ValueError(
-                f"{shorten(value)} is neither true nor false; write one of these, without quotes"
+                f"{shorten(value)} is neither true nor false: write one without quotes"
             )
         return value
 
@@ -322,23 +322,16 @@ class Choice(NamedTuple):
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """Yield the mistakes in the given keys, in words that follow the name of the table."""
-        begun = [[key for key in group if key in given] for group in self.groups]
-        keys, missing = [key for some in begun for key in some], self.find_missing(given)
-        if sum(map(bool, begun)) > 1:
-            yield f"has {join_words(keys)}; {self._wanted()}"
-        elif missing and not keys:
-            yield f"has neither {' nor '.join(map(join_words, self.groups))}; {self._wanted()}"
-        elif missing:
-            yield f"has {join_words(keys)} without {join_words(missing)}; {self._wanted()}"
-
-    def find_missing(self, given: Collection[str]) -> tuple[str, ...]:
-        """Return missing keys of which one is needed, or all."""
         begun = [group for group in self.groups if any(key in given for key in group)]
-        if not begun and self.required:
-            return tuple(key for group in self.groups for key in group)
-        if len(begun) == 1 and self.complete in (True, begun[0]):
-            return tuple(key for key in begun[0] if key not in given)
-        return ()
+        keys = [key for group in begun for key in group if key in given]
+        wanted = f"give either {' or '.join(map(join_words, self.groups))}"
+        if len(begun) > 1:
+            yield f"has {join_words(keys)}; {wanted}"
+        elif not begun and self.required:
+            yield f"has neither {' nor '.join(map(join_words, self.groups))}; {wanted}"
+        elif begun and self.complete in (True, begun[0]) and len(keys) < len(begun[0]):
+            missing = [key for key in begun[0] if key not in given]
+            yield f"has {join_words(keys)} without {join_words(missing)}; {wanted}"
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Return the keys that exclude this one; none for a key of no group."""
@@ -349,9 +342,6 @@ class Choice(NamedTuple):
     def for_overrides(self, prefix: str) -> Choice:
         """Return this choice among keys with a prefix, none of which must be given."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
-
-    def _wanted(self) -> str:
-        return f"give either {' or '.join(map(join_words, self.groups))}"
 
 
 def join_words(words: Collection[str]) -> str:

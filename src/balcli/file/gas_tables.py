@@ -5,24 +5,14 @@ They are imported for files that have them (`names.CHAPTERS`).
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, FileTable, GivenInertia, Heat, Mass, Size
+from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
-IntakePressure = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
-Ratio = Annotated[float, Number(PLAIN, above=1, most=1000)]
-Index = Annotated[float, Number(PLAIN, least=1, most=5)]
-ExpansionIndex = Annotated[float, Number(PLAIN, above=1, most=5)]
-CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
-Efficiency = Annotated[float, Number(PLAIN, above=0, most=1)]
-ExhaustAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
-IntakeAngle = Annotated[float, Number(ANGLE, least=360, below=720)]
-Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
-Exponent = Annotated[float, Number(PLAIN, least=0, most=100)]
 
 _GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
@@ -38,7 +28,6 @@ class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
     choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
-    wiebe_keys: ClassVar[tuple[str, ...]] = WIEBE_KEYS
 
     indicator: Annotated[str, FileName()] | None = None
     """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
@@ -51,14 +40,14 @@ class Gas(FileTable):
     """Gauge: above the atmosphere of 1.01325 bar. Example: 'gauge'"""
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """A computed cycle, by how it burns. Example: 'wiebe'"""
-    compression_ratio: Ratio | None = None
+    compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
     """Largest over smallest volume of the cylinder; with a diagram it gives the volume.
     Example: 10.5"""
-    compression_index: Index = 1.32
+    compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
     """n of p V^n = const. Example: 1.35"""
-    expansion_index: ExpansionIndex = 1.28
+    expansion_index: Annotated[float, Number(PLAIN, above=1, most=5)] = 1.28
     """n of p V^n = const, and while it burns. Example: 1.27"""
-    intake: IntakePressure = 1.0
+    intake: Annotated[float, Number(PRESSURE, above=0, most=1e6)] = 1.0
     """Absolute, while it is filled. Example: 1.8"""
     exhaust: Pressure = 1.05
     """Absolute, while it empties; four-stroke. Example: 1.3"""
@@ -67,23 +56,23 @@ class Gas(FileTable):
     value. Example: 10"""
     bmep: MeanPressure | None = None
     """Instead of imep, with mechanical_efficiency. Example: 8.5"""
-    mechanical_efficiency: Efficiency | None = None
+    mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
     """Brake over indicated mean effective pressure. Example: 0.85"""
     max_pressure: Pressure | None = None
     """Absolute; that the cycle is to have, or (dual) at which it burns on. Example: 70"""
-    cut_off: CutOff | None = None
+    cut_off: Annotated[float, Number(PLAIN, least=1, most=1000)] | None = None
     """Volume after over before burning at constant pressure. Example: 2"""
     heat: Heat | None = None
     """Supplied in each cycle of a cylinder. Example: 1400"""
     burn_start: Angle = -15.0
     """Wiebe: cycle angle. Example: -10"""
-    burn_duration: Duration = 50.0
+    burn_duration: Annotated[float, Number(ANGLE, above=0, most=720)] = 50.0
     """Wiebe: crank angle. Example: 60"""
-    burn_shape: Exponent = 2.0
+    burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
     """Wiebe: exponent m. Example: 1.5"""
-    exhaust_opens: ExhaustAngle | None = None
+    exhaust_opens: Annotated[float, Number(ANGLE, above=0, most=360)] | None = None
     """Cycle angle; left out: lower dead centre. Example: 140"""
-    intake_closes: IntakeAngle | None = None
+    intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
     """Cycle angle, four-stroke; left out: lower dead centre. Example: 580"""
     harmonics: Annotated[str, FileName()] | None = None
     """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
@@ -114,7 +103,7 @@ class Gas(FileTable):
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
-            idle.update(self.wiebe_keys)
+            idle.update(WIEBE_KEYS)
         if strokes == 2:
             idle.update(("exhaust", "intake_closes"))
         if not measured:
@@ -140,34 +129,24 @@ class Gas(FileTable):
             what = "indicator" if self.indicator else "harmonics"
             yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
-    def _check_wiebe(self) -> Iterator[str]:
-        wiebe = [key for key in self.wiebe_keys if key in self.model_fields_set]
-        if wiebe and self.cycle not in (None, "wiebe"):
-            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
-
-    def _check_goals(self) -> Iterator[str]:
-        """Check that exactly one figure sets the heat."""
+    def _check_cycle(self) -> Iterator[str]:
+        """Check that a computed cycle has its keys, and exactly one figure that sets the heat."""
         if self.cycle is None:
             return
+        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
+        if wiebe and self.cycle != "wiebe":
+            yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
         given = [key for key in self.goals if self.has(key)]
-        *front, last = self.goals
-        choice = f"give one of {', '.join(front)} and {last}"
+        choice = f"give one of {join_words(self.goals)}"
         if len(given) > 1:
             yield f"has {join_words(given)}; {choice}"
         elif not given:
             yield f"does not say how much is burnt; {choice}"
-
-    def _check_max_pressure(self) -> Iterator[str]:
         if self.cycle == "dual" and self.max_pressure is None:
             yield "needs max_pressure for a dual cycle, at which it burns on"
-
-    def _check_bmep(self) -> Iterator[str]:
-        computed = self.cycle is not None
-        if computed and self.bmep is not None and self.mechanical_efficiency is None:
+        if self.bmep is not None and self.mechanical_efficiency is None:
             yield "has bmep without mechanical_efficiency; give both, or imep"
-
-    def _check_compression_ratio(self) -> Iterator[str]:
-        if self.cycle is not None and self.compression_ratio is None:
+        if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"
 
 
@@ -196,9 +175,21 @@ class Bearing(FileTable):
 
     pin_diameter: Size | None = None
     """Of the crank pins. Example: 48"""
+    pin_bore: Distance = 0.0
+    """Inner diameter of hollow crank pins. Example: 20"""
     pin_width: Size | None = None
     """Of each rod's bearing. Example: 20"""
     main_diameter: Size | None = None
     """Of the main journals. Example: 60"""
+    main_bore: Distance = 0.0
+    """Inner diameter of hollow main journals. Example: 20"""
     main_width: Size | None = None
     """Of each main bearing. Example: 22"""
+
+    def _check_bores(self) -> Iterator[str]:
+        """A hollow journal has a diameter, above that of its bore."""
+        for kind in ("pin", "main"):
+            bore, diameter = getattr(self, f"{kind}_bore"), getattr(self, f"{kind}_diameter")
+            if bore and (diameter is None or bore >= diameter):
+                wanted = "" if diameter is None else f" = {diameter:g} mm"
+                yield f"{kind}_bore = {bore:g} mm: has to be below {kind}_diameter{wanted}"

@@ -8,7 +8,6 @@ from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from ..errors import OtherKindError, Problem
-from ..limits import MOST_LIST_VALUES, MOST_RIPPLES
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
 from .fields import counted, nearest, printable, shorten
@@ -24,6 +23,7 @@ TABLES: dict[str, type[FileTable]] = {
     "crank": model.Crank,
     "rod": model.Rod,
     "piston": model.Piston,
+    "crosshead": model.Crosshead,
     "layout": model.Layout,
     "bobweight": model.Bobweight,
     "operation": model.Operation,
@@ -79,9 +79,13 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         example = "{ length = 200 }" if document.example is None else shorten(document.example)
         return Problem.of_missing(place, f"give it, such as {key} = {example}")
     if kind == "value_error":
-        message = str(finding["ctx"]["error"])
+        message = "; ".join(finding["ctx"]["error"].args)
     elif kind in ("too_short", "too_long"):
-        message = _describe_length(value, finding["ctx"], document.description)
+        bounds = {"too_short": ("at least", "min_length"), "too_long": ("at most", "max_length")}
+        most, bound = bounds[kind]
+        these = document.description.partition(";")[0]
+        message = f"{shown} has {counted(len(value), 'value')}; give {most} {finding['ctx'][bound]}"
+        message += f": {these}" if these else ""
     elif kind == "tuple_type" and field and find_table(field.annotation):
         found = "is one of several" if isinstance(value, Mapping) else f"{shown} is no table"
         message = f"{found}; write [[{place}]] in double brackets"
@@ -93,19 +97,6 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)
-
-
-def _describe_length(
-    value: Sequence[object], context: Mapping[str, object], description: str
-) -> str:
-    least, most = context.get("min_length"), context.get("max_length")
-    if least == 1:
-        return "is an empty list; give at least one value"
-    if most in (MOST_LIST_VALUES, MOST_RIPPLES):
-        return f"has {len(value)} values; at most {most} are taken"
-    these = f": {description.partition(';')[0]}" if description else ""
-    found = f"{shorten(value)} has {counted(len(value), 'value')}"
-    return f"{found} where {least or most} are wanted{these}"
 
 
 def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[FileTable]:

@@ -8,7 +8,7 @@ file has.
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Self
@@ -77,13 +77,6 @@ class Crank(FileTable):
     splay: Angle = 0.0
     """Split pins: angle by which each further bank's pin leads the one before it. Example: -30"""
 
-    def _check_places(self) -> Iterator[str]:
-        if self.throws and self.positions and len(self.throws) != len(self.positions):
-            yield (
-                f"positions has {counted(len(self.positions), 'place')} for "
-                f"{counted(len(self.throws), 'throw')}; give one for each throw"
-            )
-
 
 class Pendulum(FileTable):
     """A pendulum test of a rod: swung about one of its bores."""
@@ -147,6 +140,13 @@ class Piston(FileTable):
     Example: -1.6"""
 
 
+class Crosshead(FileTable):
+    """Crosshead between the piston rod and the connecting rod of large engines."""
+
+    mass: Mass = 0.0
+    """Of each cylinder, with piston rod and pin; it moves with the piston. Example: 2400"""
+
+
 class Layout(FileTable):
     """Banks, rods on a throw, and firing."""
 
@@ -175,11 +175,15 @@ class Layout(FileTable):
     numbering: NumbersOfBanks | None = None
     """Cylinder numbers of each bank, free end to flywheel end. Example: [[1, 3], [2, 4]]"""
 
-    def _check_firing_order(self) -> Iterator[str]:
-        yield from _refuse_repeated("firing_order", self.firing_order or ())
-
-    def _check_numbering(self) -> Iterator[str]:
-        yield from _refuse_repeated("numbering", chain(*self.numbering or ()))
+    def _check_numbers(self) -> Iterator[str]:
+        for key, numbers in (
+            ("firing_order", self.firing_order or ()),
+            ("numbering", chain(*self.numbering or ())),
+        ):
+            twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
+            if twice:
+                listed = join_words(twice[:5])
+                yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
     def _check_intervals(self) -> Iterator[str]:
         intervals, order, cycle = self.firing_intervals, self.firing_order, 180 * self.strokes
@@ -216,13 +220,6 @@ def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
     rises = min(gaps) > 0 and (first or angles[-1] == cycle) and len(angles) > 1
     fits = sum(angles) == cycle and max(gaps) > min(gaps) + INTERVAL_TOLERANCE_DEG
     return gaps if rises and not fits else []
-
-
-def _refuse_repeated(key: str, numbers: Iterable[int]) -> Iterator[str]:
-    twice = [str(number) for number, times in Counter(numbers).items() if times > 1]
-    if twice:
-        listed = join_words(twice[:5])
-        yield f"{key} has cylinder {listed} more than once; name every cylinder once"
 
 
 class Bobweight(FileTable):
@@ -282,6 +279,8 @@ class Override(FileTable):
 
     piston_mass: Mass | None = None
     """As piston.mass. Example: 0.502"""
+    crosshead_mass: Mass | None = None
+    """As crosshead.mass. Example: 2450"""
     piston_offset: Length | None = None
     """As piston.offset. Example: 0.8"""
     rod_length: Size | None = None
@@ -378,11 +377,6 @@ def label_table(table: FileTable, number: int) -> str:
     return name if name.isidentifier() else str(number)
 
 
-# Tables on which most depends: what depends on some of their keys does not on others, which may
-# be mistaken.
-ONE_BY_ONE: dict[str, type[FileTable]] = {"crank": Crank, "layout": Layout}
-
-
 class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
@@ -393,6 +387,7 @@ class EngineFile(FileTable):
     crank: Crank
     rod: Rod
     piston: Piston
+    crosshead: Crosshead = Crosshead.model_construct()
     layout: Layout = Layout.model_construct()
     bobweight: Bobweight = Bobweight.model_construct()
     operation: Operation = Operation.model_construct()

@@ -15,9 +15,9 @@ import numpy as np
 from ..core.records import Node
 from ..errors import InputError, Problem, wrong_type
 from ..limits import MOST_KEY_VALUES
-from .fields import RIGID, Number
+from .fields import RIGID
 from .model import EngineFile, label_table
-from .table import FileTable, document_keys
+from .table import FileTable
 from .toml import name_file, parse_toml, read_bytes
 
 
@@ -63,10 +63,8 @@ def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str
 def _key(key: object) -> str:
     if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
         return str(key)
-    raise TypeError(
-        f"the key {str(key)[:60]} ({type(key).__name__}) is no text; write it as a file has it, "
-        'such as "stroke"'
-    )
+    told = f"the key {str(key)[:60]} ({type(key).__name__}) is no text"
+    raise TypeError(f'{told}; write it as a file has it, such as "stroke"')
 
 
 def _plain(value: object) -> object:
@@ -159,35 +157,19 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
     member: `mount.dynamic_factor = 1`.
     """
-    if (torsion := model.torsion) is not None:
-        for end, parts in (("front", torsion.front), ("rear", torsion.rear)):
-            of_steel = (part for part in parts if part.is_of_unnamed_steel)
-            yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
-        if not (torsion.has("loss") or torsion.has("damping")):
-            yield "torsion.loss = 0"
-    if model.body is not None and not model.body.has("gravity"):
-        yield "body.gravity = [-1, 0, 0]"
-    if model.body is not None and model.gas is not None and not model.body.has("carries_load"):
-        yield "body.carries_load = false"
-    if not all(one.has("loss") or one.has("damping") for one in model.mount):
-        yield "mount.loss = 0"
-    if not all(one.has("dynamic_factor") for one in model.mount):
-        yield "mount.dynamic_factor = 1"
-
-
-def list_mass_defaults(model: EngineFile) -> Iterator[str]:
-    """Yield masses and inertias of crank, flywheel and rod that the file does not give."""
-    crank, rod = model.crank, model.rod
-    if not (crank.has("throw_mass") or model.layout.rotary):
-        yield "crank.throw_mass = 0"
-    if crank.inertia is None and (model.flywheel or model.operation.speed_ripple):
-        yield "crank.inertia = 0"
-    if crank.inertia is not None and model.flywheel is None:
-        yield "flywheel.inertia = 0"
-    if rod.mass is None and rod.small_end is None:
-        yield "rod.mass = 0"
-    elif rod.mass and rod.cg is None:
-        yield "rod.cg = 0"
+    torsion, body, mounts = model.torsion, model.body, model.mount
+    for end, parts in (("front", torsion.front), ("rear", torsion.rear)) if torsion else ():
+        of_steel = (part for part in parts if part.is_of_unnamed_steel)
+        yield from {f"torsion.{end}.shear_modulus = {s.shear_modulus:g}" for s in of_steel}
+    undamped = torsion is not None and not (torsion.has("loss") or torsion.has("damping"))
+    left_out = {
+        "torsion.loss = 0": undamped,
+        "body.gravity = [-1, 0, 0]": body is not None and not body.has("gravity"),
+        "body.carries_load = false": body and model.gas and not body.has("carries_load"),
+        "mount.loss = 0": not all(one.has("loss") or one.has("damping") for one in mounts),
+        "mount.dynamic_factor = 1": not all(one.has("dynamic_factor") for one in mounts),
+    }
+    yield from (default for default, counts in left_out.items() if counts)
 
 
 # Tables that count in some subjects alone.
@@ -205,41 +187,3 @@ def choose_assumed(
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)
     return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
-
-
-_TABLES = ("crank", "rod", "piston", "layout", "operation", "frame")
-_TOLD = "left out: "  # in the description of a key: what follows is taken
-
-
-def list_assumed(model: EngineFile) -> Iterator[str]:
-    """Yield each default in words, such as "operation.speed = 1000 rpm", or "rod.inertia: two
-    masses at the ends".
-    """
-    idle = _list_idle(model)
-    for name in _TABLES:
-        table: FileTable = getattr(model, name)
-        for key, field in table.keys().items():
-            path = f"{name}.{key}"
-            if key in table.model_fields_set or path in idle:
-                continue
-            _, told, taken = document_keys(type(table))[key].description.partition(_TOLD)
-            unit = next((m.dimension.unit for m in field.metadata if isinstance(m, Number)), "")
-            if told:
-                yield f"{path}: {taken}"
-            elif isinstance(field.default, str):
-                yield f"{path} = {field.default}"
-            elif isinstance(field.default, int | float) and field.default is not False:
-                yield f"{path} = {field.default:g} {unit}".rstrip()
-
-
-def _list_idle(model: EngineFile) -> set[str]:
-    """Return keys in whose place others stand, or that have no effect in this engine."""
-    found = {"rod.inertia"} if model.rod.pendulum is not None else set()
-    layout = model.layout
-    one_throw = len(model.crank.throws or (0,)) == 1 and layout.firing_order is None
-    one_bank = layout.bank_angle is None and layout.banks is None and layout.radial is None
-    if one_bank:
-        found |= {"crank.splay", "layout.rods", "layout.stagger"}
-    if one_throw and one_bank:
-        found |= {"layout.firing_intervals"}
-    return found

@@ -7,16 +7,15 @@ Contradictions between tables are not looked for here: that takes an engine (`en
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from ..core.records import Node
 from ..errors import CONTROL_CHARACTERS, InputError, Problem
-from ..limits import LONGEST_NAME, MOST_KEY_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
+from ..limits import LONGEST_NAME, MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_PARTS
 from ..names import CHAPTER_LISTS
 from .fields import printable, shorten
 from .messages import (
@@ -34,27 +33,12 @@ from .messages import (
     suggest,
     suggest_place,
 )
-from .model import ONE_BY_ONE, EngineFile, Override
+from .model import EngineFile, Override
 from .plain_tables import change_tables
-from .table import FileTable, document_keys
+from .table import FileTable
 from .toml import parse_toml
 
 T = TypeVar("T", bound=FileTable)
-
-
-class RefusedTable(NamedTuple):
-    """A table that pydantic refuses.
-
-    Attributes:
-        broken: keys that cannot be read.
-        draft: the table without these, with examples of those that are required; None if this
-            table is refused as well.
-        is_consistent: whether the readable keys have no contradictions.
-    """
-
-    broken: set[str]
-    draft: FileTable | None
-    is_consistent: bool
 
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
@@ -82,7 +66,6 @@ class TableReader:
 
     Attributes:
         problems: the mistakes so far.
-        refused: tables with mistakes in them, by their paths.
     """
 
     def __init__(
@@ -95,7 +78,6 @@ class TableReader:
         self._file_kind, self._describe, self._is_engine = file_kind, describe, is_engine
         self._unknown = 0
         self.problems: list[Problem] = []
-        self.refused: dict[str, RefusedTable] = {}
 
     def read_list(
         self, key: str, value: object, table: type[T], most: int = MOST_PARTS
@@ -118,7 +100,8 @@ class TableReader:
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """Return a table; None if it has mistakes.
+        """Return a table; None if it has mistakes. Contradictions between its keys are looked for
+        where all of them can be read.
 
         Args:
             path: Path of the table; empty: the file itself.
@@ -133,22 +116,16 @@ class TableReader:
             self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
             return None
         keys = table.keys()
+        known = {key: part for key, part in value.items() if key in keys}
         for key in value:
             if key not in keys:
                 self.refuse_key(path, key, keys, value[key])
-        known = {key: part for key, part in value.items() if key in keys}
-        sizes = {key: _count_values(part) for key, part in known.items()}
-        huge = {key: size for key, size in sizes.items() if size > MOST_KEY_VALUES}
-        for key, size in huge.items():  # more than pydantic should look at one by one
-            message = f"holds {size} values; no engine needs more than {MOST_KEY_VALUES}"
-            self.add(join_path(path, [key]), message)
-        if huge:
-            return None
         try:
-            return table.model_validate(known)
+            read = table.model_validate(known)
         except ValidationError as error:
-            self._translate(path, table, known, error)
+            self._translate(path, table, error, whole=len(known) == len(value))
             return None
+        return read if len(known) == len(value) else None
 
     def refuse_key(self, path: str, key: str, own: Collection[str] | None, value: object) -> None:
         """Collect a key that is none of a table.
@@ -189,69 +166,22 @@ class TableReader:
         self.problems.append(Problem(path, message))
 
     def _translate(
-        self, path: str, table: type[FileTable], value: Mapping[str, object], error: ValidationError
+        self, path: str, table: type[FileTable], error: ValidationError, *, whole: bool
     ) -> None:
-        """Collect contradictions of the readable keys, and pydantic's findings."""
-        findings = [found for found in error.errors(include_url=False) if found["loc"]]
-        broken = {str(finding["loc"][0]) for finding in findings}
-        draft = _read_without(table, value, broken)
-        conflicts = list(_find_conflicts(path, table, value, broken, draft))
-        self.problems += conflicts
-        self.refused[path] = RefusedTable(broken, draft, not conflicts)
-        for finding in findings:
-            if finding["type"] == "extra_forbidden":  # in a table within the table
+        """Collect pydantic's findings in a table; `whole`: whether it has no unknown keys."""
+        for finding in error.errors(include_url=False)[:MOST_LIST_VALUES]:
+            if not finding["loc"]:
+                contradictions = finding["ctx"]["error"].args if whole else ()
+                self.problems += (Problem(path, message) for message in contradictions)
+            elif finding["type"] == "extra_forbidden":  # in a table within the table
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not _is_miscounted(finding):
+            elif not (  # a list whose members have findings of their own was not counted in full
+                finding["type"] == "too_short"
+                and len(finding["input"]) >= finding["ctx"]["min_length"]
+            ):
                 self.problems.append(self._describe(path, finding, table))
-
-
-def _is_miscounted(finding: ErrorDetails) -> bool:
-    """Return whether a list is called too short only because members of it, which have findings of
-    their own, were not counted.
-    """
-    return finding["type"] == "too_short" and len(finding["input"]) >= finding["ctx"]["min_length"]
-
-
-def _read_without(
-    table: type[FileTable], value: Mapping[str, object], broken: set[str]
-) -> FileTable | None:
-    """Return the table without its broken keys (`RefusedTable.draft`); None if others are broken
-    too.
-    """
-    known = {key: part for key, part in value.items() if key not in broken}
-    needed = [key for key, field in table.keys().items() if field.is_required()]
-    examples = {key: document_keys(table)[key].example for key in needed}
-    try:
-        draft = table.model_validate(examples | known, context=broken)
-    except ValidationError:
-        return None
-    draft.model_fields_set.update(broken & value.keys())  # these are given, too
-    return draft
-
-
-def _find_conflicts(
-    path: str,
-    table: type[FileTable],
-    value: Mapping[str, object],
-    broken: set[str],
-    draft: FileTable | None,
-) -> Iterator[Problem]:
-    """Yield contradictions between keys, and between the values of those that can be read."""
-    for choice in table.choices:
-        missing = tuple(join_path(path, [key]) for key in choice.find_missing(value))
-        for mistake in choice.mistakes(value):
-            yield Problem(path, mistake, missing)
-    for mistake, read in draft.find_conflicts(broken) if draft is not None else ():
-        yield Problem(path, mistake, tuple(join_path(path, [key]) for key in read - value.keys()))
-
-
-def _count_values(value: object) -> int:
-    """Return how many values a value holds, itself included."""
-    if isinstance(value, Mapping):
-        return 1 + sum(map(_count_values, value.values()))
-    return 1 + sum(map(_count_values, value)) if isinstance(value, list) else 1
 
 
 REQUIRED = {"crank": "stroke = 90", "rod": "length = 160", "piston": "mass = 0.5"}
@@ -262,9 +192,8 @@ class Draft(NamedTuple):
 
     Attributes:
         model: the file. Tables with mistakes are replaced by their defaults, or left out.
-        readable: keys of the file that were read, or are certainly not given: no misspelt key
-            stands for one of them. Keys of [crank] and [layout] are listed singly as well, such as
-            crank.throws.
+        readable: tables and keys at the head of the file that were read, or are certainly not
+            given: no misspelt one stands for them.
         problems: mistakes of the text.
     """
 
@@ -309,13 +238,28 @@ def check_tables(
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
-    _refuse_strangers(reader, data)
+    for key in filter(lambda key: key not in KNOWN, data):
+        inside = data[key]
+        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
+            reader.refuse_key("", key, KNOWN, inside)
+            continue
+        for inner, value in inside.items():  # of an unknown table: each with the table that has it
+            reader.refuse_key(printable(key), inner, None, value)
     for key, example in REQUIRED.items():
         if key not in data and not body_alone:
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
     parts = {key: _read_part(reader, key, data[key]) for key in KNOWN if key in data}
-    return _draft(reader, parts, folder)
+    broken = {key for key in REQUIRED if key not in parts}
+    broken |= {problem.meant for problem in reader.problems if problem.meant}
+    for key, part in parts.items():
+        members = part.values() if isinstance(part, dict) else (part,)
+        if None in (part if isinstance(part, tuple) else members):
+            broken.add(key)
+    read = {key: part for key, part in parts.items() if key not in broken}
+    model = EngineFile.model_construct(set(read), **read)
+    model._folder = folder
+    return Draft(model, frozenset(KNOWN) - broken, tuple(reader.problems))
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:
@@ -350,49 +294,6 @@ def change_figures(
     if reader.problems:
         raise reader.refusal("")
     return model.model_copy(update=changed)
-
-
-def _refuse_strangers(reader: TableReader, data: Mapping[str, object]) -> None:
-    """Refuse keys of the file itself that no engine file has. For an unknown table such as
-    `[engine]`, each of its keys is refused, with the table that has it.
-    """
-    for key in data:
-        if key in KNOWN:
-            continue
-        inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
-            reader.refuse_key("", key, KNOWN, inside)
-        else:
-            for inner, value in inside.items():
-                reader.refuse_key(printable(key), inner, None, value)
-
-
-def _draft(reader: TableReader, parts: Node, folder: Path) -> Draft:
-    """Return what was read, from the parts of the file by their keys."""
-    broken = {key for key in REQUIRED if key not in parts}
-    broken |= {key for key, part in parts.items() if part is None}
-    broken |= {key for key in (*DEVICES, *CHAPTER_LISTS) if None in (parts.get(key) or ())}
-    read = {key: part for key, part in parts.items() if key not in broken}
-    cylinders: dict[int, Override | None] = parts.get("cylinder", {})
-    if None in cylinders.values():
-        broken.add("cylinder")
-        read["cylinder"] = {n: own for n, own in cylinders.items() if own is not None}
-    misspelt = {problem.meant for problem in reader.problems if problem.meant}
-    broken |= misspelt & (set(KNOWN) - parts.keys())
-    readable: set[str] = set()
-    for path, table in ONE_BY_ONE.items():
-        lost = set(table.model_fields) if path in broken else set()
-        refused = reader.refused.get(path)
-        if refused and refused.draft is not None and refused.is_consistent:
-            read[path], lost = refused.draft, refused.broken
-        paths = {f"{path}.{key}" for key in table.model_fields.keys() - lost} - misspelt
-        if len(paths) < len(table.model_fields):
-            broken.add(path)
-        readable |= paths
-    readable |= set(KNOWN) - broken
-    model = EngineFile.model_construct(set(read), **read)
-    model._folder = folder
-    return Draft(model, frozenset(readable), tuple(reader.problems))
 
 
 def _read_text(reader: TableReader, key: str, value: object) -> str | None:

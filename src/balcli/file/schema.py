@@ -30,7 +30,13 @@ def describe_engine_file() -> Node:
     EngineFile.model_rebuild(_types_namespace=chapters)
     document = describe_file(EngineFile, tables, "engine-file", "balcli engine file")
     for table in tables:
-        document["$defs"][table.__name__] |= _exclusions(table)
+        rules: list[Node] = []
+        for choice in table.choices:
+            if choice.required:
+                rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})
+            for group, other in combinations(choice.groups, 2):
+                rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
+        document["$defs"][table.__name__] |= {"allOf": rules} if rules else {}
     document["properties"]["cylinder"]["propertyNames"] = {"pattern": "^[1-9][0-9]*$"}
     return document
 
@@ -78,14 +84,3 @@ def _tidy_member(value: object) -> object:
     if isinstance(value, dict):
         return tidy_schema(value)
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value
-
-
-def _exclusions(table: type[FileTable]) -> Node:
-    """Return `FileTable.choices` as JSON Schema."""
-    rules: list[Node] = []
-    for choice in table.choices:
-        if choice.required:
-            rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})
-        for group, other in combinations(choice.groups, 2):
-            rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
-    return {"allOf": rules} if rules else {}

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import ast
 import tomllib
-from collections.abc import Callable, Iterator, Set
-from contextlib import suppress
+from collections.abc import Iterator
 from functools import cache
 from inspect import getsource
-from itertools import chain, pairwise
+from itertools import pairwise
 from textwrap import dedent
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 
 from ..core.records import Node
@@ -95,37 +94,6 @@ class KeyDocument(NamedTuple):
     example: object = None
 
 
-class _BrokenKeyError(Exception):
-    """A rule reads a key that cannot be read."""
-
-
-class Reading:
-    """A table as a rule reads it, where some keys cannot be read.
-
-    Args:
-        table: the table, with any values for its broken keys.
-        broken: the broken keys.
-
-    Attributes:
-        read: the names of all that was read.
-    """
-
-    def __init__(self, table: FileTable, broken: Set[str]) -> None:
-        self._table, self._broken = table, broken
-        self.read: set[str] = set()
-
-    def __getattr__(self, name: str) -> Any:
-        if name in self._broken:
-            raise _BrokenKeyError(name)
-        self.read.add(name)
-        return getattr(self._table, name)
-
-    def has(self, key: str) -> bool:
-        """Return whether the file gives a key, broken or not."""
-        self.read.add(key)
-        return self._table.has(key)
-
-
 class FileTable(BaseModel):
     """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
     with `_check_` are its rules: each yields contradictions between keys, in words.
@@ -135,30 +103,22 @@ class FileTable(BaseModel):
     choices: ClassVar[tuple[Choice, ...]] = ()
 
     @model_validator(mode="after")
-    def _consistent(self, info: ValidationInfo) -> FileTable:
-        """Refuse contradictions. A context stands for a table that is known to have mistakes."""
-        if info.context is None:
-            given = self.model_fields_set
-            of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
-            if found := [*of_choices, *self.contradictions()]:
-                raise ValueError("; ".join(found))
+    def _consistent(self) -> FileTable:
+        """Refuse contradictions; each is an argument of the error."""
+        given = self.model_fields_set
+        of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
+        if found := [*of_choices, *self.contradictions()]:
+            raise ValueError(*found)
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield the contradictions between the keys of this table."""
-        yield from (message for message, _ in self.find_conflicts(frozenset()))
-
-    def find_conflicts(self, broken: Set[str]) -> Iterator[tuple[str, Set[str]]]:
-        """Yield contradictions between keys, each with the keys that were read for it.
-
-        Args:
-            broken: keys that cannot be read; no rule that reads one is applied.
+        """Yield the contradictions between the keys of this table that its rules find, those of its
+        bases first.
         """
-        for rule in _list_rules(type(self)):
-            reading = Reading(self, broken)
-            with suppress(_BrokenKeyError):
-                for message in list(rule(reading)):
-                    yield message, reading.read & self.keys().keys()
+        for base in reversed(type(self).__mro__):
+            for name, rule in vars(base).items():
+                if name.startswith("_check_"):
+                    yield from rule(self)
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""
@@ -185,13 +145,6 @@ class FileTable(BaseModel):
             if document.example is not None:
                 properties[key]["examples"] = [document.example]
         return node
-
-
-@cache
-def _list_rules(table: type[FileTable]) -> list[Callable[[Reading], Iterator[str]]]:
-    """Return the rules of a table, those of its bases first."""
-    names = (vars(base).items() for base in reversed(table.__mro__))
-    return [rule for name, rule in chain.from_iterable(names) if name.startswith("_check_")]
 
 
 @cache

@@ -104,8 +104,11 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
             decoded, message = "", _TOO_DEEP
         except ValueError:  # Python reads no more digits
             decoded, message = "", "has a number of thousands of digits"
-    kind = _find_format(decoded)
-    raise InputError([Problem("", f"is {kind}, {right}" if kind else message)], file)
+    # Text that was meant as TOML is empty, or has a key or a heading.
+    key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
+    if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
+        message = f"is {right}"
+    raise InputError([Problem("", message)], file)
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
@@ -130,20 +133,6 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
         most = f"{MOST_TOML_MARKS} keys, lists and values"
         return decoded, f"has more than {most}; no engine file needs that"
     return decoded, ""
-
-
-def _find_format(text: str) -> str:
-    """Return the format of a text that is no TOML; empty where it was probably meant as TOML."""
-    found = re.search(r"^[ \t]*([^\s#].*)", text, re.M)
-    first = found[1] if found else ""
-    if first[:1] == "{" or (first[:1] == "[" and not re.match(r"\[{1,2}[\w. \t-]+\]", first)):
-        return "JSON"
-    if first[:1] == "<":
-        return "XML or HTML"
-    if re.search(r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[^\]])""", text, re.M) or not first:
-        return ""
-    parted = re.search(r"[,;\t]|\d\s+[-+.\d]", first) is not None
-    return "a table of columns (CSV)" if parted else "a file of another program"
 
 
 def _explain(text: str, error: str) -> str:

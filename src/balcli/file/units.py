@@ -96,22 +96,13 @@ def find_near_name(name: str) -> str:
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
 
-class Powers(NamedTuple):
-    """Exponents of a dimension. Angle counts as one, so that rpm is no angle and degrees are no
-    plain number.
+class Unit(NamedTuple):
+    """A unit: its size in m, kg, s and turns, and its exponents of these four. Angle counts as a
+    dimension, so that rpm is no angle and degrees are no plain number.
     """
 
-    length: int = 0
-    mass: int = 0
-    time: int = 0
-    angle: int = 0
-
-
-class Unit(NamedTuple):
-    """`scale` in m, kg, s and turns."""
-
     scale: Fraction
-    powers: Powers
+    powers: tuple[int, ...]
 
 
 class Dimension(NamedTuple):
@@ -128,7 +119,7 @@ class Dimension(NamedTuple):
     examples: tuple[str, ...] = ()
 
     @property
-    def powers(self) -> Powers:
+    def powers(self) -> tuple[int, ...]:
         """Exponents of its unit."""
         return read_unit(self.unit, self).powers
 
@@ -142,15 +133,15 @@ POUND_FORCE = float(POUND) * STANDARD_GRAVITY  # N
 BAR = 1e5  # Pa
 
 _BASE = {
-    "m": Unit(Fraction(1), Powers(length=1)),
-    "g": Unit(Fraction(1, 1000), Powers(mass=1)),
-    "s": Unit(Fraction(1), Powers(time=1)),
-    "turn": Unit(Fraction(1), Powers(angle=1)),
-    "rad": Unit(1 / (2 * PI), Powers(angle=1)),
-    "in": Unit(INCH, Powers(length=1)),
-    "lb": Unit(POUND, Powers(mass=1)),
-    "g_n": Unit(_GRAVITY, Powers(1, 0, -2)),
-    "of_another_kind": Unit(Fraction(1), Powers(99)),
+    "m": Unit(Fraction(1), (1, 0, 0, 0)),
+    "g": Unit(Fraction(1, 1000), (0, 1, 0, 0)),
+    "s": Unit(Fraction(1), (0, 0, 1, 0)),
+    "turn": Unit(Fraction(1), (0, 0, 0, 1)),
+    "rad": Unit(1 / (2 * PI), (0, 0, 0, 1)),
+    "in": Unit(INCH, (1, 0, 0, 0)),
+    "lb": Unit(POUND, (0, 1, 0, 0)),
+    "g_n": Unit(_GRAVITY, (1, 0, -2, 0)),
+    "of_another_kind": Unit(Fraction(1), (99, 0, 0, 0)),
 }
 
 LENGTH = Dimension("mm", "a length", ("90 mm", "3.5 in"))
@@ -223,13 +214,6 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 )
 
 
-def _normalize(figure: str) -> str:
-    """Return a figure in one spelling: Latin units, a decimal point, no blanks in numbers."""
-    for pattern, new in _RESPELT:
-        figure = re.sub(pattern, new, figure)
-    return figure
-
-
 # Compiled when a string is met
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
@@ -275,8 +259,11 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
     """
     if len(text) > LONGEST_FIGURE:
         raise ValueError(f"is not a number followed by a unit; {wanted(dimension)}")
+    figure = text
+    for pattern, new in _RESPELT:
+        figure = re.sub(pattern, new, figure)
     try:
-        exact = _measure(_normalize(text), dimension) / read_unit(dimension.unit, dimension).scale
+        exact = _measure(figure, dimension) / read_unit(dimension.unit, dimension).scale
         float(exact)
     except ZeroDivisionError:
         raise ValueError("divides by zero") from None
@@ -313,9 +300,9 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
     both = None if found else re.fullmatch(_LARGE_AND_SMALL, figure, re.ASCII)
     if both:
         sign, large, small = both.groups()
-        whole, rest = _measure_part(large, dimension), _measure_part(small, dimension)
         one = re.sub(r"\d+", "1", large)
-        if rest >= _measure(one, dimension):
+        whole, rest, least = (_measure(part, dimension) for part in (large, small, one))
+        if rest >= least:
             raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
         return -(whole + rest) if sign == "-" else whole + rest
     if found is None:
@@ -343,19 +330,7 @@ def _explain(figure: str) -> str:
     hint = ""
     if comma := re.match(r"\s*[+-]?(\d+),(\d{3})(?![\d,.])", figure):
         hint = f" is {comma[1]}.{comma[2]} meant, or {comma[1]}{comma[2]}?"
-    elif re.search(r"\d,\d", figure):
-        hint = " decimals take a point, thousands no comma;"
-    elif re.match(r"\s*[RrØø⌀ΦφD]\s*\d", figure):
-        hint = " write nothing before the number;"
     return f"is not a number followed by a unit;{hint}"
-
-
-def _measure_part(part: str, dimension: Dimension) -> Fraction:
-    """Return `_measure` of one figure of two; errors name it."""
-    try:
-        return _measure(part, dimension)
-    except ValueError as error:
-        raise ValueError(f'has "{part}", which {error}') from None
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
@@ -394,7 +369,8 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     """
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
-    scale, powers = Fraction(1), Powers()
+    scale = Fraction(1)
+    powers: tuple[int, ...] = (0, 0, 0, 0)
     for joint, name, power, raised in re.findall(_PART, names, re.ASCII):
         if question := AMBIGUOUS.get(name) or AMBIGUOUS.get(name.removesuffix("s")):
             raise ValueError(f'has the unit "{name}": {question} {wanted(dimension)}')
@@ -413,7 +389,7 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
             if unit is not None:
                 scale *= unit.scale**exponent
                 each = zip(powers, unit.powers, strict=True)
-                powers = Powers(*(p + exponent * q for p, q in each))
+                powers = tuple(p + exponent * q for p, q in each)
     return Unit(scale, powers)
 
 

@@ -21,8 +21,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device
-from ..core.loads import bound_arms, find_ahead, find_arms, share_by_lever
-from ..core.peaks import Peak, find_largest, find_peak
+from ..core.loads import find_ahead, find_arms, share_by_lever
+from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import cut, merged_breaks, quadrature
 from ..core.vectors_over_cycle import Vectors, find_panels
@@ -69,6 +69,11 @@ class AlongCrank(NamedTuple):
     def largest(self) -> int:
         """Index of the place with the highest peak; of equal ones the first."""
         return int(find_first_largest([peak.value for peak in self.peaks]))
+
+    @property
+    def highest(self) -> tuple[float, float]:
+        """This peak, and its place, mm."""
+        return self.peaks[self.largest].value, 1e3 * float(self.z_m[self.largest])
 
 
 class InnerLoads(NamedTuple):
@@ -127,7 +132,12 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
-    _refuse_too_many_results(len(orders), len(z))
+    if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:
+        raise BalcliError(
+            f"along the crankshaft, {len(orders)} orders of {len(z)} cylinders and counterweights "
+            f"are {len(orders) * len(z)} results, and at most {MOST_RESULTS_ALONG_CRANK} are "
+            "listed; give fewer orders"
+        )
     bearings = None
     if (span := place_bearings(engine.joined_throws_m)) is not None:
         bearings = _with_peaks(span, compute_bearing_forces(loads, z, span), orders)
@@ -144,31 +154,12 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
     if not engine.places_known or engine.rotary:
         return None
     try:
-        loads, z = compute_loads(engine, merge_orders(find_relevant_orders(engine), [1, 2]))
+        found = compute_inner_loads(engine)
     except BalcliError:
         return None
-    main_N = main_mm = None
-    if (bearings := place_bearings(engine.joined_throws_m)) is not None:
-        forces = compute_bearing_forces(loads, z, bearings)
-        main_N, main_mm = _find_largest_along(bearings, forces)
-    moment, inner_mm = _find_largest_along(list_places(z), compute_bending(loads, z))
+    main_N, main_mm = (None, None) if found.bearings is None else found.bearings.highest
+    moment, inner_mm = found.bending.highest
     return CrankLoads(main_N=main_N, main_mm=main_mm, inner_moment_Nm=moment, inner_mm=inner_mm)
-
-
-def _find_largest_along(places: Array, phasors: Phasors) -> tuple[float, float]:
-    """Return the largest peak over a revolution, and its place, mm; of equal ones the first."""
-    peaks = find_largest(phasors)
-    most = int(find_first_largest(peaks))
-    return float(peaks[most]), 1e3 * float(places[most])
-
-
-def _refuse_too_many_results(orders: int, loads: int) -> None:
-    told = orders * loads
-    if told > MOST_RESULTS_ALONG_CRANK:
-        raise BalcliError(
-            f"along the crankshaft, {orders} orders of {loads} cylinders and counterweights are "
-            f"{told} results, and at most {MOST_RESULTS_ALONG_CRANK} are listed; give fewer orders"
-        )
 
 
 def place_bearings(throws_m: Array) -> Array | None:
@@ -195,7 +186,8 @@ def compute_bending(loads: Phasors, z: Array) -> Phasors:
         z: Their positions, m, shape (loads,).
     """
     sections = list_places(z)
-    return 1j * _sum_weighted(loads, find_arms(z, sections), bound_arms(z, sections))
+    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # their rounding
+    return 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
 
 
 def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
@@ -268,15 +260,6 @@ class LoadsWithGas(NamedTuple):
     block_bending: AlongCrank
 
 
-class ForcesAlongCrank(NamedTuple):
-    """Forces on shaft and block, x + iy, N, each of shape (places, angles): of every cylinder in
-    the order of `engine.numbers`, then of the devices.
-    """
-
-    on_shaft: Complex
-    on_block: Complex
-
-
 class BearingsUnknownError(BalcliError):
     """The positions of the main bearings are not known, for a reason."""
 
@@ -297,10 +280,8 @@ def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None
     try:
         place_main_bearings(engine)
         compute_rod_forces(engine, np.zeros(1))
-    except BearingsUnknownError as error:
-        return inner._replace(obstacle=error.reason)
     except BalcliError as error:
-        return inner._replace(obstacle=str(error))
+        return inner._replace(obstacle=getattr(error, "reason", str(error)))
     return inner._replace(with_gas=compute_loads_with_gas(engine, orders))
 
 
@@ -379,9 +360,7 @@ def place_main_bearings(engine: Engine) -> Array:
             crank stands still.
     """
     if engine.rotary:
-        raise BearingsUnknownError(
-            "the crank of turning cylinders stands still, clamped at its end"
-        )
+        raise BearingsUnknownError("the crank stands still, clamped at its end")
     if not engine.places_known:
         raise BearingsUnknownError("crank.spacing is missing, so that no bearing is known to stand")
     span = place_bearings(engine.joined_throws_m)
@@ -406,12 +385,13 @@ def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
         crank_deg: Crank angles, deg, shape (angles,).
     """
     shares = share_by_lever(_place_forces(engine)[0], place_main_bearings(engine))
-    return np.asarray(shares @ compute_forces_along(engine, crank_deg).on_shaft)
+    return np.asarray(shares @ compute_forces_along(engine, crank_deg)[0])
 
 
-def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
-    """Return forces on shaft and block over the crank angle; articulated rods press on the shaft at
-    the positions of their own cylinders.
+def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Complex]:
+    """Return forces on shaft and on block over the crank angle, x + iy, N, each of shape (places,
+    angles): of every cylinder in the order of `engine.numbers`, then of the devices. Articulated
+    rods press on the shaft at the positions of their own cylinders.
 
     Args:
         engine: Engine without trailing axes.
@@ -428,10 +408,8 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> ForcesAlongCrank:
     devices = compute_device_forces(engine, crank_deg)
     on_crank = np.array([is_counterweight(device) for device in engine.devices], bool)
     on_walls = found.axis * (found.gas + 1j * found.thrust)
-    return ForcesAlongCrank(
-        np.concatenate([pressed + turning, devices[on_crank]]),
-        np.concatenate([on_walls, devices[~on_crank]]),
-    )
+    on_shaft = np.concatenate([pressed + turning, devices[on_crank]])
+    return on_shaft, np.concatenate([on_walls, devices[~on_crank]])
 
 
 def _place_forces(engine: Engine) -> tuple[Array, Array]:

@@ -18,7 +18,6 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.cylinder_pressure import crank_torque
 from ..core.cylinders import find_travel
 from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
@@ -45,10 +44,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
         BalcliError: The step is not from 0.001 to 360.
     """
     if not FINEST_STEP_DEG <= step <= 360:
-        raise BalcliError(
-            f"--step {step:g}: give a step of the crank angle from {FINEST_STEP_DEG:g} to 360 "
-            "degrees"
-        )
+        raise BalcliError(f"--step {step:g}: give {FINEST_STEP_DEG:g} to 360 degrees")
     steps = np.arange(0.0, np.ceil(360 * revolutions / step - 1e-9))
     return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 
@@ -72,17 +68,6 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
         crank_deg: Crank angles, deg, shape (angles,).
     """
     return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
-
-
-def compute_moving_inertia(engine: Engine, crank_deg: Array) -> Array:
-    """Return the moment of inertia of pistons, rods and rotating masses about the crank, kg m2,
-    shape (angles,).
-
-    Args:
-        engine: Engine without trailing axes.
-        crank_deg: Crank angles, deg, shape (angles,).
-    """
-    return _inertia_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
 
 
 def compute_piecemeal(
@@ -221,6 +206,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
     Raises:
         BalcliError: The engine has no gas.
     """
+    from ..core.cylinder_pressure import crank_torque  # engines without gas do not load it
+
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
     once = crank_torque(cylinders, gas.cycle / times)
@@ -264,7 +251,9 @@ def find_moving_inertia(engine: Engine) -> Function:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
         engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
-    return _at_radians(engine, compute_moving_inertia)
+    return _at_radians(
+        engine, lambda e, deg: _inertia_of_cylinders(EngineMotion(e, deg)).sum(axis=0)
+    )
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
@@ -286,8 +275,9 @@ def silence(engine: Engine, number: int) -> Engine:
     Raises:
         BalcliError: The engine has no gas, or no such cylinder.
     """
-    share = take_gas(engine).without_share_of(find_row(engine, number, "--misfire"))
-    return replace(engine, gas=share, model=None)
+    gas, row = take_gas(engine), find_row(engine, number, "--misfire")
+    each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
+    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=None)
 
 
 def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:

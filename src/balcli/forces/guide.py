@@ -18,7 +18,7 @@ from ..engine.load import FiguresOfVariants
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER
-from .quantity import Subject, TargetQuantity, parse_target_quantity
+from .quantity import TargetQuantity
 from .spectrum import (
     compute_spectra,
     find_relevant_orders,
@@ -64,12 +64,15 @@ def compute_guide_moments(
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
-    every = _find_orders(engine) if orders is None else orders
+    every = find_relevant_orders(engine) if orders is None else orders
+    if orders is None and engine.gas is not None:  # no more than are shown of gas
+        few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
+        every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
-    z = np.ravel(engine.cylinders.z)
-    h = _sum_weighted(rolls, np.ones(engine.cylinders.count))
+    c, z = engine.cylinders, np.ravel(engine.cylinders.z)
+    h = _sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
-    height = _rod_lengths(engine) if height_m is None else np.full(len(z), height_m)
+    height = np.broadcast_to(np.ravel(c.radius / c.lam) if height_m is None else height_m, c.count)
     x = None
     if np.ptp(z) and engine.places_known:
         x = _sum_weighted(rolls, (z - z_ref) / height)
@@ -81,43 +84,10 @@ def compute_guide_moments(
     return GuideMoments(h.select_orders(orders), chosen_x, by_number, engine.gas is not None)
 
 
-def _find_orders(engine: Engine) -> Array:
-    """Return all orders that may be worth showing; with gas, no more than are shown of gas."""
-    relevant = find_relevant_orders(engine)
-    if engine.gas is None:
-        return relevant
-    few = relevant[relevant <= HIGHEST_GAS_ORDER_UNASKED]
-    return merge_orders(few, list_gas_orders(engine))
-
-
-def _rod_lengths(engine: Engine) -> Array:
-    """Return the rod length of each cylinder, m, shape (cylinders,)."""
-    c = engine.cylinders
-    return np.broadcast_to(np.ravel(c.radius / c.lam), c.count)
-
-
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
     """Return the weighted sum over cylinders of phasors of shape (orders, cylinders)."""
     total = [float(weight) * rolls.select_place(row) for row, weight in enumerate(weights)]
     return sum(total[1:], total[0]).drop_noise()
-
-
-_SUBJECTS = {"guide": Subject("6", {"H": "N·m", "X": "N·m"})}
-
-
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity that a text such as `guide.6.H` names.
-
-    Raises:
-        BalcliError: The text names none; the error lists what there is.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    if parse_order(found.target) is None:
-        raise BalcliError(
-            f"{text} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
-            "guide.6.H"
-        )
-    return found
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -128,7 +98,8 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise an error for an X-type quantity of an engine that has no X-type moment.
+    """Raise an error for an impossible order, and for an X-type quantity of an engine that has no
+    X-type moment.
 
     Args:
         model: Engine file.
@@ -137,6 +108,12 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     Raises:
         BalcliError: The first of them that is not known, and why.
     """
+    for q in quantities:
+        if parse_order(q.target) is None:
+            raise BalcliError(
+                f"{q.name} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
+                "guide.6.H"
+            )
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NamedTuple
@@ -27,8 +27,7 @@ VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
 
     For couple, torque and roll, and for force and moment along x or y, `cos` and `sin` are the
@@ -67,8 +66,7 @@ class Quantity:
 
     def read_from(self, phasors: Phasors) -> Array:
         """Return the value by the phasors of its kind, SI or degrees, shape (*trailing)."""
-        row = int(np.searchsorted(phasors.orders, self.order))
-        own = phasors.select_row(row)
+        own = phasors.select_orders([self.order])
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
             return (c.real if self.part.endswith("cos") else -c.imag) + 0.0
@@ -98,14 +96,11 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
-        raise BalcliError(
-            f"{text} is no quantity: after {kind} comes an order up to {HIGHEST_ORDER}, as in "
-            f"{kind}.2.{allowed[0]}"
-        )
+        told = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if part not in allowed:
-        raise BalcliError(
-            f"{text} is no quantity: after the order comes one of {', '.join(allowed)}"
-        )
+        told = f"after the order comes one of {', '.join(allowed)}"
+        raise BalcliError(f"{text} is no quantity: {told}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)
@@ -188,57 +183,34 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
     return [(list(orders), members) for orders, members in groups.items()]
 
 
-class Subject(NamedTuple):
-    """Targets of quantities whose names begin with the same word.
-
-    Attributes:
-        example: Number or name of a target, for messages.
-        units: SI unit of each part that a target has.
-    """
-
-    example: str
-    units: Mapping[str, str]
-
-
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure of a target: `kind.target.part`.
+    """One figure of a chapter, most of them of a target: `kind.target.part`.
 
     Attributes:
-        kind: Kind of the target, such as `mount`.
-        target: Number or name of the target.
-        part: Figure of the target.
+        name: Name as a user writes it.
         unit: SI unit, or percent.
+        chapter: Chapter that computes it, a key of `names.QUANTITIES`.
     """
 
-    kind: str
-    target: str
-    part: str
-    unit: str = field(compare=False)
+    name: str
+    unit: str = field(default="", compare=False)
+    chapter: str = field(default="", compare=False)
 
     @property
-    def name(self) -> str:
-        """Name as a user writes it."""
-        return f"{self.kind}.{self.target}.{self.part}"
+    def kind(self) -> str:
+        """Kind of the target, such as `mount`."""
+        return self.name.partition(".")[0]
 
+    @property
+    def target(self) -> str:
+        """Number or name of the target."""
+        return self.name.partition(".")[2].rpartition(".")[0]
 
-def parse_target_quantity(text: str, subjects: Mapping[str, Subject]) -> TargetQuantity:
-    """Return the quantity that a text `kind.target.part` names.
-
-    Args:
-        text: Name, whose kind is one of the subjects.
-        subjects: Kinds of quantities by name, with their parts and units.
-
-    Raises:
-        BalcliError: The part does not exist, or the target is missing; the error lists examples.
-    """
-    kind, _, rest = text.partition(".")
-    target, _, part = rest.rpartition(".")
-    units = subjects[kind].units
-    if part not in units or not target:
-        there = " or ".join(f"{kind}.{subjects[kind].example}.{each}" for each in units)
-        raise BalcliError(f"{text} is no quantity: give {there}")
-    return TargetQuantity(kind, target, part, units[part])
+    @property
+    def part(self) -> str:
+        """Figure of the target."""
+        return self.name.rpartition(".")[2]
 
 
 def refuse_stranger(q: TargetQuantity, there: Sequence[str]) -> None:

@@ -76,13 +76,23 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     Raises:
         BalcliError: The engine has no gas, or no pressures.
     """
-    pressure, gas = _find_gas_forces(engine, crank_deg)
-    motion = EngineMotion(engine, crank_deg)
+    source, motion = take_gas(engine), EngineMotion(engine, crank_deg)
+    angles = np.radians(crank_deg) - as_rows(source.fires)
+    pressure, gas = np.empty_like(angles), np.empty_like(angles)
+    for torque, rows in source.group_equal():
+        if torque.pressure is None:
+            raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
+        pressure[rows] = torque.pressure.at(angles[rows])
+        gas[rows] = torque.force_under(pressure[rows])
+    gas *= as_rows(source.shares)
     masses = engine.weighed
     heads = as_rows(np.array([w.piston for w in masses]))
     small = as_rows(np.array([w.small_end for w in masses]))
     big = as_rows(np.array([w.rotating for w in masses]))
-    axis, throw = _find_directions(engine, motion)
+    # Where cylinders turn, psi is a cylinder's angle ahead of the crank pin (`linkage.Rotary`).
+    turned = unit(np.degrees(motion.psi))
+    axis = unit(motion.pin_deg) if engine.rotary else np.broadcast_to(motion.axis, turned.shape)
+    throw = np.conj(turned) if engine.rotary else turned
     piston, foot = _follow_ends(engine, motion, throw)
     d = piston.at - foot.at
     up, aside = piston.acceleration.real, piston.acceleration.imag
@@ -120,16 +130,6 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     return found
 
 
-def _find_directions(engine: Engine, motion: EngineMotion) -> tuple[Complex, Complex]:
-    """Return `RodForces.axis` and `throw`. Where cylinders turn, psi is a cylinder's angle ahead
-    of the crank pin (`core.mechanisms.linkage.Rotary`).
-    """
-    turned = unit(np.degrees(motion.psi))
-    if engine.rotary:
-        return unit(motion.pin_deg), np.conj(turned)
-    return np.broadcast_to(motion.axis, turned.shape), turned
-
-
 def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[_Course, _Course]:
     """Return piston pins and lower ends of the rods, in each cylinder's frame."""
     r, m = motion.radius, motion.moved
@@ -146,16 +146,3 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
     place = m.place + 1j * as_rows(engine.cylinders.offset) / r
     rates = (np.asarray(rate, complex) for rate in (m.velocity, m.acceleration))
     return follow(PointMass(place, *rates)), follow(m.pin)
-
-
-def _find_gas_forces(engine: Engine, crank_deg: Array) -> tuple[Array, Array]:
-    """Return pressure (Pa) and gas force (N) of each cylinder, shape (cylinders, angles)."""
-    gas = take_gas(engine)
-    angles = np.radians(crank_deg) - as_rows(gas.fires)
-    pressures, forces = np.empty_like(angles), np.empty_like(angles)
-    for torque, rows in gas.group_equal():
-        if torque.pressure is None:
-            raise BalcliError("loads of pins need pressures; harmonics of the torque have none")
-        pressures[rows] = torque.pressure.at(angles[rows])
-        forces[rows] = torque.force_under(pressures[rows])
-    return pressures, as_rows(gas.shares) * forces

@@ -20,6 +20,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,11 +30,10 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
-from ..engine.gas import CylinderGas, EngineGas
-from ..errors import NO_GAS, BalcliError, list_values, wrong_type
+from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
 from ..file.fields import shorten
 from ..limits import (
     HIGHEST_GAS_ORDER_UNASKED,
@@ -42,6 +42,9 @@ from ..limits import (
     MOST_LOADS_APART,
 )
 from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
+
+if TYPE_CHECKING:
+    from ..engine.gas import CylinderGas, EngineGas
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -108,8 +111,7 @@ class Spectra:
         if orders is self.orders:
             return self
         wanted = np.asarray(orders, float)
-        rows = np.searchsorted(self.orders, wanted)
-        found = {kind.name: p.select_rows(rows) for kind, p in self.items()}
+        found = {kind.name: p.select_orders(wanted) for kind, p in self.items()}
         return Spectra(wanted, self.up_deg, **found)
 
     def select_place(self, place: int) -> Spectra:
@@ -251,7 +253,13 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    found, crank = {}, _find_crankshaft(engine) / (c.count if each else 1)
+    # `crank.inertia` beyond the unbalanced masses of the throws, which turn with the pins
+    found, crank = {}, engine.crank_inertia
+    if crank is None or engine.rotary:
+        crank = 0.0
+    else:
+        throws = sum(masses.share for masses in engine.weighed) * c.radius**2
+        crank = (crank - throws) * engine.omega**2 / (c.count if each else 1)
     for name, phasors in steady.items():
         if name == "torque":
             inertia = lowest.mean_inertia + crank
@@ -261,16 +269,6 @@ def _compute_inertia(
             mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
         found[name] = mixed.select_orders(orders)
     return found
-
-
-def _find_crankshaft(engine: Engine) -> Figure:
-    """Return the part of `crank.inertia` beyond the unbalanced masses of the throws, which turn
-    with the pins, times the square of the speed, N m; 0 where the file does not give it.
-    """
-    if engine.crank_inertia is None or engine.rotary:
-        return 0.0
-    throws = sum(masses.share for masses in engine.weighed) * engine.cylinders.radius**2
-    return (engine.crank_inertia - throws) * engine.omega**2
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
@@ -315,30 +313,18 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         BalcliError: There are none, some are no orders, or half orders that no engine has.
         TypeError: They are no numbers.
     """
-    asked = sorted(set(_list_numbers(orders)))
+    wanted = "give numbers, such as [1, 2, 4]"
+    if isinstance(orders, bytes) or not np.iterable(orders):
+        raise wrong_type("orders", orders, wanted)
+    asked = sorted({check_number("orders", n, wanted) for n in list_values("orders", orders)})
     if not asked or not all(map(is_order, asked)):
         named = ", ".join(shorten(n) for n in asked[:8]) or "none"
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        give = "" if any(engine.gas for engine in engines) else "give [gas], or "
-        raise BalcliError(
-            f"orders {halves}: half orders are those of gas pressure in four strokes; {give}ask "
-            "for whole orders"
-        )
+        told = "half orders take [gas] and four strokes; ask for whole orders"
+        raise BalcliError(f"orders {halves}: {told}")
     return np.array(asked, float)
-
-
-def _list_numbers(orders: object) -> list[float]:
-    strange: object = orders
-    is_number = isinstance(orders, np.ndarray) and orders.ndim == 0
-    if isinstance(orders, Iterable) and not (is_number or isinstance(orders, (str, bytes))):
-        given = list_values("orders", orders)
-        strangers = [one for one in given if not isinstance(one, (int, float, np.number))]
-        if not strangers:
-            return given
-        strange = strangers[0]
-    raise wrong_type("orders", strange, "give numbers, such as [1, 2, 4]")
 
 
 def parse_order(text: str) -> float | None:

@@ -27,7 +27,6 @@ import numpy as np
 from ..core.mechanisms import harmonics
 from ..core.phasors import Array
 from ..engine.engine import Engine
-from ..engine.gas import EngineGas
 from ..file.fields import order_number
 from .kinds import KINDS, Kind
 from .spectrum import Spectra, compute_spectra, merge_orders
@@ -198,24 +197,20 @@ class Reason(NamedTuple):
 
     @property
     def finding(self) -> str:
-        """The verdict, in words."""
+        """The verdict, in words; the rest in the textbook's unit where there is one."""
+        rest = f"{self.size:.4g} of one cylinder"
+        if self.reciprocating is not None:
+            alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
+            rest = f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
+            if alone == "0":
+                rest = f"{built} {self.unit} as built (0 without rotating masses and stagger)"
         return {
             "none": "no cylinder has any",
             "symmetry": "balanced by symmetry of the layout",
             "chance": "balanced by chance, for these figures only",
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
-            "unbalanced": f"unbalanced: {self._multiple}",
+            "unbalanced": f"unbalanced: {rest}",
         }[self.verdict]
-
-    @property
-    def _multiple(self) -> str:
-        """Rest in the textbook's unit where there is one."""
-        if self.reciprocating is None:
-            return f"{self.size:.4g} of one cylinder"
-        alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
-        if alone == "0":
-            return f"{built} {self.unit} as built (0 without rotating masses and stagger)"
-        return f"{alone} {self.unit}" + (f" ({built} as built)" if built != alone else "")
 
 
 class Symmetry(NamedTuple):
@@ -294,30 +289,21 @@ def _find_reasons(
             there = [part for part in own if largest[part]]
             left = [book.built[part].major[row] / largest[part] for part in there]
             size = float(max(left, default=0.0))
-            balanced = [_is_balanced(found, there, row) for found in (book.built, *redrawn)]
+            balanced = [
+                all(found[part].balanced[row] for part in there) for found in (book.built, *redrawn)
+            ]
             verdict = "none" if not there else "nearly" if size < NEARLY else "unbalanced"
             if there and balanced[0]:
                 verdict = "symmetry" if all(balanced) else "chance"
             number = order_number(order)
-            rest = _compare_with_textbook(book, group if there else "", number, row)
-            yield Reason(number, group, verdict, 0.0 if balanced[0] else size, *rest)
-
-
-def _is_balanced(spectra: Spectra, parts: Collection[str], row: int) -> bool:
-    return all(spectra[part].balanced[row] for part in parts)
-
-
-def _compare_with_textbook(
-    book: Textbook, group: str, order: float, row: int
-) -> tuple[float | None, float | None, str]:
-    """Return the remaining force or moment of the reciprocating masses, and of all masses, in the
-    textbook's unit, and this unit.
-    """
-    force = book.units.size(KINDS[group], order) if group in ("force", "moment") else np.nan
-    if np.isnan(force):
-        return None, None, ""
-    alone, built = (float(found[group].major[row] / force) for found in book[1:])
-    return alone, built, book.units.name(KINDS[group], order)
+            alone, built, unit = None, None, ""
+            if there and group in ("force", "moment"):
+                kind, force = KINDS[group], book.units.size(KINDS[group], number)
+                if not np.isnan(force):
+                    alone, built = (float(found[group].major[row] / force) for found in book[1:])
+                    unit = book.units.name(kind, number)
+            rest = 0.0 if balanced[0] else size
+            yield Reason(number, group, verdict, rest, alone, built, unit)
 
 
 def _draw(engine: Engine) -> Iterator[Engine]:
@@ -338,14 +324,11 @@ def _draw(engine: Engine) -> Iterator[Engine]:
             rotating=redraw(c.rotating),
             couple=redraw(c.couple),
         )
-        gas = engine.gas and _redraw_gas(engine.gas, random.uniform(0.5, 2, c.count))
+        factors, gas = random.uniform(0.5, 2, c.count), engine.gas
+        if gas is not None:  # cylinders with the same torque over their cycle have one factor
+            each = (g._replace(share=g.share * float(factors[g.like])) for g in gas.cylinders)
+            gas = replace(gas, cylinders=tuple(each))
         yield replace(engine, cylinders=cylinders, gas=gas)
-
-
-def _redraw_gas(gas: EngineGas, factors: Array) -> EngineGas:
-    """Return other gas; cylinders with the same torque over their cycle have one factor."""
-    each = (one._replace(share=one.share * float(factors[one.like])) for one in gas.cylinders)
-    return replace(gas, cylinders=tuple(each))
 
 
 def describe_firing(engine: Engine) -> str:

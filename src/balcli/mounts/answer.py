@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine, check_engine, take_model
-from ..engine.figures import find_first_largest
 from ..errors import BalcliError, check_type
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -25,11 +24,10 @@ from ..show.sheet import tell_assumed
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import fit_devices
 from ..sizing.sizing import size
-from .build import build_mounted_body, check_mounted, find_mounted_modes, settle
-from .loads import find_loads
-from .records import AtRest, BodyMode, Fitted, Meeting, MountAtRest, MountReport, Other
+from .build import Meeting, build_mounted_body, check_mounted, find_mounted_modes, settle
+from .records import AtRest, Fitted, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
-from .rigid_body import AXES, drop_rounding, elastic_centre, roll_axis
+from .rigid_body import drop_rounding, elastic_centre, roll_axis
 
 _SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
 _SPEEDS = 141
@@ -45,7 +43,7 @@ def report_mounts(
     model: EngineFile,
     engine: Engine | None,
     speeds_rpm: Real | None = None,
-    orders: Sequence[float] | None = None,
+    orders: Iterable[float] | None = None,
     scheme: str | None = None,
     others: Sequence[tuple[str, Engine]] = (),
     name: str = "",
@@ -72,8 +70,7 @@ def report_mounts(
         InputError: Tables of the file do not fit together.
         BalcliError: The scheme cannot be fitted, or as of `respond`.
     """
-    mounted = build_mounted_body(model, name)
-    title = model.name
+    mounted, title = build_mounted_body(model, name), model.name
     if engine is None and others:
         (title, engine), *others = others
     modes, found, remedy = find_mounted_modes(mounted), [], None
@@ -87,47 +84,38 @@ def report_mounts(
         if engine is not None and scheme is not None:
             remedy = size(engine, scheme, options)
             engines.append(fit_devices(engine, remedy))
-        for each in (*engines, *(other for _, other in others)):
+        engines += [other for _, other in others]
+        for each in engines:
             rpm = choose_mount_speeds(engines[0]) if speeds_rpm is None else speeds_rpm
-            if asked is None:
-                running = RunningBody.choose(mounted, modes, each, rpm * RPM, ranged=ranged)
-            else:
-                loads = find_loads(each, mounted.body.centre, asked)
-                running = RunningBody.of(mounted, modes, loads)
-            found.append(respond(mounted, running, rpm * RPM, ranged=ranged))
-            tell(len(found) / (len(engines) + len(others)))
+            running = RunningBody.choose(mounted, modes, each, rpm * RPM, asked, ranged=ranged)
+            found.append(respond(mounted, running, rpm, ranged=ranged))
+            tell(len(found) / len(engines))
     except BalcliError as error:
         raise BalcliError(f"{name}: {error}" if name else str(error)) from None
     idle = () if speeds_rpm is None else ("operation.speed",)
-    of_engine = (engine and engine.list_assumed("gas", without=idle)) or ()
-    of_others = ((label, each.list_assumed("gas", without=idle)) for label, each in others)
-    told = (f"{label}: {tell_assumed(lines)}" for label, lines in of_others if lines)
+    assumed = [*((engine and engine.list_assumed("gas", without=idle)) or ())]
+    assumed += choose_assumed(list_chapter_defaults(model), _OF_BODY)
+    for label, each in others:
+        if lines := each.list_assumed("gas", without=idle):
+            assumed.append(f"{label}: {tell_assumed(lines)}")
     response = found.pop(0) if found else None
-    settled = settle(mounted, response.loads.mean if response else 0.0)
+    forces, travel = settle(mounted, response.loads.mean if response else 0.0)
+    rest = (mounted.names, drop_rounding(forces), drop_rounding(1e3 * travel))
     met = list_meetings(modes, response.loads, response.speeds_rpm) if response else []
+    meetings = [(k, Meeting(order_number(order), rpm)) for k, order, rpm in met]
     stiffness = modes.stiffness.real
-    centre = elastic_centre(stiffness, mounted.body.centre).point
+    centre = elastic_centre(stiffness, mounted.body.centre)
     farthest = np.abs(mounted.dynamic.at).max(initial=0.0)
-    shapes = drop_rounding(modes.modes.shapes, 1 / np.sqrt(np.diag(modes.mass)))
-    forces, travel = drop_rounding(settled.forces), drop_rounding(1e3 * settled.travel)
     return MountReport(
         name=title,
-        assumed=(*of_engine, *choose_assumed(list_chapter_defaults(model), _OF_BODY), *told)
-        or None,
+        assumed=tuple(assumed) or None,
         modes=tuple(
-            BodyMode(
-                float(modes.hertz[k]),
-                dict(zip(AXES, (100 * share).tolist(), strict=True)),
-                shape * np.copysign(1.0, shape[find_first_largest(share)]),
-                modes.motions[k],
-                float(modes.loss[k]),
-                tuple(Meeting(order_number(order), rpm) for mode, order, rpm in met if mode == k),
-            )
-            for k, (shape, share) in enumerate(zip(shapes, modes.shares, strict=True))
+            mode._replace(meets=tuple(one for n, one in meetings if n == k))
+            for k, mode in enumerate(modes.each)
         ),
         roll_axis=drop_rounding(roll_axis(mounted.body)),
         elastic_centre_mm=1e3 * drop_rounding(centre, farthest),
-        static=AtRest(tuple(map(MountAtRest, mounted.names, forces, travel))),
+        static=AtRest(tuple(map(MountAtRest, *rest))),
         stiffness_N_per_m=stiffness,
         response=response,
         fitted=Fitted(remedy.scheme, found.pop(0), remedy) if remedy else None,
@@ -171,15 +159,14 @@ def analyze_mounts(
         >>> [mode.frequency_Hz for mode in analyze_mounts("i4_mounts.toml").modes]
     """
     speeds = check_speeds("analyze_mounts", speeds_rpm)
-    beside = {} if others is None else others
+    beside = others or {}
     check_type("analyze_mounts", beside, Mapping, 'give a dict, such as {"V8": engine}')
     engines = [(str(name), check_engine("analyze_mounts", one)) for name, one in beside.items()]
     check_type("scheme", scheme, (str, NoneType), 'give its name, such as "counterweights"')
-    asked = None if orders is None else check_orders(orders).tolist()
     model, engine, name = _read(source)
     steps = np.diff([] if speeds is None else speeds)
     ranged = speeds is None or (len(steps) > 1 and np.ptp(steps) <= 1e-9 * steps.max())
-    return report_mounts(model, engine, speeds, asked, scheme, engines, name, ranged=ranged)
+    return report_mounts(model, engine, speeds, orders, scheme, engines, name, ranged=ranged)
 
 
 def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
@@ -188,5 +175,5 @@ def _read(source: object) -> tuple[EngineFile, Engine | None, str]:
         return take_model(source), source, ""
     wanted = "give an Engine, or the path, text or dict of a file with [body] and [[mount]]"
     tables, name = take_tables("analyze_mounts", source, wanted)
-    found = check_mounted(check_tables(tables, Path(name).parent, name, bare=True), name)
-    return found.model, found.engine, name
+    draft = check_tables(tables, Path(name).parent, name, bare=True)
+    return (*check_mounted(draft, name)[:2], name)

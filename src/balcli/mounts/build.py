@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.vibration import Complex, Modes, Real, modal_loss
-from ..engine.build import find_contradictions
+from ..engine.build import list_contradictions
 from ..engine.engine import Engine
+from ..engine.figures import find_first_largest
 from ..engine.load import build_named
-from ..engine.parts import Parts
 from ..errors import InputError, Problem
-from ..file.doubts import NO_DISTANCE, doubt_losses
+from ..file.doubts import doubt_losses
 from ..file.fields import printable, shorten
 from ..file.model import EngineFile
 from ..file.mount_tables import Mount, Point
@@ -28,12 +28,13 @@ from ..file.toml import name_file, read_bytes
 from ..file.units import STANDARD_GRAVITY, ask_unit
 from ..limits import MOST_MOUNTS
 from .rigid_body import (
+    AXES,
     Body,
     Mounts,
-    Settled,
     complete_axes,
     damping_matrix,
     describe_free_motion,
+    drop_rounding,
     find_body_modes,
     find_free_motions,
     mass_matrix,
@@ -137,17 +138,46 @@ def find_mounting_faults(
     for key, tables in lists.items():
         if len(tables) > MOST_MOUNTS:
             yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
-        met: dict[str, int] = {}
-        for number, table in enumerate(tables if key in legible else (), 1):
-            if (first := met.setdefault(table.name, number)) != number:
-                message = (
-                    f"{shorten(printable(table.name))} is also the name of {key}.{first}; each "
-                    "needs one of its own"
-                )
-                yield Problem(f"{key}.{number}.name", message)
+        names = [table.name for table in tables if key in legible]
+        for number, name in enumerate(names, 1):
+            if (first := names.index(name) + 1) < number:
+                text = f"{shorten(printable(name))} is also the name of {key}.{first}"
+                yield Problem(f"{key}.{number}.name", f"{text}; each needs one of its own")
 
 
 # ------------------------------------------------------------------ equations of motion
+class Meeting(NamedTuple):
+    """An order meets a natural frequency.
+
+    Attributes:
+        order: Order.
+        speed_rpm: Crank speed at which it meets the frequency.
+    """
+
+    order: float
+    speed_rpm: float
+
+
+class BodyMode(NamedTuple):
+    """A natural mode of the body on its mounts.
+
+    Attributes:
+        frequency_Hz: Natural frequency without damping, with dynamic stiffness.
+        energy_percent: Shares of the kinetic energy in the motions x, y, z, rx, ry, rz.
+        shape: Motion of the center of gravity, m and rad, shape (6,), of unit modal mass.
+        motion: The mode in words.
+        loss_factor: Loss factor; at resonance the mode is magnified by its inverse.
+        meets: Orders that meet the mode within the range of speeds.
+    """
+
+    frequency_Hz: float
+    energy_percent: dict[str, float]
+    shape: Real
+    motion: str
+    loss_factor: float
+    meets: tuple[Meeting, ...]
+
+
 class BodyModes(NamedTuple):
     """Equations `(K + i w C - w^2 M) q = f` about the center of gravity, and their natural modes.
 
@@ -155,8 +185,7 @@ class BodyModes(NamedTuple):
         stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).
         modes: Modes without damping, lowest first.
         loss: Loss factor of each mode, shape (6,).
-        shares: Share of the kinetic energy of each mode in each motion, shape (modes, 6).
-        motions: Each mode in words.
+        each: Each mode with its figures, without orders that meet it.
     """
 
     stiffness: Complex
@@ -164,13 +193,7 @@ class BodyModes(NamedTuple):
     mass: Real
     modes: Modes
     loss: Real
-    shares: Real
-    motions: tuple[str, ...]
-
-    @property
-    def hertz(self) -> Real:
-        """Natural frequencies, Hz, shape (6,)."""
-        return self.modes.omega / (2 * np.pi)
+    each: tuple[BodyMode, ...]
 
 
 def find_mounted_modes(mounted: MountedBody) -> BodyModes:
@@ -178,14 +201,26 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
     body, mounts = mounted.body, mounted.dynamic
     modes, names = find_body_modes(body, mounts), name_motions(-mounted.weight)
     stiffness, damping = stiffness_matrix(body, mounts), damping_matrix(body, mounts)
-    shares = share_energy(modes, body)
-    motions = tuple(name_mode(share, names) for share in shares)
-    loss = modal_loss(modes, stiffness, damping)
-    return BodyModes(stiffness, damping, mass_matrix(body), modes, loss, shares, motions)
+    mass, loss = mass_matrix(body), modal_loss(modes, stiffness, damping)
+    energy = share_energy(modes, body)
+    shapes = drop_rounding(modes.shapes, 1 / np.sqrt(np.diag(mass)))
+    each = tuple(
+        BodyMode(
+            float(omega / (2 * np.pi)),
+            dict(zip(AXES, (100 * share).tolist(), strict=True)),
+            shape * np.copysign(1.0, shape[find_first_largest(share)]),
+            name_mode(share, names),
+            float(lost),
+            (),
+        )
+        for omega, share, shape, lost in zip(modes.omega, energy, shapes, loss, strict=True)
+    )
+    return BodyModes(stiffness, damping, mass, modes, loss, each)
 
 
-def settle(mounted: MountedBody, torque: float = 0.0) -> Settled:
-    """Return the body at rest under its weight, with static stiffness.
+def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
+    """Return the forces on the mounts, N, and their travel, m, shape (mounts, 3) each, of the body
+    at rest under its weight, with static stiffness.
 
     Args:
         torque: Mean torque about the crankshaft's axis on the body, N m; it has no effect where the
@@ -197,20 +232,11 @@ def settle(mounted: MountedBody, torque: float = 0.0) -> Settled:
 
 
 SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
-NEAR_THE_ORIGIN = 2.0  # mm; no mount stands within the crankshaft
 SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
-class MountedFile(NamedTuple):
-    """A file with [body] and [[mount]], its engine if it has one, and warnings."""
-
-    model: EngineFile
-    engine: Engine | None
-    doubts: tuple[str, ...]
-
-
-def read_mounted(path: str | Path) -> MountedFile:
-    """Read the file at a path, or standard input for "-".
+def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+    """Return the file at a path, or standard input for "-", its engine if it has one, and warnings.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -220,17 +246,27 @@ def read_mounted(path: str | Path) -> MountedFile:
     return check_mounted(read_tables(read_bytes(path), name, bare=True), name)
 
 
-def check_mounted(draft: Draft, name: str) -> MountedFile:
-    """Check the readable part of a file; `name` is the name of the file for messages."""
+def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
+    """Check the readable part of a file.
+
+    Args:
+        draft: Readable part, with the mistakes of the text.
+        name: Name of the file, for messages.
+
+    Returns:
+        The file, its engine if it has one, and warnings.
+
+    Raises:
+        InputError: The file has mistakes; the error lists all of them.
+    """
     faults = list(find_mounting_faults(draft.model, draft.readable))
     has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
     if draft.problems or faults:
-        whole = Parts(draft.model, readable=draft.readable)
-        contradictions = find_contradictions(whole) if has_engine and draft.problems else []
+        contradictions = list_contradictions(draft) if draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)
     engine = build_named(draft.model, name) if has_engine else None
     doubts = () if engine is None else engine.unlikely
-    return MountedFile(draft.model, engine, (*doubts, *_find_doubts(draft.model)))
+    return draft.model, engine, (*doubts, *_find_doubts(draft.model))
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
@@ -239,22 +275,19 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     if body is None:
         return
     moments = dict(zip(("xx", "yy", "zz"), body.inertia, strict=False))
-    for name, value in moments.items():
-        first, second = (other for other in moments if other != name)
-        together = moments[first] + moments[second]
-        if value > together:
-            yield (
-                f"body.inertia: {name} of {value:g} is more than {first} and {second} together "
-                f"({together:g}), which no body has; are the axes right? z is the crankshaft's"
-            )
-    largest = max(moments.values())
+    name, largest = max(moments.items(), key=lambda moment: moment[1])
+    others = sum(moments.values()) - largest
+    if largest > others:
+        yield (
+            f"body.inertia: {name} of {largest:g} is more than the others together ({others:g}), "
+            "which no body has; are the axes right? z is the crankshaft's"
+        )
     across = math.sqrt(largest / body.mass)
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
-    if across < SMALL_BODY * farthest:
+    if not SMALL_BODY * farthest <= across <= farthest / SMALL_BODY:
         yield (
-            f"body.inertia: {largest:g} kg mm^2 is too small: it means {body.mass:g} kg within "
-            f"{across:.2g} mm, and a mount is {farthest:.3g} mm away; "
-            f"{ask_unit('kg mm^2', f'{largest:g} kg m^2')}"
+            f"body.inertia: {largest:g} kg mm^2 means {body.mass:g} kg within {across:.2g} mm, and "
+            f"the farthest mount is {farthest:.3g} mm away; are they in kg mm^2 and mm?"
         )
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:
@@ -262,13 +295,4 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
             f"mount.stiffness: under its weight the body would sink by about {sag:.2g} mm, where "
             f"{SAG_LEAST:g} to {SAG_MOST:g} mm is usual; {ask_unit('N/mm', '250 kN/m')}"
         )
-    lists: dict[str, Sequence[Mount | Point]] = {"mount": mounts, "point": model.point}
-    for key, tables in lists.items():
-        for number, each in enumerate(tables, 1):
-            away = max(map(abs, each.at))
-            if NO_DISTANCE < away < NEAR_THE_ORIGIN:
-                yield (
-                    f"{key}.{number}.at of '{each.name}' is within {away:.3g} mm of the origin; "
-                    f"{ask_unit('mm', f'{away:.3g} m')}"
-                )
     yield from doubt_losses((f"mount.{k}.loss", mount.loss) for k, mount in enumerate(mounts, 1))

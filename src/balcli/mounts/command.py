@@ -19,8 +19,10 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 
 Orders = Annotated[
-    str | None,
-    optional("1-8|1,2,4", "Orders to include; default: all that contribute.", "--orders"),
+    str | None, optional("1-8|1,2,4", "Orders; default: all that contribute.", "--orders")
+]
+Plot = Annotated[
+    Path | None, optional("FILE", "Draw forces, orders, modes and motion; .svg, .png or .pdf.")
 ]
 
 
@@ -37,14 +39,7 @@ def mounts(
     factor: scheme_options.Factor = None,
     measured: scheme_options.Measured = None,
     roll: scheme_options.Roll = None,
-    plot: Annotated[
-        Path | None,
-        optional(
-            "FILE",
-            "Draw forces over speed, orders and modes, and the body moving in each mode; "
-            ".svg, .png or .pdf.",
-        ),
-    ] = None,
+    plot: Plot = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
@@ -76,18 +71,10 @@ def mounts(
     others = [silence_cylinders(read_engine(path).engine, silent, path) for path in paths[1:]]
     names = name_engines([model.name, *(other.name for other in others)], paths)
     beside = list(zip(names[1:], others, strict=True))
+    ranged = speeds is None or ":" in speeds
     with reporting("work") as tell:
         result = answer.report_mounts(
-            model,
-            engine,
-            rpm,
-            asked,
-            scheme,
-            beside,
-            name,
-            tell,
-            options,
-            ranged=speeds is None or ":" in speeds,
+            model, engine, rpm, asked, scheme, beside, name, tell, options, ranged=ranged
         )
     if result.response is None and any((speeds, orders, scheme, misfire)):
         warn(

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.phasors import Array, Phasors
 from ..core.speed_ripple import (
-    Timetable,
     count_in_time,
     find_reach,
     find_slowest,
@@ -57,32 +56,24 @@ def compute_spectra_in_time(
     mixed = [*(line.order for line in engine.ripple), *orders]
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
-    timetable = _find_timetable(engine, float(fastest[1]), 2 * len(fastest), len(orders))
-    in_time: dict[str, Phasors] = {}
-    # Gas has orders without end: all that are felt in those of the time.
-    of_gas = [name for name in kinds if name in GAS_KINDS]
-    reach = max(of_inertia, find_reach(timetable, highest)) if of_gas else 0
-    for some, most in ((set(kinds) - set(of_gas), of_inertia), (of_gas, reach)):
-        if some:
-            found = compute_spectra(engine, dense_orders(most, mixed), some)
-            counted = count_in_time([p for _, p in found.items()], timetable, orders)
-            in_time |= zip((kind.name for kind, _ in found.items()), counted, strict=True)
-    return Spectra(orders, None, **in_time), timetable.turns
-
-
-def _find_timetable(engine: Engine, step: float, waves: int, orders: int) -> Timetable:
-    """Return a timetable with enough samples to resolve the highest of these orders where the crank
-    is slowest. Raise BalcliError if these are too many samples for the number of orders.
-    """
     slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(math.log2(16 * waves / slowest))
-    if samples > MOST_SAMPLES or samples * orders > _MOST_COUNTED:
+    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))  # enough where it is slowest
+    if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
             "its orders of the time need more samples than are computed; give a smaller amplitude "
             "or lower orders"
         )
-    return find_timetable(find_speed(engine.ripple, step), step, samples)
+    step = float(fastest[1])
+    timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
+    reach = find_reach(timetable, highest)
+    in_time: dict[str, Phasors] = {}
+    for name in kinds:  # gas has orders without end: all that are felt in those of the time
+        most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
+        found = compute_spectra(engine, dense_orders(most, mixed), [name])
+        ((kind, phasors),) = found.items()
+        (in_time[kind.name],) = count_in_time([phasors], timetable, orders)
+    return Spectra(orders, None, **in_time), timetable.turns
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,9 +104,8 @@ class BodyLoads:
     def at(self, omega: Real) -> Complex:
         """Return the load, shape (orders, *speeds, 6), at speeds (rad/s, any shape)."""
         square = np.asarray((omega / self.omega) ** 2)
-        shape = (len(self.orders), *(1,) * square.ndim, 6)
-        grown = self.inertia.reshape(shape) * square[..., None]
-        return np.asarray(grown + self.gas.reshape(shape))
+        gas = np.einsum("oi,...->o...i", self.gas, np.ones_like(square))
+        return np.einsum("oi,...->o...i", self.inertia, square) + gas
 
     @property
     def there(self) -> NDArray[np.bool_]:
@@ -141,13 +131,10 @@ def find_loads(
         raise BalcliError(MOMENTS_UNKNOWN)
     fired = engine.gas is not None
     of_gas = list_gas_orders(engine) if gas_orders is None else gas_orders
-    wanted = (
-        merge_orders(find_relevant_orders(engine), of_gas if fired else ())
-        if orders is None
-        else orders
-    )
-    wanted = np.array(wanted[wanted > 0], np.float64)
-    kinds = ("force", "moment", "roll", *(["gas"] if fired else []))
+    usual = merge_orders(find_relevant_orders(engine), of_gas if fired else ())
+    wanted = np.array(usual if orders is None else orders, np.float64)
+    wanted = wanted[wanted > 0]
+    kinds = ("force", "moment", "roll", *["gas"] * fired)
     if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle
         found, turns = compute_spectra_in_time(engine, wanted, kinds)
     else:
@@ -155,26 +142,17 @@ def find_loads(
     if orders is None:
         found = found.select_orders(choose_orders(found, of_gas))
     force, moment, roll = (found[kind].drop_noise() for kind in ("force", "moment", "roll"))
-    inertia = load_at_centre(
-        np.stack([force.x, force.y, 0 * force.x], axis=-1),
-        np.stack([moment.x, moment.y, roll.x], axis=-1),
-        np.array([float(value) for value in engine.reference_m]),
-        centre,
-    )
-    gas, mean = np.zeros_like(inertia), 0.0
+    pull = np.stack([force.x, force.y, 0 * force.x], axis=-1)
+    turn = np.stack([moment.x, moment.y, roll.x], axis=-1)
+    inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
+    gas, mean, silent = np.zeros_like(inertia), 0.0, NONE_SILENT
     if fired:
         gas[:, ROLL] = -found["gas"].drop_noise().x
         indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
-        mean = -(engine.mechanical_efficiency or 1.0) * indicated
-    there = np.any((inertia != 0) | (gas != 0), axis=1)
-    if orders is not None or not there.any():
-        there[:] = True
-    return BodyLoads(
-        found.orders[there],
-        inertia[there],
-        turns * float(engine.omega),
-        gas[there],
-        mean,
-        fired,
-        engine.silent if fired else NONE_SILENT,
-    )
+        mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
+    omega = turns * float(engine.omega)
+    loads = BodyLoads(found.orders, inertia, omega, gas, mean, fired, silent)
+    kept = loads.there
+    if orders is not None or not kept.any():
+        return loads
+    return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=gas[kept])

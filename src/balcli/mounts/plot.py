@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..engine.figures import find_first_largest
 from ..show.plot_style import (
     BLUE,
     FAINT,
-    INK,
     MANY_LOOKS,
     PAPER,
     RED,
@@ -25,13 +23,16 @@ from ..show.plot_style import (
 )
 from ..show.sheet import NAMELESS, number, order_name
 from ..show.units import System
-from .records import BodyMode, BodyResponse, MountReport
+from .build import BodyMode
+from .records import BodyResponse, MountReport
 from .rigid_body import PROJECTION, find_corners
 from .show import Kind, list_kinds
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, FigureBase
+
+    from ..show.plot_style import Look
 
 
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
@@ -47,14 +48,12 @@ def make_mounts(result: MountReport, system: System) -> Figure:
         if response is not None:
             (upper,), (lower,) = fig.subfigures(2, 1, squeeze=False, height_ratios=(2.1, 1))
             meet = any(mode.meets for mode in result.modes)
-            count = 1 + meet + bool(response.points)
-            axes = iter(upper.subplots(1, count, squeeze=False)[0])
-            force, motion = list_kinds(system)
-            _draw_curves(next(axes), result, force)
+            kinds = list_kinds(system)[: 1 + bool(response.points)]
+            axes = upper.subplots(1, len(kinds) + meet, squeeze=False)[0]
+            for ax, kind in zip(axes, kinds, strict=False):
+                _draw_curves(ax, result, kind)
             if meet:
-                _draw_meetings(next(axes), result, response)
-            if response.points:
-                _draw_curves(next(axes), result, motion)
+                _draw_meetings(axes[-1], result, response)
         for k, (ax, mode) in enumerate(zip(lower.subplots(1, 6), result.modes, strict=True), 1):
             _draw_mode(ax, k, mode, result)
         return fig
@@ -66,15 +65,12 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
-        for place, (line, colour) in zip(kind.places(response), MANY_LOOKS, strict=False):
-            ax.plot(
-                response.speeds_rpm,
-                kind.unit.of(getattr(place, kind.peak)),
-                color=colour,
-                linestyle="-." if label else line,
-                linewidth=1.0 if label else 1.8,
-                label=f"{fit_name(place.name, 20)}{label}",
-            )
+        looks = zip(kind.places(response), MANY_LOOKS, strict=False)
+        for (name, _, peak, _), (line, colour) in looks:
+            look: Look = {"color": colour, "linestyle": "-." if label else line}
+            width, shown = 1.0 if label else 1.8, f"{fit_name(name, 20)}{label}"
+            heights = peak / kind.unit.size
+            ax.plot(response.speeds_rpm, heights, label=shown, linewidth=width, **look)
     ax.set_ylim(bottom=0)
     title = "Force of each mount" if kind.part == "mount" else "Motion of points"
     ax.set(xlabel="rpm", ylabel=f"{kind.unit.name}, all orders", title=title)
@@ -83,28 +79,21 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
 
 def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:
     """Draw orders over speed, as wide as the force of the mount with the largest, and modes."""
-    worst = [mount.worst.force_N for mount in response.mounts]
-    mount = response.mounts[int(find_first_largest(worst))]
+    mount = max(response.mounts, key=lambda mount: round(mount.worst.force_N, 6))
     largest = max(each.force_N.max() for each in mount.orders) or 1.0
     rpm, highest = response.speeds_rpm, 2.5 * result.modes[-1].frequency_Hz
-    for each in mount.orders:
-        hertz = each.order * rpm / 60
-        width = np.maximum(_WIDEST * each.force_N / largest, _THINNEST)
+    for order, force in mount.orders:
+        hertz = order * rpm / 60
+        width = np.maximum(_WIDEST * force / largest, _THINNEST)
         ax.scatter(rpm, hertz, s=width**2, color=BLUE, linewidths=0, zorder=3)
         ax.plot(rpm, hertz, color=BLUE, linewidth=_THINNEST)
-        inside = np.flatnonzero(hertz < 0.97 * highest)
-        if len(inside):
-            place = (rpm[inside[-1]], hertz[inside[-1]])
-            ax.text(*place, f" {order_name(each.order)}", color=INK, va="bottom")
+        end = min(rpm[-1], 0.97 * highest * 60 / order)
+        ax.text(end, order * end / 60, f" {order_name(order)}", va="bottom", clip_on=True)
     for mode in result.modes:
         ax.axhline(mode.frequency_Hz, color=RED, linewidth=0.8)
-    ax.set(
-        xlim=(rpm[0], rpm[-1] if len(rpm) > 1 else rpm[0] + 1),
-        ylim=(0, highest),
-        title="Orders (blue) meet modes (red)",
-        xlabel=f"rpm; width: force of {fit_name(mount.name, 20)}",
-        ylabel="Hz",
-    )
+    ax.set(xlim=(rpm[0], max(rpm[-1], rpm[0] + 1)), ylim=(0, highest), ylabel="Hz")
+    ax.set_xlabel(f"rpm; width: force of {fit_name(mount.name, 20)}")
+    ax.set_title("Orders (blue) meet modes (red)")
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:

@@ -9,51 +9,27 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ..core.phases import RPM
-from ..engine.figures import find_first_largest
 from ..engine.load import EngineVariants, choose_speeds
 from ..errors import BalcliError
 from ..file.model import EngineFile, label_table
 from ..file.read import change_figures
-from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from .answer import choose_mount_speeds
-from .build import BodyModes, build_mounted_body, find_mounted_modes, settle
+from .build import BodyMode, build_mounted_body, find_mounted_modes, settle
 from .loads import find_loads
 from .response import RunningBody, find_worst
-from .rigid_body import AXES, ROLL
+from .rigid_body import AXES
 
-_SUBJECTS = {
-    "mode": Subject("3", {"Hz": "Hz", "share": "%", "damping": "%"}),
-    "mount": Subject("left", {"force": "N", "static": "N"}),
-    "point": Subject("lever", {"motion": "mm"}),
-}
-_MOTIONS = {axis: k for k, axis in enumerate(AXES)} | {"roll": ROLL}
+_PARTS = {"mode": ("Hz", "share", "damping"), "mount": ("force", "static"), "point": ("motion",)}
+_MOTIONS = (*AXES, "roll")
 _MODES = (*"123456", *_MOTIONS)
 _TABLES = ("body", "mount", "point")  # of the file, which no engine has
-_RUNS = ("force", "motion")  # what takes an engine that runs
-
-
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity of this name; a mode is named by its number, or by the motion of which it
-    has the largest share.
-
-    Raises:
-        BalcliError: There is no such quantity.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    if found.kind == "mode" and found.target not in _MODES:
-        raise BalcliError(
-            f"{text} is no quantity: after mode comes its number from 1 to 6, or its motion: "
-            f"{', '.join(_MOTIONS)}"
-        )
-    return found
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of all quantities that a file has."""
     for kind, targets in _name_targets(model).items():
-        yield from (
-            f"{kind}.{target}.{part}" for target in targets for part in _SUBJECTS[kind].units
-        )
+        yield from (f"{kind}.{target}.{part}" for target in targets for part in _PARTS[kind])
 
 
 def _name_targets(model: EngineFile) -> dict[str, list[str]]:
@@ -72,9 +48,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         raise BalcliError(
             f"{quantities[0].name}: the file has no [body] on a [[mount]]; see balcli mounts --help"
         )
-    names = _name_targets(model)
     for q in quantities:
-        refuse_stranger(q, names[q.kind])
+        refuse_stranger(q, _name_targets(model)[q.kind])
 
 
 class Variants:
@@ -89,7 +64,7 @@ class Variants:
         targets = _name_targets(model)
         places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
-        self._curves = sorted({self._place[q] for q in quantities if q.part in _RUNS})
+        self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
         # The mean torque of the gas, less friction, leans on the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)
@@ -101,40 +76,36 @@ class Variants:
             InputError, BalcliError: No engine can have these figures.
         """
         mounted = build_mounted_body(change_figures(self._model, values, _TABLES))
-        modes, mean, largest = find_mounted_modes(mounted), 0.0, {}
+        modes, mean = find_mounted_modes(mounted), 0.0
+        largest = np.zeros(len(mounted.names) + len(mounted.points))  # N, mm
         if self._curves or self._leans:
-            engine = self._engines.build(
-                {path: v for path, v in values.items() if path.partition(".")[0] not in _TABLES}
-            )
+            own = {k: v for k, v in values.items() if k.partition(".")[0] not in _TABLES}
+            engine = self._engines.build(own)
         if self._curves:
             omega = choose_speeds(engine, values, choose_mount_speeds) * RPM
             running = RunningBody.choose(mounted, modes, engine, omega)
             running.refuse_resonance(omega)
-            running, mean = running.select(self._curves), running.loads.mean
-            worst = find_worst(running, omega, running.find_peaks(omega))
-            largest = {
-                k: value if k < len(mounted.names) else 1e3 * value  # N, mm
-                for k, value in zip(self._curves, worst.value.tolist(), strict=True)
-            }
+            mean = running.loads.mean
+            running = running._replace(couplings=running.couplings[self._curves])
+            _, largest[self._curves] = find_worst(running, omega, running.find_peaks(omega))
+            largest[len(mounted.names) :] *= 1e3
         elif self._leans:
             mean = find_loads(engine, mounted.body.centre).mean
-        rest = np.linalg.norm(settle(mounted, mean).forces, axis=-1).tolist()
-        found = []
-        for q in self._quantities:
-            if q.kind == "mode":
-                found.append(_read_mode(modes, q))
-            else:
-                found.append((rest if q.part == "static" else largest)[self._place[q]])
-        return found
+        rest = np.linalg.norm(settle(mounted, mean)[0], axis=-1)
+        return [
+            _read_mode(modes.each, q)
+            if q.kind == "mode"
+            else float((rest if q.part == "static" else largest)[self._place[q]])
+            for q in self._quantities
+        ]
 
 
-def _read_mode(modes: BodyModes, q: TargetQuantity) -> float:
+def _read_mode(modes: Sequence[BodyMode], q: TargetQuantity) -> float:
     if q.target in _MOTIONS:
-        motion = _MOTIONS[q.target]
-        mode = int(modes.shares[:, motion].argmax())
+        axis = "rz" if q.target == "roll" else q.target
+        mode = max(modes, key=lambda mode: mode.energy_percent[axis])
+        share = mode.energy_percent[axis]
     else:
-        mode = int(q.target) - 1
-        motion = int(find_first_largest(modes.shares[mode]))
-    if q.part == "Hz":
-        return float(modes.hertz[mode])
-    return float(100 * modes.shares[mode, motion] if q.part == "share" else 50 * modes.loss[mode])
+        mode = modes[int(q.target) - 1]
+        share = max(mode.energy_percent.values())
+    return {"Hz": mode.frequency_Hz, "share": share, "damping": 50 * mode.loss_factor}[q.part]

@@ -8,7 +8,7 @@ shape (speeds,).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -18,48 +18,13 @@ from ..core.vibration import Complex, Real
 from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy
-from .build import MountedBody
+from .build import BodyMode, MountedBody
 from .loads import BodyLoads
 
 TRAVEL_MOST = 0.05  # m, of a mount that vibrates
 
 
-@dataclass(frozen=True)
-class Meeting:
-    """An order meets a natural frequency.
-
-    Attributes:
-        order: Order.
-        speed_rpm: Crank speed at which it meets the frequency.
-    """
-
-    order: float
-    speed_rpm: float
-
-
-@dataclass(frozen=True, eq=False)
-class BodyMode:
-    """A natural mode of the body on its mounts.
-
-    Attributes:
-        frequency_Hz: Natural frequency without damping, with dynamic stiffness.
-        energy_percent: Shares of the kinetic energy in the motions x, y, z, rx, ry, rz.
-        shape: Motion of the center of gravity, m and rad, shape (6,), of unit modal mass.
-        motion: The mode in words.
-        loss_factor: Loss factor; at resonance the mode is magnified by its inverse.
-        meets: Orders that meet the mode within the range of speeds.
-    """
-
-    frequency_Hz: float
-    energy_percent: dict[str, float]
-    shape: Real
-    motion: str
-    loss_factor: float
-    meets: tuple[Meeting, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class MountAtRest:
+class MountAtRest(NamedTuple):
     """A mount under the weight and the mean torque.
 
     Attributes:
@@ -73,8 +38,7 @@ class MountAtRest:
     travel_mm: Real
 
 
-@dataclass(frozen=True, eq=False)
-class AtRest:
+class AtRest(NamedTuple):
     """The body at rest, with static stiffness.
 
     Attributes:
@@ -84,8 +48,7 @@ class AtRest:
     mounts: tuple[MountAtRest, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class ForceOfOrder:
+class ForceOfOrder(NamedTuple):
     """Force of one order.
 
     Attributes:
@@ -97,8 +60,7 @@ class ForceOfOrder:
     force_N: Real
 
 
-@dataclass(frozen=True)
-class MetMode:
+class MetMode(NamedTuple):
     """An order that meets a mode at, or close to, the speed of the largest value.
 
     Attributes:
@@ -112,8 +74,7 @@ class MetMode:
     speed_rpm: float
 
 
-@dataclass(frozen=True)
-class WorstForce:
+class WorstForce(NamedTuple):
     """The largest force of a mount over all speeds, found between the given speeds as well.
 
     Attributes:
@@ -133,8 +94,7 @@ class WorstForce:
     resonance: MetMode | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class MountForce:
+class MountForce(NamedTuple):
     """Force of one mount by order and speed.
 
     Attributes:
@@ -150,8 +110,7 @@ class MountForce:
     worst: WorstForce
 
 
-@dataclass(frozen=True, eq=False)
-class MotionOfOrder:
+class MotionOfOrder(NamedTuple):
     """Motion of one order.
 
     Attributes:
@@ -163,8 +122,7 @@ class MotionOfOrder:
     motion_mm: Real
 
 
-@dataclass(frozen=True)
-class WorstMotion:
+class WorstMotion(NamedTuple):
     """The largest motion of a point over all speeds, found between the given speeds as well.
 
     Attributes:
@@ -184,8 +142,7 @@ class WorstMotion:
     resonance: MetMode | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class PointMotion:
+class PointMotion(NamedTuple):
     """Motion of one point by order and speed.
 
     Attributes:
@@ -201,8 +158,7 @@ class PointMotion:
     worst: WorstMotion
 
 
-@dataclass(frozen=True, eq=False)
-class Passed:
+class Passed(NamedTuple):
     """Load on the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and of the
     moment about the center of gravity (`moment_x_Nm` ...), as far as there are any.
 
@@ -244,8 +200,7 @@ class BodyResponse:
     body: Annotated[Complex, HIDDEN]
 
 
-@dataclass(frozen=True, eq=False)
-class Fitted:
+class Fitted(NamedTuple):
     """Response of the engine with the devices of a balance scheme.
 
     Attributes:
@@ -259,8 +214,7 @@ class Fitted:
     remedy: Annotated[Remedy, HIDDEN]
 
 
-@dataclass(frozen=True, eq=False)
-class Other:
+class Other(NamedTuple):
     """Another engine on the same body and mounts.
 
     Attributes:
@@ -334,12 +288,12 @@ class MountReport(Result):
         springs = np.abs(stiffness * (1 + 1j * loss) + 1j * frequency * damping).max(axis=1)
         travels = np.array([each.force_N for each in worst]) / springs
         farthest = int(travels.argmax())
-        if travels[farthest] <= TRAVEL_MOST:
+        if (travel := travels[farthest]) <= TRAVEL_MOST:
             return ()
-        mount = self.response.mounts[farthest]
         told = (
-            f"the mount {printable(mount.name)} would travel by {1e3 * travels[farthest]:.3g} mm "
-            f"or more at {mount.worst.speed_rpm:.4g} rpm, where stops hold others at 10 to 20; are "
-            "loss and damping right, and does it run at that speed, or pass it?"
+            f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
+            f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, where stops "
+            "hold others at 10 to 20; are loss and damping right, and does it run at that speed, "
+            "or pass it?"
         )
         return (told,)

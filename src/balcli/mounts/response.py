@@ -4,7 +4,7 @@ up in time, at every speed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
+from ..show.figures import silent_entries
 from .build import BodyModes, MountedBody
 from .loads import BodyLoads, find_loads
 from .records import (
@@ -50,6 +51,8 @@ _AT = 1e-9  # of a speed: those that differ by less are the same
 _BEYOND = 3e-4  # of the largest order: what all higher orders may add
 _LOOKED_AT, _FREQUENCIES, _WIDE = 24, 800, 1.02  # speeds, frequencies, ratio of neighbours at least
 _NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
+_OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
+_OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
 _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
 
 
@@ -69,38 +72,44 @@ class RunningBody(NamedTuple):
     couplings: Complex
 
     @classmethod
-    def of(cls, mounted: MountedBody, modes: BodyModes, loads: BodyLoads) -> RunningBody:
-        """Return the running body with the curves of all mounts and points."""
-        mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
-        points = carry_points(mounted.points, mounted.body.centre)
-        still = np.concatenate([points, np.zeros_like(points)], axis=-1)
-        return cls(modes, loads, np.concatenate([mounts, still]))
-
-    @classmethod
     def choose(
         cls,
         mounted: MountedBody,
         modes: BodyModes,
         engine: Engine,
         omega: Real,
+        orders: Real | None = None,
         *,
         ranged: bool = True,
     ) -> RunningBody:
-        """Return the running body with all orders that contribute to the response in a range of
-        speeds (rad/s, rising): gas orders that are higher than the usual ones count where all of
-        these together may exceed _BEYOND of the largest order of some curve at some speed.
+        """Return the running body with the curves of all mounts and points.
+
+        Without `orders`, it has all that contribute to the response: gas orders that are higher
+        than the usual ones count where all of these together may exceed _BEYOND of the largest
+        order of some curve at some speed.
+
+        Args:
+            mounted: Body on its mounts.
+            modes: Its equations of motion and modes.
+            engine: Engine that shakes it.
+            omega: Range of speeds, rad/s, rising, shape (speeds,).
+            orders: Orders of the load.
+            ranged: Whether the speeds stand for all between the first and the last.
 
         Raises:
             BalcliError: As of `refuse_resonance`.
         """
         centre = mounted.body.centre
-        running = cls.of(mounted, modes, find_loads(engine, centre))
-        if not running.loads.fired:
+        mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
+        points = carry_points(mounted.points, centre)
+        couplings = np.concatenate([mounts, np.concatenate([points, 0 * points], axis=-1)])
+        running = cls(modes, find_loads(engine, centre, orders), couplings)
+        if orders is not None or not running.loads.fired:
             return running
         running.refuse_resonance(omega, ranged=ranged)
         every = list_gas_orders(engine, HIGHEST_ORDER_UNASKED)
         rows = np.linspace(0, len(omega) - 1, _LOOKED_AT).round().astype(int)
-        some = np.array(sorted(set(omega[rows].tolist())))
+        some = np.unique(omega[rows])
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
@@ -129,21 +138,15 @@ class RunningBody(NamedTuple):
         highest = np.maximum.reduceat(padded, ends)[::2]
         return highest.reshape(len(orders), len(omega), -1)
 
-    def select(self, curves: Sequence[int]) -> RunningBody:
-        """Return the running body with some of its curves."""
-        return self._replace(couplings=self.couplings[curves])
-
     def move(self, omega: Real) -> Complex:
         """Return the motion of the body and its rate, shape (orders, *speeds, 12).
 
         Args:
             omega: Speeds, rad/s, any shape.
         """
-        w, own = frequencies(self.loads.orders, omega), self.modes
+        w, own, load = frequencies(self.loads.orders, omega), self.modes, self.loads.at(omega)
         try:
-            motion = solve_response(
-                own.stiffness, own.damping, own.mass, w, self.loads.at(np.asarray(omega))
-            )
+            motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # resonances are refused before
             raise BalcliError(
                 f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
@@ -163,15 +166,6 @@ class RunningBody(NamedTuple):
         curves = self.read(self.move(omega)[..., None, :])
         return find_longest(self.loads.orders, curves).value
 
-    def find_alone(self, orders: Real, omega: Real) -> Real:
-        """Return the largest length of each curve by one order at one speed (rad/s), shape (pairs,
-        curves), for pairs of both.
-        """
-        own, rows = self.modes, np.searchsorted(self.loads.orders, orders)
-        load, w = self.loads.at(omega)[rows, np.arange(len(rows))], orders * omega
-        motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
-        return largest_of_ellipse(self.read(_with_rate(motion, w)[:, None, :]))
-
     def refuse_resonance(self, omega: Real, *, ranged: bool = True) -> bool:
         """Raise BalcliError if the engine drives an undamped mode at its own frequency at some of
         these speeds (rad/s, rising), or between them if they are a range, with mode, order and
@@ -182,12 +176,12 @@ class RunningBody(NamedTuple):
         met = [one for one in driven if ranged or np.abs(omega / one.speed - 1).min() < _AT]
         if met:
             first = min(met, key=lambda one: one.speed)
-            motion, hertz = modes.motions[first.mode], modes.hertz[first.mode]
+            mode = modes.each[first.mode]
             raise BalcliError(
-                f"mode {first.mode + 1} ({motion}, {hertz:.4g} Hz) is not damped, and order "
-                f"{first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its motion has "
-                "no bound; give the mounts a loss, such as loss = 0.1, or a range without that "
-                "speed"
+                f"mode {first.mode + 1} ({mode.motion}, {mode.frequency_Hz:.4g} Hz) is not damped, "
+                f"and order {first.order:g} drives it at {first.speed / RPM:.6g} rpm, where its "
+                "motion has no bound; give the mounts a loss, such as loss = 0.1, or a range "
+                "without that speed"
             )
         return not driven
 
@@ -196,96 +190,68 @@ def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[i
     """Return modes (from 0), orders that meet them within a range of speeds (rpm, rising), and
     the speeds (rpm) at which they do, by mode and order.
     """
-    met = [
-        (k, float(order), float(natural / order) / RPM)
-        for k, natural in enumerate(modes.modes.omega)
-        for order in loads.orders[loads.there]
-    ]
-    return [each for each in met if rpm[0] <= each[2] <= rpm[-1]]
+    orders = loads.orders[loads.there]
+    met = np.divide.outer(modes.modes.omega, orders) / RPM
+    k, n = np.nonzero((met >= rpm[0]) & (met <= rpm[-1]))
+    return list(zip(k.tolist(), orders[n].tolist(), met[k, n].tolist(), strict=True))
 
 
-class Worst(NamedTuple):
-    """The largest value of each curve over all speeds, shape (curves,).
-
-    Attributes:
-        value: Largest value, all orders together, N or m.
-        omega: Speed at which it is reached, rad/s.
-        order: Largest single order at this speed.
-        alone: Value of this order, N or m.
-        mode: Number of the mode that makes most of it, from 0.
-        resonance: Order with the largest amplitude of those that meet a mode there; None where none
-            does.
-    """
-
-    value: Real
-    omega: Real
-    order: Real
-    alone: Real
-    mode: Indices
-    resonance: tuple[MetMode | None, ...]
-
-
-def find_worst(running: RunningBody, omega: Real, peaks: Real, *, between: bool = True) -> Worst:
-    """Return the highest value of each curve, between the given speeds as well.
+def find_worst(
+    running: RunningBody, omega: Real, peaks: Real, *, between: bool = True
+) -> tuple[Real, Real]:
+    """Return the speed (rad/s) at which each curve is highest and its value there, shape (curves,),
+    between the given speeds as well.
 
     Every peak that may be the highest is approached. A resonance with little damping is narrower
     than the step of the speeds: the speeds at which an order meets a mode are looked at as well,
     and speeds next to them as far as the resonance is wide.
 
     Args:
+        running: Running body with its curves.
         omega: Speeds, rad/s, rising, shape (speeds,).
         peaks: Largest lengths over the cycle at these speeds, shape (speeds, curves).
         between: Whether to look between the speeds.
     """
-    modes, orders = running.modes, running.loads.orders
     if not between:
-        return _explain_worst(running, omega[peaks.argmax(axis=0)], peaks.max(axis=0))
-    met = list_meetings(modes, running.loads, omega / RPM)
-    lossy = [(o, rpm * RPM, modes.loss[k]) for k, o, rpm in met if modes.loss[k] > UNDAMPED]
-    order, at, loss = np.array(lossy).reshape(-1, 3).T
-    if len(omega) > 1:  # of resonances only those count that may exceed the speeds beside them
-        gap = np.clip(np.searchsorted(omega, at), 1, len(omega) - 1) - 1
-        added = np.zeros((len(omega) - 1, peaks.shape[1]))
-        np.add.at(added, gap, running.find_alone(order, at))
-        may = (np.maximum(peaks[1:], peaks[:-1]) + added >= peaks.max(axis=0)).any(axis=1)
-        at, loss = at[may[gap]], loss[may[gap]]
-    about = (at * (1 + loss * _BESIDE[:, None])).ravel()
-    about = np.setdiff1d(about[(about > omega[0]) & (about < omega[-1])], omega)
-    speeds = np.concatenate([omega, about])
+        return omega[peaks.argmax(axis=0)], peaks.max(axis=0)
+    loss, met = running.modes.loss, list_meetings(running.modes, running.loads, omega / RPM)
+    about = [rpm * RPM * (1 + loss[k] * _BESIDE) for k, _, rpm in met if loss[k] > UNDAMPED]
+    near = np.array(about).ravel()
+    near = np.setdiff1d(near[(near > omega[0]) & (near < omega[-1])], omega)
+    speeds = np.concatenate([omega, near])
     rising = np.argsort(speeds)
-    heights = np.concatenate([peaks, running.find_peaks(about)])[rising]
+    heights = np.concatenate([peaks, running.find_peaks(near)])[rising]
 
     def judge(at: Real, curve: Indices) -> Real:
-        return find_longest(orders, running.read(running.move(at), curve)).value
+        curves = running.read(running.move(at), curve)
+        return find_longest(running.loads.orders, curves).value
 
-    best, value = find_highest(judge, speeds[rising], heights, heights.max(axis=0), _NEAR)
-    return _explain_worst(running, best, value)
+    return find_highest(judge, speeds[rising], heights, heights.max(axis=0), _NEAR)
 
 
-def _explain_worst(running: RunningBody, omega: Real, value: Real) -> Worst:
-    """Return the highest values, shape (curves,), at their speeds (rad/s) with the orders and modes
-    that make them.
+def _find_causes(
+    running: RunningBody, omega: Real
+) -> Iterator[tuple[float, float, int, MetMode | None]]:
+    """Yield for each curve at its own speed (rad/s), shape (curves,): the largest single order, its
+    value (N or m), the number of the mode that makes most of it, from 0, and the order with the
+    largest amplitude of those that meet a mode there, None where none does.
     """
-    own, orders = running.modes, running.loads.orders
-    each, motion = np.arange(len(omega)), running.move(omega)
+    own, orders, motion = running.modes, running.loads.orders, running.move(omega)
     alone, w = largest_of_ellipse(running.read(motion)), frequencies(orders, omega)
-    leading, shapes = find_first_largest(alone), own.modes.shapes
+    shapes = own.modes.shapes
     amplitudes = motion[..., :6] @ (shapes @ own.mass).T  # (orders, curves, modes)
     shares = np.moveaxis(amplitudes[..., None] * shapes, 2, 0)
-    of_modes = np.linalg.norm(running.read(_with_rate(shares, w)), axis=-1)
-    modes = find_first_largest(of_modes)  # (orders, curves)
+    modes = find_first_largest(np.linalg.norm(running.read(_with_rate(shares, w)), axis=-1))
     near = np.abs(own.modes.omega[modes] / w - 1) <= RESONANT
-    large = near & (alone >= _PART * alone[leading, each])
-    cause = find_first_largest(np.where(large, alone, 0))
-    met = orders[cause], modes[cause, each] + 1
-    cause_rpm = own.modes.omega[modes[cause, each]] / met[0] / RPM
-    resonances = tuple(
-        MetMode(order_number(order), int(mode), float(rpm)) if there else None
-        for order, mode, rpm, there in zip(*met, cause_rpm, large[cause, each], strict=True)
-    )
-    return Worst(
-        value, omega, orders[leading], alone[leading, each], modes[leading, each], resonances
-    )
+    for k, sizes in enumerate(alone.T):
+        first = int(find_first_largest(sizes))
+        large = near[:, k] & (sizes >= _PART * sizes[first])
+        cause = int(find_first_largest(np.where(large, sizes, 0)))
+        mode = int(modes[cause, k])
+        rpm = float(own.modes.omega[mode] / orders[cause] / RPM)
+        met = MetMode(order_number(orders[cause]), mode + 1, rpm) if large[cause] else None
+        order = order_number(orders[first])
+        yield order, float(sizes[first]), int(modes[first, k]), met
 
 
 def _with_rate(motion: Complex, w: Real) -> Complex:
@@ -294,12 +260,14 @@ def _with_rate(motion: Complex, w: Real) -> Complex:
 
 
 def respond(
-    mounted: MountedBody, running: RunningBody, omega: Real, *, ranged: bool = True
+    mounted: MountedBody, running: RunningBody, rpm: Real, *, ranged: bool = True
 ) -> BodyResponse:
     """Return the response at every order and speed.
 
     Args:
-        omega: Speeds, rad/s, rising, shape (speeds,).
+        mounted: Body on its mounts.
+        running: The same with the load of the engine.
+        rpm: Speeds, rising, shape (speeds,).
         ranged: Whether they stand for all speeds between the first and the last.
 
     Raises:
@@ -307,42 +275,37 @@ def respond(
             frequency at one of the speeds, or within their range.
     """
     loads, mounts, points = running.loads, mounted.names, mounted.point_names
-    orders = loads.orders
-    count = len(orders) * len(omega) * (len(mounts) + len(points))
+    omega = rpm * RPM
+    count = len(loads.orders) * len(rpm) * (len(mounts) + len(points))
     if count > MOST_MOUNT_RESULTS:
         raise BalcliError(
-            f"{len(orders)} orders at {len(omega)} speeds of {len(mounts)} mounts and "
+            f"{len(loads.orders)} orders at {len(rpm)} speeds of {len(mounts)} mounts and "
             f"{len(points)} points are {count} results, and at most {MOST_MOUNT_RESULTS} are "
             "computed; take fewer --speeds or --orders"
         )
     bounded = running.refuse_resonance(omega, ranged=ranged)
     motion = running.move(omega)
     curves = running.read(motion[..., None, :])
-    by_order, peak = largest_of_ellipse(curves), find_longest(orders, curves).value
-    worst = find_worst(running, omega, peak, between=bounded)
-    numbers = [order_number(order) for order in orders]
-
-    kinds: list[tuple[type, type, type, float]] = [
-        *[(MountForce, ForceOfOrder, WorstForce, 1.0)] * len(mounts),
-        *[(PointMotion, MotionOfOrder, WorstMotion, 1e-3)] * len(points),
-    ]
+    peak = find_longest(loads.orders, curves).value
+    at, highest = find_worst(running, omega, peak, between=bounded)
+    numbers = [order_number(order) for order in loads.orders]
+    scale = np.repeat([1.0, 1e3], [len(mounts), len(points)])  # N, and mm of m
+    by_order, peak, highest = scale * largest_of_ellipse(curves), scale * peak, scale * highest
     places = []
-    for k, (name, kind) in enumerate(zip((*mounts, *points), kinds, strict=True)):
-        place, of_order, largest, unit = kind
-        each = (of_order(n, by_order[row, :, k] / unit) for row, n in enumerate(numbers))
-        value, at, order, alone, mode = (column[k].item() for column in worst[:5])
-        number = order_number(order)
-        highest = largest(value / unit, at / RPM, number, alone / unit, mode, worst.resonance[k])
-        places.append(place(name, tuple(each), peak[:, k] / unit, highest))
+    causes = zip((*mounts, *points), _find_causes(running, at), strict=True)
+    for k, (name, (order, alone, *others)) in enumerate(causes):
+        place, of_order, largest = _OF_MOUNT if k < len(mounts) else _OF_POINT
+        each = tuple(of_order(n, by_order[row, :, k]) for row, n in enumerate(numbers))
+        figures = (highest[k].item(), float(at[k] / RPM), order, float(scale[k] * alone))
+        worst = largest(*figures, *others)
+        places.append(place(name, each, peak[:, k], worst))
     arms = carry_points(mounted.dynamic.at, mounted.body.centre)
     on_mounts = np.abs(np.einsum("pij,nspi->nsj", arms, curves[:, :, : len(mounts)]))
-    rigid, rpm, arm = np.abs(loads.at(omega)), omega / RPM, float(np.abs(arms).max(initial=1.0))
-    short = np.round(rpm, 9)  # as speeds were given, which rad/s keep but for rounding
+    rigid, arm = np.abs(loads.at(omega)), float(np.abs(arms).max(initial=1.0))
     return BodyResponse(
-        no_gas_in=loads.silent.without_gas or None,
-        no_burning_in=loads.silent.without_burning or None,
+        **silent_entries(loads.silent),
         orders=numbers,
-        speeds_rpm=np.where(short * RPM == omega, short, rpm),
+        speeds_rpm=rpm,
         mounts=tuple(places[: len(mounts)]),
         points=tuple(places[len(mounts) :]),
         passed=tuple(

@@ -57,53 +57,7 @@ class Mounts(NamedTuple):
     damping: Real
 
 
-class Screw(NamedTuple):
-    """A small motion of a rigid body as a turn about a line, with a slide along it.
-
-    Attributes:
-        direction: (3,) unit vector of the line, or of the displacement where nothing turns.
-        point: (3,) of the line, the one closest to the centre of gravity, m; None: nothing turns.
-        pitch: slide for each rad, m.
-    """
-
-    direction: Real
-    point: Real | None
-    pitch: float
-
-
-class ElasticCentre(NamedTuple):
-    """Point at which forces move a body with the least turning.
-
-    Attributes:
-        point: (3,) m.
-        offset: largest moment about this point, for each N of the spring force of any displacement,
-            N m/N; 0: displacements and turns about it are independent.
-    """
-
-    point: Real
-    offset: float
-
-
-class Settled(NamedTuple):
-    """A body at rest under a load.
-
-    Attributes:
-        motion: (6,) of its centre of gravity.
-        forces: (mounts, 3) of the body on its mounts, N, along the engine's axes.
-        travel: (mounts, 3) of its mounting points, m.
-    """
-
-    motion: Real
-    forces: Real
-    travel: Real
-
-
 # ------------------------------------------------------------------ geometry
-def cross_matrix(vectors: ArrayLike) -> Real:
-    """Return matrices (..., 3, 3) with `cross_matrix(a) @ b = a x b` for vectors (..., 3)."""
-    return np.cross(np.eye(3), np.asarray(vectors, float)[..., None, :])
-
-
 def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
     """Return unit vectors along two perpendicular axes of any length, and the third by the
     right-hand rule, as columns (3, 3).
@@ -128,7 +82,7 @@ def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
     """
     arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
     still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
-    return np.concatenate([still, -cross_matrix(arms)], axis=-1)
+    return np.concatenate([still, np.cross(arms[:, None], np.eye(3))], axis=-1)
 
 
 def load_at_centre(
@@ -141,29 +95,32 @@ def load_at_centre(
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
-def find_screw(motion: Real, centre: ArrayLike) -> Screw:
-    """Return the screw of a small motion (6,) of a body."""
+def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
+    """Return the axis about which a small motion of a body turns it; a slide along it is left out.
+
+    Args:
+        motion: Motion, shape (6,).
+        centre: Center of gravity, m, shape (3,).
+
+    Returns:
+        Unit vector along the axis, its largest component positive, and the point of the axis that
+        is closest to the center of gravity, m. Where nothing turns, the direction of the
+        displacement and None.
+    """
     shift, turn = motion[:3], motion[3:]
-    if np.linalg.norm(turn) <= _FREE * np.linalg.norm(shift):
-        return Screw(_direction(shift), None, 0.0)
-    square = float(turn @ turn)
-    point = np.asarray(centre, float) + np.cross(turn, shift) / square
-    return Screw(_direction(turn), point, float(turn @ shift) / square)
-
-
-def _direction(vector: Real) -> Real:
-    """Return the unit vector whose largest component is positive."""
+    turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
+    vector = turn if turns else shift
     largest = vector[np.argmax(np.abs(vector))]
-    return vector / np.copysign(np.linalg.norm(vector), largest)
+    direction = vector / np.copysign(np.linalg.norm(vector), largest)
+    point = np.asarray(centre, float) + np.cross(turn, shift) / (turn @ turn) if turns else None
+    return direction, point
 
 
 # ------------------------------------------------------------------ matrices
 def mass_matrix(body: Body) -> Real:
     """Return the mass matrix (6, 6) about the centre of gravity: kg, kg m2."""
-    result = np.zeros((6, 6))
-    result[:3, :3] = body.mass * np.eye(3)
-    result[3:, 3:] = body.inertia
-    return result
+    zeros = np.zeros((3, 3))
+    return np.block([[body.mass * np.eye(3), zeros], [zeros, body.inertia]])
 
 
 def stretch_mounts(body: Body, mounts: Mounts) -> Real:
@@ -171,41 +128,44 @@ def stretch_mounts(body: Body, mounts: Mounts) -> Real:
     return np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, body.centre)
 
 
+def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
+    """Return the force on every mount along the engine's axes for a unit of each motion of the
+    body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
+    """
+    travel = stretch_mounts(body, mounts)
+    springs = mounts.axes @ ((mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel)
+    return np.asarray(springs, complex), mounts.axes @ (mounts.damping[..., None] * travel)
+
+
 def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
     """Return the stiffness (6, 6) about the centre of gravity, complex where mounts have loss."""
-    travel = stretch_mounts(body, mounts).reshape(-1, 6)
-    complex_stiffness = (mounts.stiffness * (1 + 1j * mounts.loss)).reshape(-1)
-    return _decouple((travel.T * complex_stiffness) @ travel)
+    return _add_up(body, mounts, couple_mounts(body, mounts)[0])
 
 
 def damping_matrix(body: Body, mounts: Mounts) -> Real:
     """Return the damping (6, 6) of the dashpots about the centre of gravity."""
-    travel = stretch_mounts(body, mounts).reshape(-1, 6)
-    return _decouple((travel.T * mounts.damping.reshape(-1)) @ travel).real
+    return _add_up(body, mounts, couple_mounts(body, mounts)[1]).real
 
 
-def _decouple(matrix: Complex | Real) -> Complex:
-    """Return a matrix (6, 6) whose couplings of two motions are 0 where they are rounding: else a
-    mount that nothing moves would have a force of 1e-17 N.
+def _add_up(body: Body, mounts: Mounts, forces: Complex | Real) -> Complex:
+    """Return the load (6, 6) about the centre of gravity of forces (mounts, 3, 6) on the mounts.
+
+    Couplings of two motions are 0 where they are rounding: else a mount that nothing moves would
+    have a force of 1e-17 N.
     """
+    matrix = np.einsum("mij,mik->jk", carry_points(mounts.at, body.centre), forces)
     own = np.sqrt(np.abs(np.diag(matrix)))
     return np.where(np.abs(matrix) > _UNCOUPLED * np.outer(own, own), matrix, 0j)
 
 
 # ------------------------------------------------------------------ properties
 def find_free_motions(body: Body, mounts: Mounts) -> Real:
-    """Return independent motions that no mount holds, shape (count, 6), each as simple as possible:
-    displacements first, then turns. Empty for a body that is held.
+    """Return independent motions that no mount holds, shape (count, 6); empty for a body that is
+    held.
     """
     springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
-    root = np.linalg.cholesky(mass_matrix(body))
-    held = np.linalg.solve(root, springs.reshape(-1, 6).T).T
-    _, values, rows = np.linalg.svd(np.concatenate([held, np.zeros((6, 6))]))
-    free = rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
-    motions = np.linalg.solve(root.T, free.T).T
-    turns, sizes, _ = np.linalg.svd(motions[:, 3:])
-    sizes = np.append(sizes, np.zeros(len(motions)))[: len(motions)]
-    return (turns.T @ motions)[np.argsort(sizes, kind="stable")]
+    _, values, rows = np.linalg.svd(np.concatenate([springs.reshape(-1, 6), np.zeros((6, 6))]))
+    return rows[values <= _FREE * max(values[0], np.finfo(float).tiny)]
 
 
 def find_body_modes(body: Body, mounts: Mounts) -> Modes:
@@ -233,41 +193,30 @@ def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:
     return axis / np.linalg.norm(axis)
 
 
-def elastic_centre(stiffness: Real, centre: ArrayLike) -> ElasticCentre:
-    """Return the point about which the spring forces of pure displacements have the smallest
-    moments, in mean square over the directions of a unit force, by the stiffness (6, 6) about the
-    centre of gravity.
+def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
+    """Return the point (3,) about which the spring forces of pure displacements have the smallest
+    moments, in mean square over the directions of a unit force, m, by the stiffness (6, 6) about
+    the centre of gravity.
 
     A displacement u needs the force `K_uu u` and the moment `K_ru u` = `N F`. A force at p has the
     moment `p x F`. So p is the antisymmetric part of N; the symmetric part remains for any point.
     """
     moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
-    skew, rest = (moments - moments.T) / 2, (moments + moments.T) / 2
-    arm = np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
-    offset = float(np.abs(np.linalg.eigvalsh(rest)).max())
-    return ElasticCentre(np.asarray(centre, float) + arm, offset)
+    skew = (moments - moments.T) / 2
+    return np.asarray(centre, float) + skew[[2, 0, 1], [1, 2, 0]]
 
 
 # ------------------------------------------------------------------ loads
-def settle_body(body: Body, mounts: Mounts, load: Real) -> Settled:
-    """Return the rest of a body that is held in every way, under a steady load (6,)."""
-    travel = stretch_mounts(body, mounts)
-    springs = np.sqrt(mounts.stiffness)[..., None] * travel
-    stiffness = springs.reshape(-1, 6).T @ springs.reshape(-1, 6)
-    motion = np.linalg.solve(stiffness, load)
-    own = mounts.stiffness * (travel @ motion)
-    forces = (mounts.axes @ own[..., None])[..., 0]
-    return Settled(motion, forces, carry_points(mounts.at, body.centre) @ motion)
+def settle_body(body: Body, mounts: Mounts, load: Real) -> tuple[Real, Real]:
+    """Return the rest of a body that is held in every way, under a steady load (6,).
 
-
-def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
-    """Return the force on every mount along the engine's axes for a unit of each motion of the
-    body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
+    Returns:
+        Forces of the body on its mounts along the engine's axes, N, and travel of its mounting
+        points, m, shape (mounts, 3) each.
     """
-    travel = stretch_mounts(body, mounts)
-    springs = (mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel
-    dashpots = mounts.damping[..., None] * travel
-    return np.asarray(mounts.axes @ springs, complex), mounts.axes @ dashpots
+    motion = np.linalg.solve(stiffness_matrix(body, mounts).real, load)
+    springs, _ = couple_mounts(body, mounts)
+    return springs.real @ motion, carry_points(mounts.at, body.centre) @ motion
 
 
 def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
@@ -324,14 +273,14 @@ def name_mode(shares: Real, names: tuple[str, ...]) -> str:
 
 def describe_free_motion(motion: Real, centre: Real) -> str:
     """Return a motion (6,) that nothing holds in words: a displacement, or a turn about a line."""
-    screw = find_screw(motion, centre)
-    direction = np.where(np.abs(screw.direction) < _EXACT, 0.0, screw.direction)
+    direction, point = find_screw(motion, centre)
+    direction = np.where(np.abs(direction) < _EXACT, 0.0, direction)
     along = "({:.3g}, {:.3g}, {:.3g})".format(*direction)
     if np.count_nonzero(direction) == 1:
         along = AXES[int(np.argmax(np.abs(direction)))]
-    if screw.point is None:
+    if point is None:
         return f"moving along {along}"
-    x, y, z = 1e3 * np.where(np.abs(screw.point) < _EXACT, 0.0, screw.point)
+    x, y, z = 1e3 * np.where(np.abs(point) < _EXACT, 0.0, point)
     return f"turning about {along} through ({x:.4g}, {y:.4g}, {z:.4g}) mm"
 
 

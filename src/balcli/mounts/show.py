@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -26,11 +26,11 @@ from ..show.sheet import (
 )
 from ..show.units import ShownUnit, System
 from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstForce, WorstMotion
+from .rigid_body import AXES
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
 _COLUMNS = 6  # of orders and speeds in a table of a page's width
 _ROWS = 9  # speeds of a table
-_SAME = 0.005  # change of a force that is none
 _SHARE = 1e-3  # of the largest free load: less is not worth a line
 
 
@@ -39,42 +39,36 @@ class Kind(NamedTuple):
 
     Attributes:
         part, figure: "mount" and "force", or "point" and "motion".
-        key, peak: Attributes of records that hold them.
         unit: Unit in which they are shown, of values in the unit of the records.
     """
 
     part: str
     figure: str
-    key: str
-    peak: str
     unit: ShownUnit
 
     def places(self, response: BodyResponse) -> tuple[MountForce | PointMotion, ...]:
         """Return the mounts or the points."""
         return response.mounts if self.part == "mount" else response.points
 
-    def show(self, record: object, key: str) -> str:
-        """Return a figure of a record as a table shows it."""
-        return number(self.unit.of(getattr(record, key)), 4)
+    def show(self, value: float) -> str:
+        """Return a value of a record as a table shows it."""
+        return number(self.unit.of(value), 4)
 
-    def tell_highest(self, response: BodyResponse) -> tuple[MountForce | PointMotion, float, str]:
-        """Return the place with the largest value, of equal ones the first, the value, and it in
-        words.
-        """
-        values = [getattr(place.worst, self.key) for place in self.places(response)]
-        row = int(find_first_largest(values))
-        place = self.places(response)[row]
-        shown, rpm = self.show(place.worst, self.key), number(place.worst.speed_rpm, 4)
-        return place, values[row], f"{shown} {self.unit.name} at {rpm} rpm"
+    def find_highest(self, response: BodyResponse) -> MountForce | PointMotion:
+        """Return the place with the largest value, of equal ones the first."""
+        places = self.places(response)
+        return places[int(find_first_largest([place.worst[0] for place in places]))]
+
+    def tell_worst(self, place: MountForce | PointMotion) -> str:
+        """Return the largest value of a place in words."""
+        value, rpm, *_ = place.worst
+        return f"{self.show(value)} {self.unit.name} at {number(rpm, 4)} rpm"
 
 
 def list_kinds(system: System) -> tuple[Kind, Kind]:
     """Return the forces of mounts and the motion of points."""
     length = ShownUnit(system.length.name, 1e3 * system.length.size)  # of mm
-    return (
-        Kind("mount", "force", "force_N", "peak_N", system.force),
-        Kind("point", "motion", "motion_mm", "peak_mm", length),
-    )
+    return Kind("mount", "force", system.force), Kind("point", "motion", length)
 
 
 def sheet(result: MountReport, system: System) -> Sheet:
@@ -82,10 +76,11 @@ def sheet(result: MountReport, system: System) -> Sheet:
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:
-        told = tuple(_answer(result, response, force, motion))
-        parts += [Text("Forces on the frame", told), _grid_worst(result, force)]
-        parts += [_grid_worst(result, motion)] if response.points else []
-    parts += [_grid_modes(result), _tell_body(result, motion), _grid_rest(result, system, motion)]
+        kinds = (force, motion) if response.points else (force,)
+        parts.append(Text("Forces on the frame", tuple(_answer(result, response, kinds))))
+        parts += [_grid_worst(result, kind) for kind in kinds]
+    parts += [_grid_modes(result), _tell_body(result, motion.unit)]
+    parts.append(_grid_rest(result, system, motion.unit))
     if response is not None:
         if any(mode.meets for mode in result.modes):
             parts += [_grid_meetings(result)]
@@ -93,62 +88,43 @@ def sheet(result: MountReport, system: System) -> Sheet:
     return Sheet(f"{result.name or NAMELESS}: on its mounts", tuple(parts))
 
 
-def _answer(
-    result: MountReport, response: BodyResponse, force: Kind, motion: Kind
-) -> Iterator[str]:
+def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) -> Iterator[str]:
     """Yield sentences: where force and motion are largest, why, and what a scheme changes."""
-    place, value, told = force.tell_highest(response)
-    if value:
-        worst = place.worst
-        yield (
-            f"Largest mount force: {told} at mount {place.name}; order {order_name(worst.order)} "
-            f"alone makes {force.show(worst, 'order_force_N')} {force.unit.name}. "
-            f"{_explain(result, response, worst)}"
-        )
-    else:
-        yield "The orders included put no force on the mounts."
-    if response.points:
-        place, _, told = motion.tell_highest(response)
-        yield f"Largest motion: {told} at point {place.name}."
-    orders, speeds = response.orders, response.speeds_rpm.tolist()
-    ends = [number(speed, 4) for speed in dict.fromkeys((speeds[0], speeds[-1]))]
-    names = [order_name(order) for order in dict.fromkeys((orders[0], orders[-1]))]
+    force = kinds[0]
+    place = force.find_highest(response)
+    value, _, order, alone, *_ = worst = place.worst
     yield (
-        f"Orders included: {' to '.join(names)}, {len(orders)} in all; "
-        f"speed{'s' * (len(ends) > 1)}: {' to '.join(ends)} rpm."
+        f"Largest mount force: {force.tell_worst(place)} at mount {place.name}; order "
+        f"{order_name(order)} alone makes {force.show(alone)} {force.unit.name}. "
+        f"{_explain(result, response, worst)}"
+        if value
+        else "The orders included put no force on the mounts."
     )
-    if response.loads.fired:
-        silent = _tell_silent(response)
-        yield f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
-    else:
-        yield "Inertia only: gas torque, which also rolls an engine, is not included."
+    for kind in kinds[1:]:
+        place = kind.find_highest(response)
+        yield f"Largest motion: {kind.tell_worst(place)} at point {place.name}."
+    yield f"Orders included: {', '.join(map(order_name, response.orders))}."
+    yield (gas := _tell_gas(response))
     for other in result.beside:
-        yield f"With {other.name} {''.join(_compare(response, other.response, force, motion))}."
+        changes = "; ".join(_compare(response, other.response, kind) for kind in kinds)
+        other_gas = _tell_gas(other.response)
+        yield f"With {other.name} {changes}." + f" {other_gas}" * (other_gas != gas)
 
 
-def _compare(own: BodyResponse, other: BodyResponse, force: Kind, motion: Kind) -> Iterator[str]:
-    """Yield parts of a sentence: the largest values of another response, how much less they are
-    than the engine's own, and whether its gas and its cylinders differ.
-    """
-    for kind in (force, motion) if own.points else (force,):
-        (_, before, _), (place, after, told) = map(kind.tell_highest, (own, other))
-        change = after / (before or 1.0) - 1
-        size = f"{abs(change):.0%} {'less' if change < 0 else 'more'}"
-        less = f": {size if abs(change) >= _SAME else 'as much'}" if before else ""
-        where = "the largest force of any mount is"
-        if kind is motion:
-            where = f"; the largest motion at {place.name} is"
-        yield f"{where} {told}{less}"
-    if other.loads.fired != own.loads.fired:
-        yield ", its gas included" if other.loads.fired else ", of inertia alone"
-    if (silent := _tell_silent(other)) != _tell_silent(own):
-        yield silent
+def _tell_gas(response: BodyResponse) -> str:
+    """Return in words whether gas counts, and the cylinders that do not fire."""
+    if not response.loads.fired:
+        return "Inertia only: gas torque, which also rolls an engine, is not included."
+    silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
+    return f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
 
 
-def _tell_silent(response: BodyResponse) -> str:
-    """Return the cylinders that do not fire in words, each kind after a semicolon."""
-    silent = list_silent(response.loads.silent)
-    return "".join(f"; {what} {numbers}" for what, numbers in silent)
+def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
+    """Return the largest value of another response in words, and how much more it is."""
+    before, place = kind.find_highest(own).worst[0], kind.find_highest(other)
+    of = "force of any mount" if kind.part == "mount" else f"motion at {place.name}"
+    more = f" ({place.worst[0] / before - 1:+.0%})" if before else ""
+    return f"the largest {of} is {kind.tell_worst(place)}{more}"
 
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
@@ -158,8 +134,8 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     mode = result.modes[k]
     named = f"mode {k + 1} ({mode.motion}, {number(mode.frequency_Hz, 3)} Hz)"
     if met:
-        at = f"{number(met.speed_rpm, 4)} rpm"
-        return f"Order {order_name(met.order)} meets {named} at {at}: resonance."
+        order, at = order_name(met.order), number(met.speed_rpm, 4)
+        return f"Order {order} meets {named} at {at} rpm: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"That is the {end} speed of the range; most of the force is {named}."
@@ -168,83 +144,80 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
     """Return a row for each mount or point: its largest value, then those of other responses."""
-    heads = [kind.part, "all orders", "at, rpm", "largest order", "alone"]
-    for other in result.beside:
-        heads += [f"with {other.name}", "at, rpm"]
-    rows = []
-    for first, *others in zip(*map(kind.places, result.responses), strict=True):
-        cells = [first.name]
-        for worst in (each.worst for each in (first, *others)):
-            cells += [kind.show(worst, kind.key), number(worst.speed_rpm, 4)]
-        own = [order_name(first.worst.order), kind.show(first.worst, f"order_{kind.key}")]
-        rows.append((*cells[:3], *own, *cells[3:]))
+    columns = [(kind.part, [place.name for place in kind.places(result.responses[0])])]
+    heads = ["all orders", *(f"with {other.name}" for other in result.beside)]
+    for head, response in zip(heads, result.responses, strict=True):
+        every = [place.worst for place in kind.places(response)]
+        columns.append((head, [kind.show(worst[0]) for worst in every]))
+        columns.append(("at, rpm", [number(worst.speed_rpm, 4) for worst in every]))
+        if response is result.response:
+            columns.append(("largest order", [order_name(worst.order) for worst in every]))
+            columns.append(("alone", [kind.show(worst[3]) for worst in every]))
     note = (
         "The largest value over the cycle, orders added up in time; over all speeds of the range."
     )
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
-    return Grid(title, tuple(heads), tuple(rows), note)
+    return Grid.of_columns(title, columns, note)
 
 
 def _grid_modes(result: MountReport) -> Grid:
-    damped = any(mode.loss_factor for mode in result.modes)
-    heads = ["mode", "Hz", "motion", *(f"{axis} %" for axis in result.modes[0].energy_percent)]
-    rows = []
-    for k, mode in enumerate(result.modes, 1):
-        shares = (f"{round(share, 1) + 0.0:.1f}" for share in mode.energy_percent.values())
-        damping = [f"{50 * mode.loss_factor:.1f}"] if damped else []
-        rows.append((str(k), number(mode.frequency_Hz, 4), mode.motion, *shares, *damping))
+    modes = result.modes
+    columns = [
+        ("mode", [str(k) for k, _ in enumerate(modes, 1)]),
+        ("Hz", [number(mode.frequency_Hz, 4) for mode in modes]),
+        ("motion", [mode.motion for mode in modes]),
+    ]
+    for axis in AXES:
+        shares = (round(mode.energy_percent[axis], 1) + 0.0 for mode in modes)
+        columns.append((f"{axis} %", [f"{share:.1f}" for share in shares]))
+    if any(mode.loss_factor for mode in modes):
+        columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
         "Shares of the kinetic energy in moving along x, y, z and turning about them; products of "
         "inertia may make one negative. Without damping, dynamic stiffness."
     )
-    heads += ["damping %"] if damped else []
-    return Grid("Natural modes", tuple(heads), tuple(rows), note, words=(0, 2))
+    return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
 
 
-def _tell_body(result: MountReport, motion: Kind) -> Facts:
-    angle = math.degrees(math.acos(min(1.0, abs(result.roll_axis[2]))))
-    point = np.round(result.elastic_centre_mm, 6) / motion.unit.size + 0.0
-    place, along = (
-        ", ".join(number(float(value), 4) for value in vector)
-        for vector in (point, np.round(result.roll_axis, 9) + 0.0)
-    )
-    rolls = f"({along}) through the centre of gravity, {degrees(angle)} deg from z"
-    centre = f"({place}) {motion.unit.name}"
-    return Facts((("torque roll axis", rolls), ("elastic centre", centre)), "The body")
+def _tell_body(result: MountReport, length: ShownUnit) -> Facts:
+    point = np.round(result.elastic_centre_mm, 6) / length.size + 0.0
+    axis = np.round(result.roll_axis, 9) + 0.0
+    place, along = (", ".join(number(float(v), 4) for v in each) for each in (point, axis))
+    angle = degrees(math.degrees(math.acos(min(1.0, abs(result.roll_axis[2])))))
+    rolls = f"({along}) through the centre of gravity, {angle} deg from z"
+    pairs = (("torque roll axis", rolls), ("elastic centre", f"({place}) {length.name}"))
+    return Facts(pairs, "The body")
 
 
-def _grid_rest(result: MountReport, system: System, motion: Kind) -> Grid:
-    heads = ["mount", *(f"{axis}, {system.force.name}" for axis in "xyz")]
-    heads += [f"travel {axis}, {motion.unit.name}" for axis in "xyz"]
+def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
     mounts = result.static.mounts
-    force = np.array([mount.force_N for mount in mounts]) / system.force.size
-    travel = np.array([mount.travel_mm for mount in mounts]) / motion.unit.size
-    rows = [
-        (name, *(number(v, 4) for v in force[k]), *(number(v, 3) for v in travel[k]))
-        for k, name in enumerate(mount.name for mount in mounts)
-    ]
-    mean = abs(result.response.loads.mean) if result.response else 0.0
-    moment = f"load's mean torque of {number(system.moment.of(mean), 4)} {system.moment.name}"
-    leaning = within = ""
-    if mean and result.mounted.carries_load:
-        within = f" The {moment} acts within the body."
-    elif mean:
-        leaning = f" and the reaction to the {moment}"
-    note = f"Of the body on its mounts, under its weight{leaning}; static stiffness.{within}"
-    return Grid("At rest", tuple(heads), tuple(rows), note)
+    columns = [("mount", [mount.name for mount in mounts])]
+    for k, axis in enumerate("xyz"):
+        forces = [number(system.force.of(mount.force_N[k]), 4) for mount in mounts]
+        columns.append((f"{axis}, {system.force.name}", forces))
+    for k, axis in enumerate("xyz"):
+        travels = [number(length.of(mount.travel_mm[k]), 3) for mount in mounts]
+        columns.append((f"travel {axis}, {length.name}", travels))
+    leaning = ""
+    if result.response and result.response.loads.mean and not result.mounted.carries_load:
+        mean = number(system.moment.of(abs(result.response.loads.mean)), 4)
+        leaning = f" and the reaction to the load's mean torque of {mean} {system.moment.name}"
+    note = f"Of the body on its mounts, under its weight{leaning}; static stiffness."
+    return Grid.of_columns("At rest", columns, note)
 
 
 def _grid_meetings(result: MountReport) -> Grid:
     met = [{one.order: one.speed_rpm for one in mode.meets} for mode in result.modes]
     every = sorted({order for each in met for order in each})
-    orders, left = every[:_COLUMNS], len(every[_COLUMNS:])
-    heads = ("mode", "Hz", *(f"order {order_name(order)}" for order in orders))
-    rows = []
-    for k, (mode, rpm) in enumerate(zip(result.modes, met, strict=True), 1):
-        cells = (number(rpm[order], 4) if order in rpm else "–" for order in orders)
-        rows.append((str(k), number(mode.frequency_Hz, 4), *cells))
-    note = f"JSON has {left} order{'s' * (left > 1)} more." if left else ""
-    return Grid("Where orders meet modes, rpm", heads, tuple(rows), note)
+    columns = [
+        ("mode", [str(k) for k, _ in enumerate(met, 1)]),
+        ("Hz", [number(mode.frequency_Hz, 4) for mode in result.modes]),
+    ]
+    for order in every[:_COLUMNS]:
+        speeds = [number(rpm.get(order, math.nan), 4) for rpm in met]
+        columns.append((f"order {order_name(order)}", speeds))
+    note = "JSON has all orders." if len(every) > _COLUMNS else ""
+    return Grid.of_columns("Where orders meet modes, rpm", columns, note)
 
 
 def _pick(count: int, most: int) -> list[int]:
@@ -253,16 +226,15 @@ def _pick(count: int, most: int) -> list[int]:
 
 
 def _grid_speeds(result: MountReport, response: BodyResponse, force: Kind) -> Grid:
-    names, rpm = [mount.name for mount in response.mounts], response.speeds_rpm
-    heads = ["rpm", *names]
-    heads += [f"{name}, {other.name}" for other in result.beside for name in names]
-    peaks = [mount.peak_N for each in result.responses for mount in each.mounts]
-    rows = [
-        (number(rpm[s], 4), *(number(force.unit.of(peak[s]), 4) for peak in peaks))
-        for s in _pick(len(rpm), _ROWS)
-    ]
+    speeds = _pick(len(response.speeds_rpm), _ROWS)
+    columns = [("rpm", [number(response.speeds_rpm[s], 4) for s in speeds])]
+    labels = ("", *(f", {other.name}" for other in result.beside))
+    for label, each in zip(labels, result.responses, strict=True):
+        for mount in each.mounts:
+            forces = [number(force.unit.of(mount.peak_N[s]), 4) for s in speeds]
+            columns.append((f"{mount.name}{label}", forces))
     title = f"Force of each mount by speed, all orders together, {force.unit.name}"
-    return Grid(title, tuple(heads), tuple(rows))
+    return Grid.of_columns(title, columns)
 
 
 def _grid_passed(response: BodyResponse, system: System) -> Grid:
@@ -310,10 +282,9 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
         for axis, own, travel in zip("xyz", mount.force_N, mount.travel_mm, strict=True):
             yield *head, f"force {axis}", clean(force.unit.of(own)), force.unit.name
             yield *head, f"travel {axis}", clean(motion.unit.of(travel)), motion.unit.name
-    labels = [] if result.response is None else [""]
-    labels += [] if result.fitted is None else ["with scheme "]
+    labels = ["", *["with scheme "] * (result.fitted is not None)]
     labels += [f"{name_cell(other.name)}: " for other in result.others or ()]
-    for label, response in zip(labels, result.responses, strict=True):
+    for label, response in zip(labels, result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
         for kind in (force, motion):
@@ -323,15 +294,12 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:
     """Yield every mount, or point, by speed and order."""
     figure, unit = kind.figure, kind.unit
-    for place in kind.places(response):
-        head = (f"{label}{kind.part}", name_cell(place.name))
-        curves = [
-            *((each.order, figure, getattr(each, kind.key)) for each in place.orders),
-            (None, f"peak {figure}", getattr(place, kind.peak)),
-        ]
+    for name, orders, peak, _ in kind.places(response):
+        head = (f"{label}{kind.part}", name_cell(name))
+        curves = [*((order, figure, curve) for order, curve in orders)]
         for s, rpm in enumerate(response.speeds_rpm):
-            for order, name, curve in curves:
-                yield *head, order, clean(rpm), name, clean(unit.of(curve[s])), unit.name
+            for order, key, curve in (*curves, (None, f"peak {figure}", peak)):
+                yield *head, order, clean(rpm), key, clean(unit.of(curve[s])), unit.name
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

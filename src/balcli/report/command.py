@@ -29,16 +29,25 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 from .names import OF_TORSION, PAGES, check_page
 
-Page = Annotated[
-    Path | None,
-    optional("OUT.html", "Write the page here; - is standard output.", "--output", "-o"),
-]
+PAGE = "Write the page here; - is standard output."
+PICTURE = "Write here; .svg, .png or .pdf."
+SPEEDS = "Of torsion, rpm; default: half to one and a half times the file's speed."
+WHAT = (
+    "overview: locus of the force, or of the moment where no force is left, and spectrum; "
+    "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
+    "crank angle; all: loci, bars and curves on one page; "
+    "ladder: loci with what balances the engine, step by step; "
+    "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
+    "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
+    "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
+    "torsion. Several: pages of one PDF, or a file each (v8-pin.svg)."
+)
 
 
 def report(
     path: EnginePath,
     target: Target = None,
-    output: Page = None,
+    output: Annotated[Path | None, optional("OUT.html", PAGE, "--output", "-o")] = None,
     scheme: scheme_options.Scheme = None,
     order: scheme_options.Order = None,
     at: scheme_options.At = None,
@@ -62,18 +71,22 @@ def report(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = parse_output(choose_target(target, output, "X.html"))
     format_of(output, None, {".html": "html", ".htm": "html"}, "html")
-    from . import page as pages
+    from . import live, page as pages
 
     options = parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units, small
     )
     scheme = choose_scheme(scheme, options)
     asked = parse_orders(orders)
-    _, model, engine = read_engine(path, parse_speed(speed))
+    text, model, engine = read_engine(path, parse_speed(speed))
     found = pages.find_answers(model, engine, asked, scheme, options, name_file(path))
     with reporting("pictures") as tell:
-        text = pages.page(found.result, found.balanced, SYSTEMS[units], *found[2:], tell)
-    emit(text, output)
+        system = SYSTEMS[units]
+        book = live.describe_one(
+            model, engine, system, text.decode(), name_file(path), options.read_small()
+        )
+        page = pages.page(found, system, tell, live=book)
+    emit(page, output)
 
 
 def complete_pages(typed: str) -> list[str]:
@@ -82,32 +95,13 @@ def complete_pages(typed: str) -> list[str]:
     return [f"{before}{comma}{page}" for page in PAGES]
 
 
-Picture = Annotated[
-    Path | None, optional("OUT", "Write here; .svg, .png or .pdf.", "--output", "-o")
-]
-Pages = Annotated[
-    str,
-    typer.Option(
-        "--what",
-        metavar="PAGE,...",
-        autocompletion=complete_pages,
-        help="overview: locus of the force, or of the moment where no force is left, and spectrum; "
-        "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
-        "crank angle; all: loci, bars and curves on one page; "
-        "ladder: loci with what balances the engine, step by step; "
-        "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
-        "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
-        "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
-        "torsion. Several: pages of one PDF, or a file each (v8-pin.svg).",
-    ),
-]
-
-
 def plot(
     path: EnginePath,
     target: Target = None,
-    output: Picture = None,
-    what: Pages = "overview",
+    output: Annotated[Path | None, optional("OUT", PICTURE, "--output", "-o")] = None,
+    what: Annotated[
+        str, typer.Option(metavar="PAGE,...", autocompletion=complete_pages, help=WHAT)
+    ] = "overview",
     scheme: scheme_options.Scheme = None,
     order: scheme_options.Order = None,
     at: scheme_options.At = None,
@@ -119,12 +113,7 @@ def plot(
     small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
-    speeds: Annotated[
-        str | None,
-        optional(
-            "A:B:STEP", "Of torsion, rpm; default: half to one and a half times the file's speed."
-        ),
-    ] = None,
+    speeds: Annotated[str | None, optional("A:B:STEP", SPEEDS)] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Draw free forces and moments: the locus over a revolution and the spectrum of orders, or

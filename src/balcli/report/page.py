@@ -5,12 +5,16 @@ mounts (mm, rad), torque and pressure over the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
+from html import escape
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import tomli_w
 
 from ..analysis import show as analysis
 from ..analysis.answer import Analysis, analyze
@@ -20,7 +24,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Phasors, unit
 from ..core.records import Node
-from ..engine.engine import Engine
+from ..engine.engine import Engine, take_model
 from ..errors import BalcliError, warn
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -34,21 +38,21 @@ from ..mounts.rigid_body import PROJECTION, find_corners
 from ..process import Tell, tell_nobody
 from ..show.figures import clean
 from ..show.plot_style import inline_svg, save_figure
-from ..show.sheet import NEGLIGIBLE, ON_A_PAGE, Facts, Grid, Text
-from ..show.units import ShownUnit, System
+from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
+from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
 from ..torsion import plot as twisting, show as torsion
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
+from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel
 from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
     from jinja2 import Template
-    from markupsafe import Markup
 
 
 _SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
@@ -180,16 +184,10 @@ def _shakes(result: Analysis, order: float) -> bool:
 
 FOLDER = Path(__file__).with_name("assets")
 _PICTURES = (
-    ("polar", "force"),
-    ("polar", "moment"),
-    ("spectrum", "force"),
-    ("spectrum", "moment"),
-    ("curves", "force"),
-    ("curves", "moment"),
-    ("spectrum", "about"),
-    ("curves", "about"),
+    *product(("polar", "spectrum", "curves"), ("force", "moment")),
+    *product(("spectrum", "curves"), ("about",)),
 )
-_COMPARED = (("polar", "force"), ("polar", "moment"), ("spectrum", "force"), ("spectrum", "moment"))
+_COMPARED = tuple(product(("polar", "spectrum"), ("force", "moment")))
 
 
 class Answers(NamedTuple):
@@ -197,9 +195,9 @@ class Answers(NamedTuple):
 
     result: Analysis
     balanced: Balance
-    mounted: MountReport | None
-    twisted: TorsionAnalysis | None
-    turning: Engine | None
+    mounted: MountReport | None = None
+    twisted: TorsionAnalysis | None = None
+    turning: Engine | None = None
 
 
 def find_answers(
@@ -225,76 +223,113 @@ def find_answers(
     """
     result = analyze(engine, orders)
     balanced = balance_engine(engine, scheme, options, orders)
-    mounted = None
+    mounted = twisted = None
     if model.body:
         fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
-        mounted = _put_on_mounts(model, engine, fitted, options, name)
-    twisted = _twist(model, engine, name) if model.torsion else None
+        with _warning("mounts"):
+            mounted = report_mounts(model, engine, scheme=fitted, name=name, options=options)
+    if model.torsion:
+        with _warning("torsion"):
+            question = TorsionQuestion(choose_torsion_speeds(engine))
+            twisted = answer_question(make_source(model, engine, name), question)
     return Answers(result, balanced, mounted, twisted, None if engine.gas is None else engine)
 
 
-def _twist(model: EngineFile, engine: Engine, name: str) -> TorsionAnalysis | None:
-    """Return the torsional vibration; None, with a warning, if it cannot be computed."""
+@contextmanager
+def _warning(chapter: str) -> Iterator[None]:
+    """Turn the error of a chapter that cannot be computed into a warning."""
     try:
-        source = make_source(model, engine, name)
-        return answer_question(source, TorsionQuestion(choose_torsion_speeds(engine)))
+        yield
     except BalcliError as error:
-        warn(f"the page does not show the torsion: {error}")
-        return None
-
-
-def _put_on_mounts(
-    model: EngineFile, engine: Engine, scheme: str | None, options: SchemeOptions, name: str
-) -> MountReport | None:
-    """Return the vibration on mounts; None, with a warning, if it cannot be computed."""
-    try:
-        return report_mounts(model, engine, scheme=scheme, name=name, options=options)
-    except BalcliError as error:
-        warn(f"the page does not show the mounts: {error}")
-        return None
+        warn(f"the page does not show the {chapter}: {error}")
 
 
 def page(
-    result: Analysis,
-    balanced: Balance,
-    system: System,
-    mounted: MountReport | None = None,
-    twisted: TorsionAnalysis | None = None,
-    turning: Engine | None = None,
-    tell: Tell = tell_nobody,
+    found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
-    gas. All text from the engine file is escaped. `tell` is called with the share of the pictures
-    of forces and moments that is drawn.
-    """
-    from markupsafe import Markup
+    gas. All text from the engine file is escaped.
 
+    Args:
+        found: Results to show.
+        system: Units of figures and pictures.
+        tell: Called with the share of the pictures of forces and moments that is drawn.
+        live: Numbers to change on the page, as of `live.make_book`; None: none.
+    """
+    result, balanced, mounted, twisted, turning = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
-    fitted = bool(balanced.remedy.reasons)
-    compared = _COMPARED if fitted else ()
+    compared = _COMPARED if balanced.remedy.reasons else ()
     now = PageSubject(Study(result), system)
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     pictures = []
     for panel in (*alone, *beside):
-        pictures.append(Markup(draw_panel(*panel)))
+        pictures.append(draw_panel(*panel))
         tell(len(pictures) / (len(alone) + len(beside)))
     return _template().render(
+        whole=True,
+        live=live,
+        still=explain_still(result.engine),
         title=own.title,
         version=__version__,
         facts=own.parts[0],
         verdict=next((part for part in own.parts if part.title == "Verdict"), None),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
-        fitted=fitted,
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
         compared=pictures[len(alone) :],
-        style=_read("report.css"),
-        script=_read("report.js"),
-        **_gather_chapters(mounted, twisted, turning, system),
+        running=None if turning is None else running(turning, system),
+        mounts=None if mounted is None else mounts.sheet(mounted, system),
+        rocking=None if mounted is None else rocking(mounted),
+        torsion=None if twisted is None else torsion.sheet(twisted, system),
+        twists=() if twisted is None else _draw_torsion(twisted, system),
+    )
+
+
+class Explorer:
+    """The page of an engine in a frame of a notebook.
+
+    Args:
+        text: The page.
+    """
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def _repr_html_(self) -> str:
+        style = "width:100%;height:900px;border:1px solid #ccc"
+        return f'<iframe style="{style}" srcdoc="{escape(self._text, quote=True)}"></iframe>'
+
+
+def explore(engine: Engine) -> Explorer:
+    """Return the page of an engine for a notebook: `Engine.explore`.
+
+    Args:
+        engine: Engine that comes from a file.
+
+    Raises:
+        BalcliError: No file describes the engine.
+    """
+    model = take_model(engine)
+    found = find_answers(model, engine, None, "auto", SchemeOptions(), engine.name or "engine")
+    live = describe_one(model, engine, SI, tomli_w.dumps(engine.to_dict()), engine.name)
+    return Explorer(page(found, SI, live=live))
+
+
+def make_play_page() -> str:
+    """Return a page on which one chooses among the example engines and changes their numbers."""
+    return _template().render(
+        whole=False,
+        live=make_examples(),
+        still="",
+        title="Change an engine and see its balance",
+        version=__version__,
+        verdict=None,
+        scene=None,
+        **dict.fromkeys(("mounts", "torsion", "running")),
     )
 
 
@@ -311,41 +346,11 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     return shown
 
 
-def _gather_chapters(
-    mounted: MountReport | None,
-    twisted: TorsionAnalysis | None,
-    turning: Engine | None,
-    system: System,
-) -> Node:
-    """Return the data of mounts, torsion and gas for the template; None for a missing chapter."""
-    from markupsafe import Markup
-
-    chapters: Node = {"mounts": None, "torsion": None, "running": None}
-    if turning is not None:
-        chapters |= {
-            "running": running(turning, system),
-            "running_script": _read("running.js"),
-        }
-    if mounted is not None:
-        chapters |= {
-            "mounts": mounts.sheet(mounted, system),
-            "rocking": rocking(mounted),
-            "rocking_script": _read("rocking.js"),
-        }
-    if twisted is not None:
-        chapters |= {"torsion": torsion.sheet(twisted, system), "twists": []}
-        for what in OF_TORSION:
-            figure = twisting.make_torsion(twisted, what, system, titled=False)
-            svg = inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
-            chapters["twists"].append(Markup(svg))
-    return chapters
-
-
-def _read(name: str) -> Markup:
-    """Return a script or style of the page, unchanged."""
-    from markupsafe import Markup
-
-    return Markup((FOLDER / name).read_text(encoding="utf-8"))
+def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
+    """Yield the pictures of the torsion as SVG."""
+    for what in OF_TORSION:
+        figure = twisting.make_torsion(twisted, what, system, titled=False)
+        yield inline_svg(save_figure(figure, "svg"), f"torsion-{what}")
 
 
 def _choose_panels(
@@ -360,11 +365,6 @@ def _choose_panels(
     return chosen
 
 
-def kind(part: Grid | Facts | Text) -> str:
-    """Return the macro of the template that shows a part."""
-    return type(part).__name__.lower()
-
-
 def _template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -376,7 +376,6 @@ def _template() -> Template:
         lstrip_blocks=True,
     )
     environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
-    environment.filters["kind"] = kind
     return environment.get_template("report.html")
 
 

@@ -43,17 +43,7 @@ from ..show.plot_style import (
 )
 from ..show.sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
 from ..show.units import SI, ShownUnit, System
-from ..torque.plot import (
-    MainLoads,
-    PinLoads,
-    Pressures,
-    Torques,
-    draw_main,
-    draw_p_v,
-    draw_pin,
-    draw_pressure,
-    draw_torque,
-)
+from ..torque.plot import draw_gas
 from .study import Banks, Study
 
 if TYPE_CHECKING:
@@ -238,7 +228,7 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
         lines = {label: each.values(crank).real for label, each in scalars.items()}
         if not scalars:
             values, (up, across) = curve.values(crank), subject.name_components(quantity)
-            lines = {up: values.real, across: values.imag, "size": np.abs(values)}
+            lines = {up: values.real, across: values.imag, "magnitude": np.abs(values)}
         old = None if before is None else read(before.values(crank))
         draw_curves(ax, crank, lines, "moment" if scalars else quantity, unit, old)
 
@@ -344,19 +334,8 @@ def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
     return "".join(f"{title}: one throw, bearings not known" for title in missing)
 
 
-def _lay_out_gas(fig: Figure, subject: PageSubject, *, over_volume: bool = False) -> None:
-    system = subject.system
-    match subject.study.gas:
-        case Pressures() as found if over_volume:
-            draw_p_v(fig.subplots(), found, system)
-        case Pressures() as found:
-            draw_pressure(fig.subplots(), found, system.pressure)
-        case Torques() as found:
-            draw_torque(fig.subplots(), found, system.moment)
-        case PinLoads() as found:
-            draw_pin(fig, found, system.force)
-        case MainLoads() as found:
-            draw_main(fig, found, system.force)
+def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
+    draw_gas(fig, subject.now.engine, what, subject.system)
 
 
 # Width and height in inches, which some layouts change.
@@ -371,9 +350,9 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
-    "pressure": (7.2, 4.4, _lay_out_gas),
-    "p-v": (6.4, 4.8, partial(_lay_out_gas, over_volume=True)),
-    "torque": (8.4, 4.8, _lay_out_gas),
-    "pin": (9.6, 5.9, _lay_out_gas),
-    "main": (9.6, 6.4, _lay_out_gas),
+    "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
+    "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
+    "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),
+    "pin": (9.6, 5.9, partial(_lay_out_gas, what="pin")),
+    "main": (9.6, 6.4, partial(_lay_out_gas, what="main")),
 }

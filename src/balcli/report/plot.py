@@ -136,7 +136,7 @@ def _plot_engine(
     speeds = check_speeds("plot", speeds_rpm)
     if speeds is None and what in ("response", "waterfall"):
         speeds = np.asarray(choose_torsion_speeds(engine), dtype=float)
-    return _plot_torsion(answer_question(source, TorsionQuestion(speeds, exciting)), what)
+    return _plot_torsion(answer_question(source, TorsionQuestion(speeds)), what)
 
 
 def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:

@@ -24,10 +24,10 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
-from ..torque.plot import PAGES, GasPicture, compute_picture
+from .names import OF_GAS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("ladder", "bank", *PAGES)  # studies of the engine as it is
+_ALONE = ("ladder", "bank", *OF_GAS)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
@@ -55,7 +55,6 @@ class Study(NamedTuple):
         banks: One order over the bank angle.
         bent: Loads along the crankshaft now, and before.
         steps: Engine with the devices of each step of the ladder, by name.
-        gas: Pressures, torque or loads of an engine with gas.
     """
 
     now: Analysis
@@ -65,7 +64,6 @@ class Study(NamedTuple):
     banks: Banks | None = None
     bent: tuple[InnerLoads, ...] = ()
     steps: Mapping[str, Analysis] = {}
-    gas: GasPicture | None = None
 
 
 def analyze_steps(
@@ -114,8 +112,6 @@ def compute_study(
     if what == "ladder":
         ladder = find_ladder(engine, (options or SchemeOptions()).read_small())
         return Study(now, steps=analyze_steps(engine, ladder, orders))
-    if what in PAGES:
-        return Study(now, gas=compute_picture(engine, what))
     if what == "inner":
         return Study(now, bent=(find_inner_loads(engine),))
     if what == "bank":

@@ -71,7 +71,9 @@ def read_engine(
     model = parse.parse(text, name_file(path))
     engine = load.build_named(prepare(model), path)
     if is_verbose():
-        _tell_what_was_read(name_file(path), text, model, engine)
+        note(f"{name_file(path)}: read, {len(text)} bytes")
+        for assumed in engine.inferred:
+            note(f"{name_file(path)}: not in the file: {assumed}")
     if not engine.places_known:
         _tell_unknown(name_file(path), asked)
     if "gas" in (asked or ()):
@@ -83,16 +85,6 @@ def read_engine(
     if speed_rpm is not None:
         engine = replace(engine, model=None)
     return LoadedEngine(text, model, engine)
-
-
-def _tell_what_was_read(name: str, text: bytes, model: EngineFile, engine: Engine) -> None:
-    """Print notes on how a file was understood."""
-    from ..file.plain_tables import list_assumed  # for them alone
-
-    note(f"{name}: read, {len(text)} bytes")
-    lines = (*list_assumed(model), *engine.inferred)
-    for each in {line.replace(":", " ").split()[0]: line for line in lines}.values():
-        note(f"{name}: not in the file: {each}")
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:

@@ -24,7 +24,8 @@ from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
-WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, "inner", "guide", *PARTS)
+CLOSER = ("inner", "guide", "journals", "masses")  # computed only when they are named
+WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
 EnginePath = Annotated[
@@ -43,8 +44,7 @@ FormatOption = Annotated[
     Format | None,
     format_option(
         Format,
-        "How to write the result, md for short of markdown; default: by the ending of -o (.txt, "
-        ".json, .csv, .md), else table.",
+        "Default: by the ending of -o (.txt, .json, .csv, .md), else table.",
     ),
 ]
 UnitsOption = Annotated[
@@ -54,14 +54,14 @@ UnitsOption = Annotated[
         case_sensitive=False,
         envvar="BALCLI_UNITS",
         show_envvar=False,
-        help="imperial: lbf, lbf·ft, oz·in, lb·in², psi, hp; JSON stays SI.",
+        help="imperial: lbf, lbf·ft, oz·in, psi, hp; JSON stays SI.",
     ),
 ]
 Output = Annotated[
     Path | None,
     optional(
         "FILE",
-        "Write into this file; its ending determines the format. - is standard output.",
+        "File to write; - is standard output.",
         "--output",
         "-o",
         callback=parse_output,
@@ -69,9 +69,7 @@ Output = Annotated[
 ]
 ProgressAtOnce = Annotated[
     bool,
-    typer.Option(
-        "--progress", help="Show progress on a terminal from the start, not after two seconds."
-    ),
+    typer.Option("--progress", help="Show progress from the start."),
 ]
 Target = Annotated[
     Path | None,
@@ -84,9 +82,7 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show, halves too where a range begins or ends with one; default: 1, 2 and "
-        "all to 512 that are not negligible; with gas all to 12, and of an engine that fires "
-        "more than 12 times a turn this order and its double.",
+        "Orders to show; default: 1, 2 and all that are not negligible; with gas also to 12.",
         "--orders",
     ),
 ]
@@ -104,14 +100,14 @@ OnlyParts = Annotated[
     optional(
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
-        "bearing loads along crankshaft and block), guide (H- and X-type); or xy, textbook, "
-        "verdict.",
+        "bearing loads along crankshaft and block), guide (H- and X-type), "
+        "journals (torque along the crankshaft), masses; or xy, textbook, verdict.",
         "--only",
     ),
 ]
 Small = Annotated[
     str | None,
-    optional("5%", "Share of one cylinder's first order below which the ladder leaves a part."),
+    optional("5%", "What is small against one cylinder's order 1."),
 ]
 Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")

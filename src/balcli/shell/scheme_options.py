@@ -29,31 +29,25 @@ Scheme = Annotated[
         autocompletion=complete_schemes,
     ),
 ]
-Order = Annotated[
-    int | None, optional("N", "Order to balance; default: the lowest that the scheme can balance.")
-]
+Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Place of the shaft, mm; given twice: first of that against the crank."),
+    optional("X,Y", "Place of a shaft, mm; of two, -N first."),
 ]
 Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
 Planes = Annotated[
     str | None,
     optional(
         "ends|throws|Z,Z...",
-        "Where along the crank: at its end throws, at every throw, or at these z in mm.",
+        "Planes of the weights: end throws, every throw, or z in mm.",
     ),
 ]
 Factor = Annotated[
     str | None,
-    optional("K|K:K:STEP", "Share of the reciprocating mass, such as 51% or a range 50%:54%:1%."),
+    optional("K|K:K:STEP", "Balance factor, such as 51% or 50%:54%:1%."),
 ]
-Measured = Annotated[
-    str | None, optional("MASS", 'Instead of --factor: mass that balances a pin, such as "812 g".')
-]
-Roll = Annotated[
-    str | None, optional("zero", "Place two shafts such that they also cancel the roll of inertia.")
-]
+Measured = Annotated[str | None, optional("MASS", 'Mass that balances a pin now: "812 g".')]
+Roll = Annotated[str | None, optional("zero", "Place two shafts so that they cancel roll.")]
 
 
 def parse_scheme_options(

@@ -189,7 +189,7 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
         names: Names as typed, such as --scheme; default: that of the parameter.
         more: Further arguments of `typer.Option`.
     """
-    return typer.Option(*names, metavar=metavar, show_default=False, help=text, **more)
+    return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
 
 
 Speeds = Annotated[

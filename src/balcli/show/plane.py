@@ -90,26 +90,36 @@ def draw_locus(
         before: Phasors whose path is drawn dashed; None: none.
     """
     shown = [curve] if before is None else [curve, before]
-    paths = [values_over_period(each) for each in shown]
-    largest, most = np.abs(paths[0]).max(), max(np.abs(each).max() for each in paths)
-    s = unit.fit(float(most))
-    limit = set_up_plane(ax, float(most) / s.size, names, s.name)
-    path, *others = (each / s.size for each in paths)
-    angles = np.arange(len(path), dtype=float)
+    path, *others = map(values_over_period, shown)
+    largest, most = (
+        float(np.abs(paths).max()) for paths in (path, np.concatenate([path, *others]))
+    )
+    tiny = largest <= 0.3 * most  # it gets a picture of its own, in a corner
+    s = unit.fit(most)
+    limit = set_up_plane(ax, (1.25 if tiny else 1) * most / s.size, names, s.name)
     for old in others:
-        ax.plot(old.imag, old.real, color=SOFT, linewidth=1, linestyle=(0, (4, 2)), label="before")
+        look: Look = {"color": SOFT, "linewidth": 1, "linestyle": (0, (4, 2)), "label": "before"}
+        ax.plot(old.imag / s.size, old.real / s.size, **look)
         ax.plot([], [], color=BLUE, label="after")
         put_legend_above(ax)
-    if largest > 0.15 * most:
-        draw_path(ax, path, angles, angles[-1] / 12, limit)
-        start = len(path) // 25
-        way = path[start + 1] - path[start]
-        tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
-        _draw_arrow(ax, path[start], tip, color=BLUE, linewidth=1.2, mutation_scale=13)
+    if tiny:
+        ax.plot(path.imag / s.size, path.real / s.size, color=BLUE)
+        if largest:
+            inset, t = ax.inset_axes((0.7, 0.7, 0.3, 0.3)), unit.fit(largest)
+            set_up_plane(inset, largest / t.size)
+            inset.plot(path.imag / t.size, path.real / t.size, color=BLUE)  # angles would overlap
+            inset.set_title(f"after, {t.name}", fontsize=8)
+            inset.tick_params(labelsize=6)
+        else:
+            ax.text(0, 0.06 * limit, NOTHING, ha="center", va="bottom", bbox=_BOX)
         return
-    ax.plot(path.imag, path.real, color=BLUE)  # crank angles would overlap
-    size = f"at most {size_text(float(largest), unit, 3)}" if largest else NOTHING
-    ax.text(0, float(largest) / s.size + 0.06 * limit, size, ha="center", va="bottom", bbox=_BOX)
+    path = path / s.size
+    angles = np.arange(len(path), dtype=float)
+    draw_path(ax, path, angles, angles[-1] / 12, limit)
+    start = len(path) // 25
+    way = path[start + 1] - path[start]
+    tip = path[start] + 0.02 * limit * way / (abs(way) or 1)
+    _draw_arrow(ax, path[start], tip, color=BLUE, linewidth=1.2, mutation_scale=13)
 
 
 def draw_paths(

@@ -51,6 +51,20 @@ class Grid(NamedTuple):
     marked: frozenset[tuple[int, int]] = frozenset()
     words: tuple[int, ...] = (0,)
 
+    @classmethod
+    def of_columns(
+        cls, title: str, columns: Iterable[tuple[str, Iterable[str]]], note: str = ""
+    ) -> Grid:
+        """Return a table that is given by columns.
+
+        Args:
+            title: Title of the table.
+            columns: Heading and cells of every column.
+            note: Note below the table.
+        """
+        heads, cells = zip(*columns, strict=True)
+        return cls(title, heads, tuple(zip(*cells, strict=True)), note)
+
 
 class Facts(NamedTuple):
     """Names and their values."""

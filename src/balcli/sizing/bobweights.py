@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+
 from ..core.records import HIDDEN, INLINE, Node, Polar
 from ..engine.engine import Engine
 from ..engine.rods import CylinderMasses
@@ -23,6 +25,7 @@ NO_THROW = (
 WHOLE_PISTON = "piston complete"
 ROTATING = ("big end", "rod bearing", "oil")
 PISTON = (WHOLE_PISTON, *PISTON_PARTS)
+_RECIPROCATING = (*PISTON, "crosshead", "small end")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +96,7 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
     def total(*parts: str) -> float:
         return sum(line.sum_g for line in lines if line.part in parts)
 
-    rotating, reciprocating = total(*ROTATING), total(*PISTON, "small end")
+    rotating, reciprocating = total(*ROTATING), total(*_RECIPROCATING)
     return Bobweight(
         throw=masses[0].throw + 1,
         cylinders=tuple(engine.numbers[row] for row in rows),
@@ -119,6 +122,7 @@ def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
             "rod bearing": one.rod_bearing,
             "oil": one.oil,
             **{WHOLE_PISTON if key == "mass" else key: mass for key, mass in one.piston_parts},
+            **({"crosshead": one.crosshead} if np.any(one.crosshead) else {}),
             "small end": one.small_end,
         }
         for one in masses
@@ -129,7 +133,7 @@ def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
             rotates=part in ROTATING,
             each_g=tuple(1e3 * float(rod.get(part, 0.0)) for rod in rods),
         )
-        for part in (*ROTATING, *PISTON, "small end")
+        for part in (*ROTATING, *_RECIPROCATING)
         if any(part in rod for rod in rods)
     )
 

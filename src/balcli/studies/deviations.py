@@ -13,6 +13,7 @@ from ..engine.build import assemble, build
 from ..engine.parts import Parts
 from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
 from ..file.torsion_tables import Part, find_stiffness
+from .quantity_names import MOUNTS, TORSION
 
 THROW_MASS = "crank.throw_mass."  # with the throw's number; the file has one mass for all throws
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # of the file, per SI
@@ -65,21 +66,37 @@ def _relative(name: str, tolerance: float, figures: Mapping[str, float]) -> Sour
     return Source(name, tolerance, {path: Line(value, value) for path, value in figures.items()})
 
 
+def find_sources(
+    model: EngineFile, chapter: str, within: Tolerances
+) -> tuple[EngineFile, tuple[Source, ...]]:
+    """Return the file with a figure for each part, and the parts that deviate.
+
+    Args:
+        model: Engine file.
+        chapter: Chapter whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS or TORSION.
+        within: Tolerances; parts without one are left out.
+    """
+    if chapter == MOUNTS:
+        sources = _list_mounts(model, within)
+    elif chapter == TORSION:
+        model = _spell_out_shafting(model)
+        sources = _list_shafting(model, within)
+    else:
+        model = _spell_out_throws(model) if within.angle_deg else model
+        sources = _list_parts(model, within)
+    return model, tuple(source for source in sources if source.tolerance)
+
+
 # ------------------------------------------------------------------ pistons, rods and throws
-def spell_out_throws(model: EngineFile) -> EngineFile:
+def _spell_out_throws(model: EngineFile) -> EngineFile:
     """Return the file with an angle for every throw, as far as the firing order gives them."""
     if model.crank.throws is not None:
         return model
     return model.with_table("crank", throws=tuple(assemble(model).pins.throws_deg.values()))
 
 
-def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
-    """Yield masses of pistons, rods and throws, lengths of rods, and angles of throws.
-
-    Args:
-        model: As of `spell_out_throws`.
-        within: Tolerances of the parts.
-    """
+def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield masses of pistons, rods and throws, lengths of rods, and angles of throws."""
     parts = assemble(model)
     yield from _list_masses(model, parts, within.mass)
     for n in sorted(parts.numbers):
@@ -89,38 +106,38 @@ def list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
         numbers = [cell.number for cell in parts.plan.cells if cell.throw == k]
-        pins = {n: parts.override(n, "throw") for n in numbers}
-        lines |= {
-            f"cylinder.{n}.throw": Line(float(pin), 1.0)
-            for n, pin in pins.items()
-            if pin is not None
-        }
-        lines |= _hold_devices(model) if 1 in pins else {}
+        for n in numbers:
+            if (pin := parts.override(n, "throw")) is not None:
+                lines[f"cylinder.{n}.throw"] = Line(float(pin), 1.0)
+        if 1 in numbers:
+            lines |= _hold_devices(model)
         yield Source(f"throw angle {k + 1}", within.angle_deg, lines, relative=False)
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
     """Yield the masses of pistons, rods and throws, as far as there are some."""
-    engine = build(model)
-    numbers = sorted(engine.numbers)
-    weighed = dict(zip(engine.numbers, engine.weighed, strict=True))
-    masses: dict[int, dict[str, float]] = {n: {} for n in numbers}
-    for n in numbers:
+    yield from _list_pistons(model, mass)
+    for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
-        for key, unit in _ROD_UNITS.items():
-            if (given := getattr(rod, key)) is not None:
-                masses[n][f"cylinder.{n}.rod_{key}"] = unit * float(given)
-    if any(w.piston for w in weighed.values()):
-        for n in numbers:
-            figures = {f"cylinder.{n}.piston_mass": float(weighed[n].piston)}
-            yield _relative(f"piston mass {n}", mass, figures)
-    if any(value for figures in masses.values() for value in figures.values()):
-        for n in numbers:
-            yield _relative(f"rod mass {n}", mass, masses[n])
+        figures = {
+            f"cylinder.{n}.rod_{key}": unit * float(given)
+            for key, unit in _ROD_UNITS.items()
+            if (given := getattr(rod, key)) is not None
+        }
+        if any(figures.values()):
+            yield _relative(f"rod mass {n}", mass, figures)
     if model.crank.throw_mass and not model.layout.rotary:
         for k in range(1, parts.plan.throws + 1):
             figures = {f"{THROW_MASS}{k}": model.crank.throw_mass}
             yield _relative(f"throw mass {k}", mass, figures)
+
+
+def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
+    engine = build(model)
+    for n, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
+        if weighed.piston:
+            figures = {f"cylinder.{n}.piston_mass": float(weighed.piston)}
+            yield _relative(f"piston mass {n}", mass, figures)
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
@@ -136,7 +153,7 @@ def _hold_devices(model: EngineFile) -> dict[str, Line]:
 
 
 # ------------------------------------------------------------------ mounts, shafts and inertias
-def list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     """Yield the stiffness of every mount, along all its axes alike."""
     tolerance = OF_MOUNTS if within.stiffness is None else within.stiffness
     for number, mount in enumerate(model.mount, 1):
@@ -148,7 +165,7 @@ def list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
         yield _relative(f"stiffness {label}", tolerance, figures)
 
 
-def spell_out_shafting(model: EngineFile) -> EngineFile:
+def _spell_out_shafting(model: EngineFile) -> EngineFile:
     """Return the file with a stiffness and an inertia for every throw, and a stiffness for every
     shaft that is given by its length.
     """
@@ -170,13 +187,8 @@ def _stiffen(part: Part) -> Part:
     return part.model_copy(update={"stiffness": find_stiffness(part), "length": None})
 
 
-def list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
-    """Yield the stiffness of every shaft, the inertia of every node, and the mass of every piston.
-
-    Args:
-        model: As of `spell_out_shafting`.
-        within: Tolerances of stiffness and mass.
-    """
+def _list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
+    """Yield the stiffness of each shaft, the inertia of each node, and the mass of each piston."""
     torsion, mass = model.torsion, within.mass
     if torsion is None:
         return
@@ -196,7 +208,4 @@ def list_shafting(model: EngineFile, within: Tolerances) -> Iterator[Source]:
                 yield _relative(f"stiffness {part.name}", elastic, figures)
             if part.inertia is not None:
                 yield _relative(f"inertia {part.name}", mass, {f"{path}.inertia": part.inertia})
-    engine = build(model)
-    for number, weighed in sorted(zip(engine.numbers, engine.weighed, strict=True)):
-        figures = {f"cylinder.{number}.piston_mass": float(weighed.piston)}
-        yield _relative(f"piston mass {number}", mass, figures)
+    yield from _list_pistons(model, mass)

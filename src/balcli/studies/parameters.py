@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,8 +25,6 @@ from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
 from ..show.sheet import count_name
-
-_EXACT = 2**53  # whole numbers below it are exact as floating-point numbers
 
 
 @dataclass(frozen=True)
@@ -49,15 +47,36 @@ def tell_variant(figures: Mapping[str, float]) -> str:
 
 
 # ------------------------------------------------------------------ which numbers there are
+class Place(NamedTuple):
+    """The place of a number in an engine file.
+
+    Attributes:
+        reader: Type of the figure.
+        table: Table in which it stands.
+        key: Key in this table.
+        value: Value in the file; None: not given.
+    """
+
+    reader: Number
+    table: type[FileTable]
+    key: str
+    value: object
+
+
 def find_numbers(model: EngineFile) -> dict[str, Number]:
-    """Return the reader of each number that an engine file has or might have, by dotted name;
+    """Return the reader of each number that an engine file has or might have, by dotted name."""
+    return {path: place.reader for path, place in find_places(model).items()}
+
+
+def find_places(model: EngineFile) -> dict[str, Place]:
+    """Return the place of each number that an engine file has or might have, by dotted name;
     members of lists count from 1.
     """
     plan = plan_cylinders(model)
     tables = dict(model.tables())
     for number in plan.numbers:
         tables.setdefault(f"cylinder.{number}", Override.model_construct())
-    numbers: dict[str, Number] = {}
+    numbers: dict[str, Place] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
     for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up names results alone
@@ -89,31 +108,24 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
     return [path for path in numbers if path in heats or path.removeprefix("gas.") in idle]
 
 
-def _numbers_of(path: str, table: FileTable) -> Iterator[tuple[str, Number]]:
-    """Return the numbers of a table; lists and inner tables only as far as the file has them."""
+def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
+    """Yield the numbers of a table; lists and inner tables only as far as the file has them."""
+    kind = type(table)
     for key, value in table:
-        number = _number_of(type(table), key)
+        path, reader, field = f"{start}.{key}", _number_of(kind, key), kind.model_fields[key]
         if isinstance(value, FileTable):
-            yield from _numbers_of(f"{path}.{key}", value)
+            yield from _numbers_of(path, value)
         elif isinstance(value, tuple):
-            marks = type(table).model_fields[key].metadata
-            if (
-                number is not None
-                and len(set(value)) == 1
-                and any(isinstance(mark, AlikeOrEach) for mark in marks)
-            ):
-                yield f"{path}.{key}", number  # all of them together
             for k, item in enumerate(value, 1):
                 if isinstance(item, FileTable):
-                    yield from _numbers_of(f"{path}.{key}.{k}", item)
-                elif number is not None:
-                    yield f"{path}.{key}.{k}", number
-        elif number is not None and not _is_list(type(table), key):
-            yield f"{path}.{key}", number
-
-
-def _is_list(table: type[FileTable], key: str) -> bool:
-    return "tuple" in str(table.model_fields[key].annotation)
+                    yield from _numbers_of(f"{path}.{k}", item)
+                elif reader is not None:
+                    alike = any(isinstance(mark, AlikeOrEach) for mark in field.metadata)
+                    if k == 1 and alike and len(set(value)) == 1:
+                        yield path, Place(reader, kind, key, item)  # all of them together
+                    yield f"{path}.{k}", Place(reader, kind, key, item)
+        elif reader is not None and "tuple" not in str(field.annotation):
+            yield path, Place(reader, kind, key, value)
 
 
 @cache
@@ -142,26 +154,15 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
 
     Raises:
         BalcliError: no such number in the file (with the nearest name), no values, or values out of
-        its bounds.
+            its bounds.
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
-    known = find_numbers(model)
-    path = resolve_name(path, known)
     if not equals or not path:
         raise BalcliError(
             f'"{text}": give a number of the engine file and its values, such as '
             "rod.ratio=0.24:0.32:0.01"
         )
-    if path not in known:
-        raise BalcliError(_describe_unknown(path, known, model))
-    try:
-        values = _read_values(wanted, known[path])
-    except ValueError as error:
-        raise BalcliError(f"{shorten(text)}: {error}") from None
-    except OverflowError:
-        raise BalcliError(f"{shorten(text)}: has too large a number") from None
-    _check_bounds(path, known[path], values)
-    return Parameter(path, values, known[path].dimension.unit)
+    return choose_values(path, wanted, model)
 
 
 def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
@@ -173,27 +174,45 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
         BalcliError: as for `parse_parameter`.
         TypeError: the values have another type.
     """
-    if isinstance(values, str):
-        return parse_parameter(f"{path}={values}", model)
     known = find_numbers(model)
+    where = shorten(f"{path}={values}") if isinstance(values, str) else path
     path = resolve_name(path, known)
     if path not in known:
         raise BalcliError(_describe_unknown(path, known, model))
     number = known[path]
+    try:
+        if isinstance(values, str):
+            array = _read_values(values, number)
+        else:
+            array = _read_array(path, values, number)
+        where = path
+        for extreme in (array.min(), array.max()):
+            number.read(float(extreme))
+    except OverflowError:
+        raise BalcliError(f"{where}: has too large a number") from None
+    except ValueError as error:
+        raise BalcliError(f"{where}: {error}") from None
+    return Parameter(path, array, number.dimension.unit)
+
+
+def _read_array(path: str, values: ArrayLike, number: Number) -> NDArray[np.float64]:
+    """Return a number, or a list or array of them, some perhaps with units, as an array."""
     refuse_more(path, values, MOST_PARAMETER_VALUES)
     if isinstance(values, range):
         values = np.fromiter(values, float, len(values))  # a list of them takes much more memory
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError, OverflowError):
-        array = np.array([_read_one(path, value, number) for value in _as_list(path, values)])
+        if not isinstance(values, (list, tuple)):
+            wanted = "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01"
+            raise wrong_type(path, values, wanted) from None
+        array = np.array([number.read(value) for value in values])
     if array.ndim != 1 or not 0 < array.size <= MOST_PARAMETER_VALUES:
-        raise BalcliError(
-            f"{path}: values of shape {array.shape}; give a list or an array of one axis with 1 to "
+        raise ValueError(
+            f"values of shape {array.shape}; give a list or an array of one axis with 1 to "
             f"{MOST_PARAMETER_VALUES} values"
         )
-    _check_bounds(path, number, array)
-    return Parameter(path, array, number.dimension.unit)
+    return array
 
 
 def resolve_name(name: str, known: Mapping[str, Number]) -> str:
@@ -209,44 +228,20 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
     return name
 
 
-def _as_list(path: str, values: object) -> list[object]:
-    if isinstance(values, (list, tuple)):
-        return list(values)
-    raise wrong_type(path, values, "give numbers, such as [0.24, 0.28], or a range 0.24:0.32:0.01")
-
-
-def _read_one(path: str, value: object, number: Number) -> float:
-    try:
-        return number.read(value)
-    except ValueError as error:
-        raise BalcliError(f"{path}: {error}") from None
-
-
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
     """Return the message for an unknown name, with `rod.length` for rod_length, all numbers of a
-    table, those with the same beginning, or the nearest name.
+    table, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path}: changes nothing of the gas in this file"
-    dotted, first = path.replace("_", ".", 1), path.partition(".")[0]
+    dotted = path.replace("_", ".", 1)
     meant = [name for name in known if name == dotted or name.startswith(f"{path}.")]
     meant = meant or [name for name in known if f".{path}_" in f"{name}_"]
-    if near := " or ".join(meant[:6]) or nearest(path, known):
-        return f"{path}: unknown parameter; did you mean {near}?"
-    alike = [name for name in known if name.partition(".")[0] == first] or list(known)
-    some = f"{', '.join(alike[:6])}{' ...' if len(alike) > 6 else ''}"
-    return f"{path}: unknown parameter; there are {some}"
-
-
-def _check_bounds(path: str, number: Number, values: NDArray[np.float64]) -> None:
-    """Raise BalcliError for the first extreme of the values that the field does not allow."""
-    for extreme in (values.min(), values.max()):
-        try:
-            number.read(float(extreme))
-        except ValueError as error:
-            raise BalcliError(f"{path}: {error}") from None
+    near = " or ".join(meant[:6]) or nearest(path, known)
+    hint = f"did you mean {near}?" if near else "balcli numbers lists them"
+    return f"{path}: unknown parameter; {hint}"
 
 
 def _read_values(text: str, number: Number) -> NDArray[np.float64]:
@@ -274,12 +269,6 @@ def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
     """Return first + k step for k = 0 .. count-1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
-    if max(abs(start), abs(start + rise * count), scale) < _EXACT:
-        values = np.arange(count, dtype=float)  # whole numbers, which are exact
-        values *= rise
-        values += start
-        values /= scale
-        return values
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 

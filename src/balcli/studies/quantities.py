@@ -1,26 +1,47 @@
-"""Requested quantities, and numbers that can vary, by their names: of forces and moments
-(`force.2.major`), and of the chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`),
-whose modules are loaded when one of their quantities is requested.
+"""Requested quantities by their names: of forces and moments (`force.2.major`), and of the chapters
+(`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`), whose modules are loaded when one of
+their quantities is requested; their figures for variants of an engine file; and the numbers that
+can vary.
+
+Forces and moments are evaluated for all variants as arrays, quantities of chapters one variant
+after the other. The torque of the gas is computed when it is asked for, once for all variants whose
+cylinders are alike.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from itertools import groupby
 from typing import Literal, Protocol, cast
 
+import numpy as np
+
+from ..core.phasors import Array, Phasors
+from ..engine.build import build
+from ..engine.engine import Engine
+from ..engine.load import concerns_gas
 from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
-from ..errors import BalcliError
+from ..errors import BalcliError, InputError, naming_file
 from ..file.fields import RIGID, suggest_nearest
-from ..file.model import EngineFile, Override
+from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed
-from ..file.table import FileTable, document_keys
-from ..forces.quantity import Quantity, parse_quantity
+from ..file.table import document_keys
+from ..forces.kinds import GAS_KINDS
+from ..forces.quantity import (
+    Quantity,
+    TargetQuantity,
+    evaluate_quantities,
+    parse_quantity,
+    refuse_unknown as refuse_unknown_of_engine,
+)
+from ..forces.spectrum import compute_gas_torque
 from ..names import QUANTITIES, import_name
-from .parameters import find_numbers
-from .quantity_names import BEGINNINGS, CHAPTERS, ENGINE, Chapter, Form, find_chapter
+from .parameters import Place, find_places, tell_variant
+from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, TORSION, Form, join_patterns
 
 
 @dataclass(frozen=True)
@@ -34,17 +55,7 @@ class NamedEngine:
     name: str
 
 
-class ChapterQuantity(Protocol):
-    """A figure by its name, and its unit."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def unit(self) -> str: ...
-
-
-AnyQuantity = Quantity | ChapterQuantity
-Chapters = Mapping[Chapter, Sequence[ChapterQuantity]]
+AnyQuantity = Quantity | TargetQuantity
 
 
 class Variants(Protocol):
@@ -57,29 +68,27 @@ class Variants(Protocol):
 class ChapterModule(Protocol):
     """Interface of a module that computes quantities of its chapter."""
 
-    def parse_quantity(self, text: str) -> ChapterQuantity:
-        """Return the quantity of this name; BalcliError if it does not exist."""
-
     def list_names(self, model: EngineFile) -> Iterable[str]:
         """Return the names of the quantities of a file, with N for any order."""
 
-    def refuse_unknown(self, model: EngineFile, quantities: Sequence[ChapterQuantity]) -> None:
+    def refuse_unknown(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
         """Raise BalcliError if the file lacks the subject of a quantity."""
 
     def Variants(  # a class, which a function may be, too
-        self, model: EngineFile, quantities: Sequence[ChapterQuantity]
+        self, model: EngineFile, quantities: Sequence[TargetQuantity]
     ) -> Variants: ...
 
 
-def load_chapter(chapter: Chapter) -> ChapterModule:
+def load_chapter(chapter: str) -> ChapterModule:
     """Return the module that computes the quantities of a chapter other than ENGINE."""
-    return cast(ChapterModule, import_name(QUANTITIES[chapter.name]))
+    return cast(ChapterModule, import_name(QUANTITIES[chapter]))
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:
     """Return the quantities of these names, in their order, each once.
 
     Args:
+        text: Names with commas between them.
         with_gas: Whether the engine has gas: `torque` is then the torque of gas and inertia.
 
     Raises:
@@ -94,14 +103,17 @@ def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity,
 
 
 def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
-    chapter = find_chapter(word)
-    if chapter is None:
-        there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
-        hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
-        raise BalcliError(f"{word} is no quantity: {hint}")
-    if chapter is ENGINE:
+    for form in FORMS:
+        if form.chapter != ENGINE and form.matches(word):
+            return TargetQuantity(word, form.unit, form.chapter)
+    alike = [form for form in FORMS if form.beginning == word.partition(".")[0]]
+    if any(form.chapter == ENGINE for form in alike):
         return parse_quantity(word, with_gas=with_gas)
-    return load_chapter(chapter).parse_quantity(word)
+    there = f"one begins with {', '.join(BEGINNINGS[:-1])} or {BEGINNINGS[-1]}"
+    hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
+    if alike:
+        hint = f"give {' or '.join(join_patterns(alike))}"
+    raise BalcliError(f"{word} is no quantity: {hint}")
 
 
 def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
@@ -109,84 +121,180 @@ def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
     return tuple(q for q in wanted if isinstance(q, Quantity))
 
 
-def group_by_chapter(wanted: Iterable[AnyQuantity]) -> Chapters:
+def group_by_chapter(wanted: Iterable[AnyQuantity]) -> dict[str, list[TargetQuantity]]:
     """Return all other quantities by their chapters."""
-    groups: dict[Chapter, list[ChapterQuantity]] = {}
+    groups: dict[str, list[TargetQuantity]] = {}
     for q in wanted:
-        if isinstance(q, Quantity):
-            continue
-        chapter = find_chapter(q.name)
-        if chapter is not None:
-            groups.setdefault(chapter, []).append(q)
+        if isinstance(q, TargetQuantity):
+            groups.setdefault(q.chapter, []).append(q)
     return groups
 
 
-def refuse_unknown_of_chapters(model: EngineFile, wanted: Iterable[AnyQuantity]) -> None:
-    """Raise an error if the file lacks the subject of a quantity of a chapter.
+def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuantity]) -> None:
+    """Raise an error if the file lacks the subject of a quantity, or its variants do.
+
+    Args:
+        model: Engine file.
+        engine: Engine of the file, or variants along trailing axes.
+        wanted: Wanted quantities.
 
     Raises:
         BalcliError, InputError: The quantity does not exist; the error lists those there are.
     """
+    wanted = tuple(wanted)
     for chapter, members in group_by_chapter(wanted).items():
         load_chapter(chapter).refuse_unknown(model, members)
+    refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-_MOUNTS, _TORSION = {"gas", "body", "mount"}, {"gas", "torsion"}  # tables whose defaults count
-_TABLES = {"mounts": _MOUNTS, "torsion": _TORSION, "guide": {"gas"}, "cycle": {"gas"}}
+# Tables whose defaults count for the quantities of a chapter, beside those of any engine.
+_TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}}
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")  # their inertia
-_OF_INERTIA = {"force", "moment", "couple", "roll", "peak"}  # kinds that no gas changes
+_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")  # their mass, at steady speed
 
 
 def list_assumed(
-    model: EngineFile, names: Collection[str], varied: Iterable[str] = ()
+    model: EngineFile, quantities: Collection[AnyQuantity], varied: Iterable[str] = ()
 ) -> tuple[str, ...] | None:
     """Return the values that are taken because a file leaves them out, as far as quantities depend
     on them; None: none.
 
     Args:
         model: Engine file.
-        names: Names of the quantities.
+        quantities: Requested quantities.
         varied: Names of the figures that vary.
     """
-    tables = set[str]()
-    for name in names:
-        chapter = find_chapter(name) or ENGINE
-        of_gas = chapter is ENGINE and name.partition(".")[0] not in _OF_INERTIA
-        tables |= {"gas"} if of_gas else _TABLES.get(chapter.name, set())
-    uneven = model.operation.speed_ripple
-    idle = set[str]() if uneven or any(map(_feels_throws, names)) else {"crank.throw_mass"}
-    idle |= {"rod.inertia"} if all(each.startswith(_WITHOUT_RODS) for each in names) else set()
-    tables |= {"flywheel"} if "fluctuation" in names else set()
-    idle |= set() if uneven or (tables & {"flywheel"} and model.flywheel) else {"crank.inertia"}
-    return choose_assumed(list_inferred(Parts(model)), tables, {*varied, *idle}) or None
+    names = [q.name for q in quantities]
+    tables = {"flywheel"} if "fluctuation" in names else set[str]()
+    for q in quantities:
+        if isinstance(q, TargetQuantity):
+            tables |= _TABLES.get(q.chapter, {"gas"})
+        elif q.kind in GAS_KINDS:
+            tables.add("gas")
+    idle = set(varied)
+    if not model.operation.speed_ripple:
+        if not any(name.startswith(_OF_THROWS) for name in names):
+            idle.add("crank.throw_mass")
+        if not ("flywheel" in tables and model.flywheel):
+            idle.add("crank.inertia")
+    if all(name.startswith(_WITHOUT_RODS) for name in names):
+        idle.add("rod.inertia")
+    return choose_assumed(list_inferred(Parts(model)), tables, idle) or None
 
 
-def _feels_throws(name: str) -> bool:
-    """Return whether a quantity depends on the masses of the throws at steady speed."""
-    return name.startswith(("force.1.", "moment.1.", "peak.", "mount.", "point."))
+# ------------------------------------------------------------------ figures of variants
+@contextmanager
+def naming_variant(name: str) -> Iterator[None]:
+    """Add the name of a variant, or of its file, to the errors that arise within this context."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.problems, ": ".join(filter(None, (name, error.file)))) from None
+    except BalcliError as error:
+        raise BalcliError(": ".join(filter(None, (name, str(error))))) from None
 
 
-def list_quantities(model: EngineFile) -> Iterator[Form]:
-    """Return the quantities of an engine file, chapter by chapter; N stands for any order.
-
-    Raises:
-        BalcliError, InputError: a chapter of the file has mistakes.
+class _VariedGas:
+    """Gas torque by order, shape (orders, *trailing), of length 1 along axes without effect on the
+    gas.
     """
-    for chapter in CHAPTERS:
-        forms = [form for form in chapter.forms if not form.table or getattr(model, form.table)]
-        if chapter is ENGINE:
-            yield from forms
-        elif forms:
-            yield from _list_of_chapter(chapter, model)
+
+    def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
+        self._model, self._engines = model, list[Engine]()
+        self._figures = {path: value for path, value in figures.items() if concerns_gas(path)}
+        self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
+
+    def __call__(self, orders: Array) -> Phasors:
+        """Return the torque at these orders; InputError for an impossible cycle."""
+        self._engines = self._engines or list(self._build())
+        found = [compute_gas_torque(engine, orders) for engine in self._engines]
+        shape = (len(orders), *self._shape)
+        return Phasors(
+            orders,
+            np.stack([one.vectors for one in found], axis=2).reshape(2, *shape),
+            np.stack([one.noise for one in found], axis=1).reshape(shape),
+        )
+
+    def _build(self) -> Iterator[Engine]:
+        columns = [np.broadcast_to(each, self._shape).ravel() for each in self._figures.values()]
+        for row in range(int(np.prod(self._shape))):
+            own = {
+                path: float(column[row])
+                for path, column in zip(self._figures, columns, strict=True)
+            }
+            with naming_file(tell_variant(own)):
+                yield build(self._model, own)
 
 
-def _list_of_chapter(chapter: Chapter, model: EngineFile) -> Iterator[Form]:
-    module = load_chapter(chapter)
-    for name in module.list_names(model):
-        form = next(form for form in chapter.forms if form.matches(name))
-        yield form._replace(pattern=name)
+class Evaluator:
+    """Evaluates some quantities of variants of an engine file.
+
+    Args:
+        model: Engine file.
+        quantities: Quantities that it has.
+
+    Attributes:
+        of_engine: Quantities of forces and moments.
+        one_by_one: Whether some quantities are computed variant by variant.
+    """
+
+    def __init__(self, model: EngineFile, quantities: Sequence[AnyQuantity]) -> None:
+        self._model, self._quantities = model, quantities
+        self.of_engine = choose_of_engine(quantities)
+        self._chapters = [
+            (members, load_chapter(chapter).Variants(model, members))
+            for chapter, members in group_by_chapter(quantities).items()
+        ]
+        self.one_by_one = bool(self._chapters)
+
+    def build(self, figures: Mapping[str, Array], rank: int) -> Engine:
+        """Return all variants as one engine with so many trailing axes, with their gas.
+
+        Raises:
+            InputError: One of them is impossible.
+        """
+        engine = build(self._model, figures, rank=rank)
+        if self._model.gas is None:
+            return engine
+        return replace(engine, gas_of_variants=_VariedGas(self._model, figures, rank))
+
+    def evaluate(
+        self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None
+    ) -> list[Array]:
+        """Return each quantity, SI or degrees, of this shape.
+
+        Args:
+            figures: Figures that vary, by dotted name; they broadcast to the shape.
+            shape: Of the variants.
+            engine: Result of `build`, if that is known.
+
+        Raises:
+            InputError, BalcliError: One of the variants is impossible; the error names it if
+                variants are computed one by one.
+        """
+        found: dict[AnyQuantity, Array] = {}
+        if self.of_engine:
+            engine = engine or self.build(figures, len(shape))
+            values = evaluate_quantities(engine, self.of_engine)
+            found |= dict(zip(self.of_engine, values, strict=True))
+        if self._chapters:
+            found |= self._evaluate_one_by_one(figures, shape)
+        return [np.broadcast_to(found[q], shape) for q in self._quantities]
+
+    def _evaluate_one_by_one(
+        self, figures: Mapping[str, Array], shape: tuple[int, ...]
+    ) -> dict[AnyQuantity, Array]:
+        columns = {path: np.broadcast_to(v, shape).ravel() for path, v in figures.items()}
+        rows: list[list[float]] = []
+        for k in range(int(np.prod(shape))):
+            own = {path: float(column[k]) for path, column in columns.items()}
+            with naming_variant(tell_variant(own)), naming_file(""):
+                rows.append([v for _, one in self._chapters for v in one.evaluate(own)])
+        names = [q for members, _ in self._chapters for q in members]
+        return {q: column.reshape(shape) for q, column in zip(names, np.array(rows).T, strict=True)}
 
 
+# ------------------------------------------------------------------ lists of names
 @dataclass(frozen=True)
 class FileNumber:
     """A number of an engine file.
@@ -236,37 +344,36 @@ class NamedNumbers:
     quantities: tuple[NamedQuantity, ...]
 
 
+def list_quantities(model: EngineFile) -> Iterator[Form]:
+    """Return the quantities of an engine file, chapter by chapter; N stands for any order.
+
+    Raises:
+        BalcliError, InputError: a chapter of the file has mistakes.
+    """
+    there = [form for form in FORMS if not form.table or getattr(model, form.table)]
+    for chapter, forms in groupby(there, lambda form: form.chapter):
+        if chapter == ENGINE:
+            yield from forms
+            continue
+        known = list(forms)
+        for name in load_chapter(chapter).list_names(model):
+            number = name.replace(".N.", ".1.")
+            yield next(f for f in known if f.matches(number))._replace(pattern=name)
+
+
 def name_numbers(model: EngineFile) -> NamedNumbers:
     """Return the numbers that `sweep` can vary of a file, and the file's quantities."""
-    tables = dict(model.tables())
     return NamedNumbers(
         engine=NamedEngine(model.name),
-        numbers=tuple(
-            _describe(path, number.dimension.unit, tables)
-            for path, number in find_numbers(model).items()
-        ),
+        numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),
         quantities=tuple(
             NamedQuantity(form.pattern, form.unit, form.words) for form in list_quantities(model)
         ),
     )
 
 
-def _describe(path: str, unit: str, tables: dict[str, FileTable]) -> FileNumber:
-    """Return a number by its path: first the table of that name, then keys and places."""
-    parts = path.split(".")
-    heads = (".".join(parts[:k]) for k in range(len(parts) - 1, 0, -1))
-    head = next((name for name in heads if name in tables), "")
-    if not head:  # of a cylinder that does not differ from the others
-        return FileNumber(path, None, unit, document_keys(Override)[parts[-1]].description)
-    found: object = tables[head]
-    meaning = ""
-    for part in parts[head.count(".") + 1 :]:
-        if isinstance(found, FileTable):
-            meaning = document_keys(type(found))[part].description
-            found = getattr(found, part)
-        elif isinstance(found, tuple):
-            found = found[int(part) - 1]
-    if isinstance(found, tuple) and len(set(found)) == 1:
-        found = found[0]  # one number for all
-    value = float(found) if isinstance(found, int | float) else None
+def _describe(path: str, place: Place) -> FileNumber:
+    value = float(place.value) if isinstance(place.value, int | float) else None
+    meaning = document_keys(place.table)[place.key].description
+    unit = place.reader.dimension.unit
     return FileNumber(path, RIGID if value == math.inf else value, unit, meaning)

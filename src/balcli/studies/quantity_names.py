@@ -1,6 +1,6 @@
-"""The one table of quantities of `sweep`, `search` and `scatter`: names, units, meanings, and the
-chapters that compute them. Help, errors and completion read it; `quantities` loads a chapter when
-one of its quantities is requested.
+"""The one table of quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
+meanings, and the chapters that compute them. Help, errors and completion read it; `quantities`
+loads a chapter when one of its quantities is requested.
 
 `N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
 x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
@@ -8,161 +8,103 @@ x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import NamedTuple
+
+ENGINE, GUIDE, CYCLE, MOUNTS, TORSION = "engine", "guide", "cycle", "mounts", "torsion"
+_OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
+_OF_SCALAR = "amplitude, cos, sin"
+# Chapter, pattern, unit, table of the file that is needed, meaning.
+_TABLE = f"""
+engine   force.N.PART         N           free force: {_OF_VECTOR}
+engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
+engine   couple.N.PART        N·m         free couple of the rods: {_OF_SCALAR}
+engine   torque.N.PART        N·m         torque on the crank, gas included: {_OF_SCALAR}
+engine   roll.N.PART          N·m         roll of the block by inertia: {_OF_SCALAR}
+engine   gas.N.PART           N·m gas     torque of the gas: {_OF_SCALAR}
+engine   torque_total.N.PART  N·m gas     torque of gas and inertia: {_OF_SCALAR}
+engine   roll_total.N.PART    N·m gas     roll of the block, gas included: {_OF_SCALAR}
+engine   peak.force           N           largest free force over a revolution
+engine   peak.moment          N·m         largest free moment over a revolution
+guide    guide.N.H            N·m         H-type guide-force moment, gas included
+guide    guide.N.X            N·m         X-type guide-force moment, gas included
+cycle    torque.mean          N·m gas     mean torque of the gas
+cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
+cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
+cycle    fluctuation              gas     highest less lowest speed, over the mean
+mounts   mode.N.Hz            Hz  mount   natural frequency on the mounts
+mounts   mode.N.share         %   mount   largest share of its energy in one motion
+mounts   mode.N.damping       %   mount   its damping ratio
+mounts   mode.MOTION.Hz       Hz  mount   natural frequency of the mode that has most of this motion
+mounts   mode.MOTION.share    %   mount   share of this motion in the energy of the mode that has \
+most of it
+mounts   mode.MOTION.damping  %   mount   damping ratio of the mode that has most of this motion
+mounts   mount.NAME.force     N   mount   largest force of a mount, from an eighth of the speed \
+up to it
+mounts   mount.NAME.static    N   mount   its load at rest and under the mean torque
+mounts   point.NAME.motion    mm  mount   largest motion of a point, from an eighth of the speed \
+up to it
+torsion  torsion.N.Hz         Hz  torsion natural frequency of the crankshaft that twists
+torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, from half to 1.5 \
+times the speed
+torsion  shaft.NAME.stress    Pa  torsion its largest vibratory stress there
+"""
+_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3}) (.{7}) (.+)")
+_PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "PART": ".+"}
 
 
 class Form(NamedTuple):
     """Quantities with names of one pattern.
 
     Attributes:
+        chapter: Chapter that computes them: ENGINE, or a key of `names.QUANTITIES`.
         pattern: Pattern of their names.
         unit: SI unit.
-        words: Meaning in words.
         table: Table of the engine file that they need; empty: every engine has them.
+        words: Meaning in words.
     """
 
+    chapter: str
     pattern: str
     unit: str
+    table: str
     words: str
-    table: str = ""
+
+    @property
+    def beginning(self) -> str:
+        """First word of the names."""
+        return self.pattern.partition(".")[0]
 
     def matches(self, name: str) -> bool:
         """Return whether a quantity of this name matches the pattern."""
-        kind, _, rest = self.pattern.partition(".")
-        own, _, other = name.partition(".")
-        middle, _, last = rest.rpartition(".")
-        whose, _, part = other.rpartition(".")
-        alike = last in (part, "PART") or not rest
-        numbered = middle != "N" or whose == "N" or whose.isdecimal()
-        return kind == own and alike and numbered and rest.count(".") <= other.count(".")
+        parts = (_PLACES.get(part, part) for part in self.pattern.split("."))
+        return re.fullmatch(r"\.".join(parts), name) is not None
 
 
-class Chapter(NamedTuple):
-    """Quantities that one module computes.
-
-    Attributes:
-        name: Key in `names.QUANTITIES`, which has the module (`quantities.ChapterModule`).
-        forms: Patterns of their names.
-    """
-
-    name: str
-    forms: tuple[Form, ...]
-
-    @property
-    def beginnings(self) -> tuple[str, ...]:
-        """First words of the names of its quantities."""
-        return tuple(dict.fromkeys(form.pattern.partition(".")[0] for form in self.forms))
-
-
-_OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
-_OF_SCALAR = "amplitude, cos, sin"
-
-ENGINE = Chapter(
-    "engine",
-    (
-        Form("force.N.PART", "N", f"free force: {_OF_VECTOR}"),
-        Form("moment.N.PART", "N·m", f"free moment: {_OF_VECTOR}"),
-        Form("couple.N.PART", "N·m", f"free couple of the rods: {_OF_SCALAR}"),
-        Form("torque.N.PART", "N·m", f"torque on the crank, gas included: {_OF_SCALAR}"),
-        Form("roll.N.PART", "N·m", f"roll of the block by inertia: {_OF_SCALAR}"),
-        Form("gas.N.PART", "N·m", f"torque of the gas: {_OF_SCALAR}", "gas"),
-        Form("torque_total.N.PART", "N·m", f"torque of gas and inertia: {_OF_SCALAR}", "gas"),
-        Form("roll_total.N.PART", "N·m", f"roll of the block, gas included: {_OF_SCALAR}", "gas"),
-        Form("peak.force", "N", "largest free force over a revolution"),
-        Form("peak.moment", "N·m", "largest free moment over a revolution"),
-    ),
-)
-GUIDE = Chapter(
-    "guide",
-    (
-        Form("guide.N.H", "N·m", "H-type guide-force moment, gas included"),
-        Form("guide.N.X", "N·m", "X-type guide-force moment, gas included"),
-    ),
-)
-CYCLE = Chapter(
-    "cycle",
-    (
-        Form("torque.mean", "N·m", "mean torque of the gas", "gas"),
-        Form("torque.max", "N·m", "largest torque over the cycle, at steady speed", "gas"),
-        Form("torque.min", "N·m", "smallest torque over the cycle, at steady speed", "gas"),
-        Form("fluctuation", "", "highest less lowest speed, over the mean", "gas"),
-    ),
-)
-_OF_MOTION = "the mode that has most of this motion"
-MOUNTS = Chapter(
-    "mounts",
-    (
-        Form("mode.N.Hz", "Hz", "natural frequency on the mounts", "mount"),
-        Form("mode.N.share", "%", "largest share of its energy in one motion", "mount"),
-        Form("mode.N.damping", "%", "its damping ratio", "mount"),
-        Form("mode.MOTION.Hz", "Hz", f"natural frequency of {_OF_MOTION}", "mount"),
-        Form(
-            "mode.MOTION.share",
-            "%",
-            "share of this motion in the energy of the mode that has most of it",
-            "mount",
-        ),
-        Form("mode.MOTION.damping", "%", f"damping ratio of {_OF_MOTION}", "mount"),
-        Form(
-            "mount.NAME.force",
-            "N",
-            "largest force of a mount, from an eighth of the speed up to it",
-            "mount",
-        ),
-        Form("mount.NAME.static", "N", "its load at rest and under the mean torque", "mount"),
-        Form(
-            "point.NAME.motion",
-            "mm",
-            "largest motion of a point, from an eighth of the speed up to it",
-            "mount",
-        ),
-    ),
-)
-TORSION = Chapter(
-    "torsion",
-    (
-        Form("torsion.N.Hz", "Hz", "natural frequency of the crankshaft that twists", "torsion"),
-        Form(
-            "shaft.NAME.torque",
-            "N·m",
-            "largest vibratory torque of a shaft, from half to 1.5 times the speed",
-            "torsion",
-        ),
-        Form("shaft.NAME.stress", "Pa", "its largest vibratory stress there", "torsion"),
-    ),
-)
-CHAPTERS = (ENGINE, GUIDE, CYCLE, MOUNTS, TORSION)
+FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
+BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
 _RANGES = (
     (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
     (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),
 )
-BEGINNINGS = tuple(dict.fromkeys(each for chapter in CHAPTERS for each in chapter.beginnings))
-_OF_CYCLE = tuple(form.pattern for form in CYCLE.forms)
-
-
-def find_chapter(name: str) -> Chapter | None:
-    """Return the chapter of the quantity of this name, by its first word; None: unknown."""
-    if name in _OF_CYCLE:
-        return CYCLE
-    beginning = name.partition(".")[0]
-    return next((chapter for chapter in CHAPTERS if beginning in chapter.beginnings), None)
 
 
 def describe_names() -> str:
     """Return all names in words, for help."""
-    names = "; ".join(", ".join(_shorten(chapter)) for chapter in CHAPTERS)
+    chapters = (list(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
+    names = "; ".join(", ".join(join_patterns(forms)) for forms in chapters)
     return (
         f"{names}. N: order or number; PART: of force and moment {_OF_VECTOR}; of others "
         f"{_OF_SCALAR}."
     )
 
 
-def _shorten(chapter: Chapter) -> Iterator[str]:
-    """Return the names of a chapter, joined by beginnings (`mount.NAME.force|static`)."""
-    for stem, patterns in groupby(chapter.forms, lambda form: form.pattern.rpartition(".")[0]):
+def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
+    """Yield patterns, those with the same beginning as one: `mount.NAME.force|static`."""
+    for stem, patterns in groupby(forms, lambda form: form.pattern.rpartition(".")[0]):
         parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts
 

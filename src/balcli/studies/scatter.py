@@ -4,9 +4,9 @@ tolerances: `scatter`. Every variant is analyzed as `sweep` would.
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -19,33 +19,25 @@ from ..engine.load import concerns_gas
 from ..errors import BalcliError, InputError, check_type
 from ..file.fields import Number, shorten
 from ..file.model import EngineFile
-from ..file.units import ANGLE, BARE_FIGURE
+from ..file.units import ANGLE
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
-from ..forces.quantity import leave_out_unknown, refuse_unknown
+from ..forces.quantity import TargetQuantity, leave_out_unknown
 from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
+from ..shell.values import read_angle, read_share
 from ..show.result import Result
 from ..show.sheet import count_name
-from .deviations import (
-    THROW_MASS,
-    Source,
-    Tolerances,
-    list_mounts,
-    list_parts,
-    list_shafting,
-    spell_out_shafting,
-    spell_out_throws,
-)
-from .evaluator import Evaluator
+from .deviations import THROW_MASS, Source, Tolerances, find_sources
 from .quantities import (
+    Evaluator,
     NamedEngine,
     choose_of_engine,
     list_assumed,
     parse_quantities,
-    refuse_unknown_of_chapters,
+    refuse_unknown,
 )
-from .quantity_names import MOUNTS, TORSION, find_chapter
+from .quantity_names import ENGINE, MOUNTS, TORSION
 
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
 CHUNK, AT_ONCE = 8_192, 400_000  # samples at a time; deviations at a time
@@ -53,6 +45,12 @@ _EQUAL = 1e-8  # of the largest effect: effects that differ by less are equal
 _ROUNDING = 1e-12  # of a figure: a smaller change of it is none
 _LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
 _DEGREES = Number(ANGLE, least=0, most=90)
+# What varies, in words, and an option with a tolerance, by chapter.
+_VARIED = {
+    ENGINE: ("engines", "--mass-scatter 0.5%"),
+    MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
+    TORSION: ("crankshafts", "--stiffness-scatter 15%"),
+}
 Shape = Literal["uniform", "normal"]
 
 
@@ -124,8 +122,8 @@ def read_tolerances(
     Raises:
         BalcliError: A value is no tolerance, negative or too large; the error names the option.
     """
-    if isinstance(angle, str) and re.fullmatch(BARE_FIGURE, angle.strip(), re.ASCII):
-        angle = float(angle)
+    if isinstance(angle, str):
+        angle = read_angle("--angle-scatter", angle)
     try:
         angle_deg = _DEGREES.read(angle)
     except ValueError as error:
@@ -139,38 +137,20 @@ def read_tolerances(
 
 
 def _read_share(option: str, value: float | str) -> float:
-    """Return a share of 0 to 1."""
-    if isinstance(value, str):
-        number, percent, rest = value.strip().partition("%")
-        bare = re.fullmatch(BARE_FIGURE, number.strip(), re.ASCII)
-        if bare and percent and not rest and 0 <= float(number) < 100:
-            return float(number) / 100
-        raise BalcliError(f'{option} "{value}": give a percentage of 0 to 100, such as 0.5%')
-    real = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not real or not 0 <= value < 1:
-        raise BalcliError(
-            f'{option} {shorten(value)}: give a share from 0 to 1, such as 0.005 or "0.5%"'
-        )
-    return float(value)
+    """Return a share of 0 to 1; a text is a percentage."""
+    wanted = "a percentage of 0 to 100, such as 0.5%"
+    percent = isinstance(value, str) and "%" in value
+    share = read_share(option, str(value), wanted) if percent else value
+    if (
+        isinstance(share, (int, float, np.number))
+        and not isinstance(share, bool)
+        and 0 <= share < 1
+    ):
+        return float(share)
+    raise BalcliError(f"{option} {shorten(value)}: give {wanted}")
 
 
 # ------------------------------------------------------------------ random variants
-class Drawing(NamedTuple):
-    """Random variants to draw.
-
-    Attributes:
-        samples: Number of variants; None: the default.
-        seed: Seed of the random numbers, to repeat them.
-        shape: Uniform within the tolerances, or normal with a third of them as standard deviation.
-        tell: Called with the number of samples so far; returns whether to stop.
-    """
-
-    samples: int | None = None
-    seed: int | None = None
-    shape: Shape = "uniform"
-    tell: Tell = tell_nobody
-
-
 class Variants:
     """Variants of an engine file, and the quantities to compute for them.
 
@@ -190,11 +170,11 @@ class Variants:
 
     def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
         asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
+        engine, of_engine = build(model), choose_of_engine(asked)
         if names is None:
-            asked = leave_out_unknown(build(model), choose_of_engine(asked))
-        self.asked, of_engine = asked, choose_of_engine(asked)
-        self.assumed = list_assumed(model, [q.name for q in asked])
-        kinds = {find_chapter(q.name) for q in asked}
+            asked = of_engine = leave_out_unknown(engine, of_engine)
+        self.asked, self.assumed = asked, list_assumed(model, asked)
+        kinds = {q.chapter if isinstance(q, TargetQuantity) else ENGINE for q in asked}
         apart = kinds & {MOUNTS, TORSION}
         if apart and len(kinds) > 1:
             raise BalcliError(
@@ -211,24 +191,13 @@ class Variants:
                 f"{angles[0]} is a direction and has no mean; ask for a magnitude, such as "
                 f"{angles[0].rpartition('.')[0]}.major"
             )
-        if of_engine:
-            refuse_unknown(build(model), of_engine)
-        refuse_unknown_of_chapters(model, asked)
-        self.varied, give = "engines", "--mass-scatter 0.5%"
-        if MOUNTS in kinds:
-            self.varied, give = "sets of mounts", "--stiffness-scatter 15%"
-            sources = list_mounts(model, within)
-        elif TORSION in kinds:
-            self.varied, give = "crankshafts", "--stiffness-scatter 15%"
-            model = spell_out_shafting(model)
-            sources = list_shafting(model, within)
-        else:
-            model = spell_out_throws(model) if within.angle_deg else model
-            sources = list_parts(model, within)
-        self.model, self.sources = model, tuple(each for each in sources if each.tolerance)
+        refuse_unknown(model, engine, asked)
+        chapter = next(iter(apart), ENGINE)
+        self.varied, give = _VARIED[chapter]
+        self.model, self.sources = find_sources(model, chapter, within)
         if not self.sources:
             raise BalcliError(f"all tolerances are 0; give one, such as {give}")
-        self._evaluator = Evaluator(model, asked)
+        self._evaluator = Evaluator(self.model, asked)
         paths = [path for source in self.sources for path in source.figures]
         of_gas = any(q.kind in GAS_KINDS for q in of_engine)
         self._slow = self._evaluator.one_by_one or (of_gas and any(map(concerns_gas, paths)))
@@ -269,56 +238,67 @@ class Variants:
         shares = [change / throws.count(k) for change, k in zip(changes, throws, strict=True)]
         return replace(engine, cylinders=replace(c, rotating=c.rotating + column(shares, 1)))
 
-    def draw(self, drawing: Drawing) -> Scatter:
+    def draw(
+        self,
+        samples: int | None = None,
+        seed: int | None = None,
+        shape: Shape = "uniform",
+        tell: Tell = tell_nobody,
+    ) -> Scatter:
         """Return the spread of the quantities over random variants.
+
+        Args:
+            samples: Number of variants; None: the usual one.
+            seed: Seed of the random numbers, to repeat them.
+            shape: Uniform within the tolerances, or normal with a third of them as standard
+                deviation.
+            tell: Called with the number of samples so far; returns whether to stop.
 
         Raises:
             BalcliError: Too many samples, or none; an impossible variant.
         """
-        samples = self.usual if drawing.samples is None else drawing.samples
+        samples = self.usual if samples is None else samples
         most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
         if not 1 <= samples <= most:
             why = f", as {self.asked[0].name} is computed one by one" if self._slow else ""
             raise BalcliError(
                 f"{count_name(samples)} samples: give from 1 to {count_name(most)}{why}"
             )
-        tolerances = np.array([source.tolerance for source in self.sources])
-        ends = np.diag(tolerances)
+        ends = np.diag([source.tolerance for source in self.sources])
         nominal = np.array(self._evaluator.evaluate({}, (1,)))[:, 0]
         changes = _find_changes(nominal, self.evaluate(ends), self.evaluate(-ends))
-        values = self._evaluate_random(samples, tolerances, drawing)
+        chunks, done = list[Array](), 0
+        for deviations in self._draw_deviations(samples, seed, shape):
+            chunks.append(self.evaluate(deviations))
+            done += len(deviations)
+            if tell(done):
+                break
+        values = np.concatenate(chunks)
         spreads = map(self._spread, nominal, values.T, changes.T)
-        names = [q.name for q in self.asked]
         return Scatter(
             engine=NamedEngine(self.model.name),
             assumed=self.assumed,
             samples=len(values),
-            distribution=drawing.shape,
-            quantities=dict(zip(names, spreads, strict=True)),
+            distribution=shape,
+            quantities={q.name: spread for q, spread in zip(self.asked, spreads, strict=True)},
             model=self.model,
             units={q.name: q.unit for q in self.asked},
             varied=self.varied,
             parts=self.sources,
         )
 
-    def _evaluate_random(self, samples: int, tolerances: Array, drawing: Drawing) -> Array:
-        """Return the quantities of random variants, shape (samples, quantities)."""
-        random = np.random.default_rng(drawing.seed)
+    def _draw_deviations(self, samples: int, seed: int | None, shape: Shape) -> Iterator[Array]:
+        """Yield random deviations, shape (samples at a time, sources)."""
+        random = np.random.default_rng(seed)
+        tolerances = np.array([source.tolerance for source in self.sources])
         least = [_LEAST if source.relative else -np.inf for source in self.sources]
         at_once = 1 if self._slow else min(CHUNK, max(AT_ONCE // len(tolerances), 1))
-        chunks: list[Array] = []
-        done = 0
-        while done < samples:
-            size = min(at_once, samples - done), len(tolerances)
-            if drawing.shape == "uniform":
-                deviations = tolerances * (2 * random.random(size) - 1)
+        for start in range(0, samples, at_once):
+            size = min(at_once, samples - start), len(tolerances)
+            if shape == "uniform":
+                yield tolerances * (2 * random.random(size) - 1)
             else:
-                deviations = np.maximum(tolerances / 3 * random.standard_normal(size), least)
-            chunks.append(self.evaluate(deviations))
-            done += size[0]
-            if drawing.tell(done):
-                break
-        return np.concatenate(chunks)
+                yield np.maximum(tolerances / 3 * random.standard_normal(size), least)
 
     def _spread(self, nominal: float, values: Array, changes: Array) -> Spread:
         p05, p50, p95 = np.percentile(values, [5, 50, 95]).tolist()
@@ -347,15 +327,6 @@ def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     larger = np.where(np.abs(up) >= np.abs(down), up, down)
     change = np.where(up * down > 0, larger, (up - down) / 2)
     return np.where(np.abs(change) <= _ROUNDING * np.abs(nominal), 0.0, change)
-
-
-def scatter_engine(
-    model: EngineFile, names: str | None, within: Tolerances, drawing: Drawing
-) -> Scatter:
-    """Return the spread of quantities over random variants; arguments and errors as of `Variants`
-    and `Variants.draw`.
-    """
-    return Variants(model, names, within).draw(drawing)
 
 
 @tell_arguments(
@@ -413,5 +384,5 @@ def scatter(
     check_type("distribution", distribution, str, 'give "uniform" or "normal"')
     if distribution not in ("uniform", "normal"):
         raise BalcliError(f'distribution {distribution!r}: choose "uniform" or "normal"')
-    within = read_tolerances(mass, length, angle_deg, stiffness)
-    return scatter_engine(model, names, within, Drawing(count, seed, distribution))
+    variants = Variants(model, names, read_tolerances(mass, length, angle_deg, stiffness))
+    return variants.draw(count, seed, distribution)

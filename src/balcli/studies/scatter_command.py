@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -16,6 +16,7 @@ from ..shell.inputs import read_engine, warn_of_unknown_moments
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
+from ..shell.values import optional
 from ..show.csv import Rows
 from ..show.formats import Renderer
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, number
@@ -106,82 +107,30 @@ def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, s
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-class Distribution(StrEnum):
-    """How figures deviate within their tolerances."""
-
-    UNIFORM = "uniform"
-    NORMAL = "normal"
+MASS = "Tolerance of piston, rod and throw masses, and of inertias."
+ANGLE = "Tolerance of throw angles, as 0.2 deg."
+STIFFNESS = "Tolerance of mounts or shafts."
+OF_EACH = "15% of mounts, 5% of shafts"
+SAMPLES = "Default: 100000, or 500 of quantities that are computed one by one."
+SHAPES = "Even within the tolerances, or normal with a third of them as standard deviation."
+QUANTITY = "As force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
+percent = partial(optional, "PERCENT")
 
 
 def scatter(
     path: EnginePath,
-    mass: Annotated[
-        str,
-        typer.Option(
-            "--mass-scatter",
-            metavar="PERCENT",
-            help="Tolerance of every piston, rod and throw mass, and of inertias for torsion.",
-        ),
-    ] = "0.5%",
-    length: Annotated[
-        str,
-        typer.Option(
-            "--length-scatter",
-            metavar="PERCENT",
-            help="Tolerance of every rod length; the other rod data are kept.",
-        ),
-    ] = "0%",
-    angle: Annotated[
-        str,
-        typer.Option(
-            "--angle-scatter", metavar="ANGLE", help="Tolerance of every throw angle, as 0.2 deg."
-        ),
-    ] = "0",
+    mass: Annotated[str, percent(MASS, "--mass-scatter", show_default=True)] = "0.5%",
+    length: Annotated[str, percent("Tolerance of rod lengths.", "--length-scatter")] = "0%",
+    angle: Annotated[str, optional("ANGLE", ANGLE, "--angle-scatter")] = "0",
     stiffness: Annotated[
-        str | None,
-        typer.Option(
-            "--stiffness-scatter",
-            metavar="PERCENT",
-            show_default="15% of mounts, 5% of shafts",
-            help="Tolerance of the stiffness of every mount, or shaft, for their quantities.",
-        ),
+        str | None, percent(STIFFNESS, "--stiffness-scatter", show_default=OF_EACH)
     ] = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(
-            "--samples",
-            help="Number of random engines, 100000; of those computed one by one (torque over the "
-            "cycle, guides, mounts, torsion), 500.",
-            show_default=False,
-        ),
-    ] = None,
-    seed: Annotated[
-        int | None,
-        typer.Option(
-            "--seed", min=0, help="Of the random numbers, to repeat them.", show_default=False
-        ),
-    ] = None,
-    distribution: Annotated[
-        Distribution,
-        typer.Option(
-            "--distribution",
-            help=(
-                "uniform within the tolerances, or normal with a third of them as standard "
-                "deviation."
-            ),
-        ),
-    ] = Distribution.UNIFORM,
+    samples: Annotated[int | None, optional("N", SAMPLES)] = None,
+    seed: Annotated[int | None, optional("N", "Seed of the random numbers.", min=0)] = None,
+    distribution: Annotated[Literal["uniform", "normal"], typer.Option(help=SHAPES)] = "uniform",
     quantity: Annotated[
         str | None,
-        typer.Option(
-            "--quantity",
-            "-q",
-            metavar="WHAT,...",
-            show_default=DEFAULT_QUANTITIES,
-            help="As force.1.major, couple.4.amplitude; of the cycle, as torque.max, fluctuation, "
-            "guide.6.H; of mounts, as mode.roll.Hz, mount.left.force; or of torsion, as "
-            "torsion.1.Hz, shaft.flywheel.torque.",
-        ),
+        optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
     ] = None,
     form: FormatOption = None,
     output: Output = None,
@@ -195,7 +144,7 @@ def scatter(
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = text_format(output, form)
-    from .scatter import Drawing, Variants, read_tolerances
+    from .scatter import Variants, read_tolerances
 
     within = read_tolerances(mass, length, angle, stiffness)
     _, model, engine = read_engine(path, asked=())
@@ -204,6 +153,6 @@ def scatter(
     variants = Variants(model, quantity, within)
     count = variants.usual if samples is None else samples
     with reporting_until_stopped("samples", count) as progress:
-        found = variants.draw(Drawing(count, seed, distribution.value, progress))
+        found = variants.draw(count, seed, distribution, progress)
     show([found], RENDERER, form, output)
     exit_if_cut_short(progress, "the results cover only these")

@@ -31,16 +31,22 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.toml import name_file
 from ..forces.kinds import DEFAULT_QUANTITIES, GAS_KINDS
-from ..forces.quantity import Quantity, find_orders, leave_out_unknown, refuse_unknown
+from ..forces.quantity import Quantity, find_orders, leave_out_unknown
 from ..forces.spectrum import count_engine_samples
 from ..limits import MOST_KEPT_FIGURES, MOST_PARAMETERS, MOST_THREADS
 from ..process import count_cores
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..show.result import Result
 from ..show.sheet import count_name
-from .evaluator import Evaluator
 from .parameters import Parameter, choose_values, parse_parameter, tell_variant
-from .quantities import AnyQuantity, list_assumed, parse_quantities, refuse_unknown_of_chapters
+from .quantities import (
+    AnyQuantity,
+    Evaluator,
+    list_assumed,
+    naming_variant,
+    parse_quantities,
+    refuse_unknown,
+)
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -51,7 +57,6 @@ Box: TypeAlias = tuple[slice, ...]
 ALONE = 64  # variants at a time where each is computed by itself
 CHUNK = 65_536  # variants at a time, at most: enough for what they share
 BYTES = 1 << 24  # of an array that a box needs: no more than the cache holds
-_BOXES = 8  # in a block, each with a tenth of a second's work
 SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
 
 
@@ -110,8 +115,7 @@ class Sweep:
     @cached_property
     def assumed(self) -> tuple[str, ...] | None:
         """Values taken because the file leaves them out; None: none."""
-        names = [q.name for q in self.quantities]
-        return list_assumed(self.file, names, [p.path for p in self.parameters])
+        return list_assumed(self.file, self.quantities, [p.path for p in self.parameters])
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -122,11 +126,6 @@ class Sweep:
     def variants(self) -> int:
         """Number of variants."""
         return math.prod(self.shape)
-
-    @property
-    def whole(self) -> Box:
-        """The box of all variants."""
-        return tuple(slice(0, n) for n in self.shape)
 
     def cut(self, box: Box) -> Sweep:
         """Return the variants in a box of the grid as a sweep."""
@@ -148,15 +147,13 @@ class Sweep:
         try:
             return self.evaluator.build(self.figures, len(self.shape))
         except InputError:
-            axis = next((k for k, n in enumerate(self.shape) if n > 1), None)
-            if axis is None:
+            if self.variants == 1:
                 one = {p.path: float(p.values[0]) for p in self.parameters}
                 with naming_file(f"{self.name}: {tell_variant(one)}"):
                     raise
-        middle, box = self.shape[axis] // 2, self.whole
-        for half in (slice(0, middle), slice(middle, self.shape[axis])):
-            self.cut((*box[:axis], half, *box[axis + 1 :])).engine()
-        raise AssertionError("one half has a variant that cannot be")
+            for half in divide_grid(self.shape, math.ceil(self.variants / 2)):
+                self.cut(half).engine()
+            raise
 
 
 def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
@@ -177,39 +174,25 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`."""
+    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`.
+
+    The corners of the grid are checked before the sweep. A mechanism locks at one of them if it
+    locks at all; mistakes of an uneven speed may be between them, and are found later.
+    """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
         raise BalcliError(f"{twice[0]} is varied twice; give all its values at once")
+    if len(paths) > MOST_PARAMETERS:
+        raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
     asked = parse_quantities(wanted, with_gas=model.gas is not None)
     sweep = Sweep(model, parameters, asked, name)
+    corners = build_corners(sweep)
     if quantities is None:
-        known = leave_out_unknown(build_corners(sweep), sweep.of_engine)
-        sweep = replace(sweep, quantities=known)
-    check_corners(sweep)
+        return replace(sweep, quantities=leave_out_unknown(corners, sweep.of_engine))
+    with naming_variant(name), naming_file(""):
+        refuse_unknown(model, corners, asked)
     return sweep
-
-
-def check_corners(sweep: Sweep) -> None:
-    """Check the variants at the corners of the grid before the sweep. A mechanism locks at one of
-    them if it locks at all; mistakes of an uneven speed may be between them, and are found later.
-
-    Raises:
-        InputError: One of the variants is impossible.
-        BalcliError: A requested moment is not known; too many numbers vary.
-    """
-    if len(sweep.parameters) > MOST_PARAMETERS:
-        raise BalcliError(
-            f"{len(sweep.parameters)} numbers vary; at most {MOST_PARAMETERS} can at once"
-        )
-    try:
-        refuse_unknown_of_chapters(sweep.file, sweep.quantities)
-    except InputError as error:
-        raise InputError(error.problems, sweep.name) from None
-    except BalcliError as error:
-        raise BalcliError(f"{sweep.name}: {error}") from None
-    refuse_unknown(build_corners(sweep), sweep.of_engine)
 
 
 def build_corners(sweep: Sweep) -> Engine:
@@ -232,12 +215,8 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
         InputError, BalcliError: One of them is impossible; the error has its figures.
     """
     engine = sweep.engine() if sweep.of_engine else None
-    try:
+    with naming_variant(sweep.name):
         values = sweep.evaluator.evaluate(sweep.figures, sweep.shape, engine)
-    except InputError as error:
-        raise InputError(error.problems, f"{sweep.name}: {error.file}") from None
-    except BalcliError as error:
-        raise BalcliError(f"{sweep.name}: {error}") from None
     return [value.ravel() for value in values]
 
 
@@ -318,24 +297,6 @@ def run_in_order(
         yield found
 
 
-class Block(NamedTuple):
-    """A part of a sweep that is computed and written by itself, with its number in the order of
-    rows, from 0.
-    """
-
-    number: int
-    sweep: Sweep
-
-
-def divide_into_blocks(sweep: Sweep, rows: int) -> Iterator[Block]:
-    """Yield the blocks of a sweep in the order of rows, of at most so many rows; fewer where a
-    variant takes long.
-    """
-    most = min(rows, _BOXES * count_at_once(sweep))
-    for number, box in enumerate(divide_grid(sweep.shape, most)):
-        yield Block(number, sweep.cut(box))
-
-
 def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
     """Return a chunk as columns: parameters and quantities, each of shape (variants in it,)."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
@@ -346,8 +307,8 @@ def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
     """Return each quantity on the whole grid, from all its chunks in the order of rows: shape
     (values of the first parameter, of the second ...).
     """
-    found = zip(*(chunk.values for chunk in chunks), strict=True)
-    return [np.concatenate(parts).reshape(sweep.shape) for parts in found]
+    whole = np.concatenate([chunk.values for chunk in chunks], axis=1)
+    return [*whole.reshape(-1, *sweep.shape)]
 
 
 # ------------------------------------------------------------------ kept results
@@ -388,24 +349,6 @@ class Swept(Result):
         raise KeyError(f"{name}; there are {', '.join(self)}")
 
 
-def compute_sweep(sweep: Sweep, threads: int) -> Swept:
-    """Return all variants of a sweep.
-
-    Raises:
-        BalcliError: They are too many to keep.
-        InputError: One of them is impossible.
-    """
-    count = sweep.variants * len(sweep.quantities)
-    if count > MOST_KEPT_FIGURES:
-        raise BalcliError(
-            f"{count_name(count)} values are too many to keep; give at most "
-            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
-            "them as they are computed"
-        )
-    share = partial(share_among_threads, threads=threads)
-    return Swept(sweep, tuple(join_chunks(sweep, evaluate_chunks(sweep, share))))
-
-
 @tell_arguments(quantity="quantities", jobs="threads")
 def sweep(
     engine: Engine,
@@ -434,7 +377,7 @@ def sweep(
         `result.to_pandas()` one row a variant, the last name fastest.
 
     Raises:
-        BalcliError: an unknown name, with the nearest one; values out of bounds.
+        BalcliError: an unknown name, with the nearest one; values out of bounds, or too many.
         InputError: one of the variants is impossible; the error has the reason.
         TypeError: an argument of another type.
 
@@ -448,7 +391,14 @@ def sweep(
     if not parameters:
         raise BalcliError(f"sweep: nothing varies; give numbers and values, such as {example}")
     wanted = min(count_cores(), MOST_THREADS) if threads is None else threads
-    count = check_count("threads", wanted, most=MOST_THREADS)
+    share = partial(share_among_threads, threads=check_count("threads", wanted, most=MOST_THREADS))
     asked = join_names("sweep", quantities)
     plan = plan_sweep(model, parameters, asked, engine.name or "engine")
-    return compute_sweep(plan, count)
+    count = plan.variants * len(plan.quantities)
+    if count > MOST_KEPT_FIGURES:
+        raise BalcliError(
+            f"{count_name(count)} values are too many to keep; give at most "
+            f"{count_name(MOST_KEPT_FIGURES)}, or use balcli sweep -o FILE.parquet, which writes "
+            "them as they are computed"
+        )
+    return Swept(plan, tuple(join_chunks(plan, evaluate_chunks(plan, share))))

@@ -28,76 +28,45 @@ from ..shell.values import optional
 from .quantity_names import describe_names
 
 if TYPE_CHECKING:
-    from .sweep import Chunk, Sweep
+    from .sweep import Chunk
+
+
+VARY = (
+    "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, ends "
+    "included) or crank.throws.2=90,180. Several span a grid, the last one fastest."
+)
+QUANTITY = f"Figures by name: {describe_names()}"
+FORM = (
+    "Default: by the ending of -o, else a table in a terminal and csv in a pipe. Of more than 50 "
+    "variants tables show the first and the last."
+)
+OUTPUT = (
+    "File to write, or a folder for numbered Parquet files, of which the same sweep computes "
+    "missing ones; - is standard output."
+)
+FORCE = "Replace the earlier sweep in the folder."
+PLOT = "Also draw the quantities over one or two parameters; .svg, .png or .pdf."
+JOBS = "Threads of a long sweep; default: one a core."
 
 
 def sweep(
     path: EnginePath,
-    vary: Annotated[
-        list[str],
-        optional(
-            "NUMBER=VALUES",
-            "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, "
-            "ends included) or crank.throws.2=90,180. Several span a grid, the last one fastest.",
-            "--vary",
-        ),
-    ],
+    vary: Annotated[list[str], optional("NUMBER=VALUES", VARY)],
     quantity: Annotated[
         str | None,
-        typer.Option(
-            "--quantity",
-            "-q",
-            metavar="WHAT,...",
-            show_default=DEFAULT_QUANTITIES,
-            help=f"Figures by name: {describe_names()}",
-        ),
+        optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
     ] = None,
-    form: Annotated[
-        VariantsFormat | None,
-        format_option(
-            VariantsFormat,
-            "How to write the variants; default: by the ending of -o (.csv, .json, .parquet, .txt, "
-            ".md), else a table in a terminal and csv in a pipe. Tables show 50 variants whole, of "
-            "more the first and the last.",
-        ),
-    ] = None,
+    form: Annotated[VariantsFormat | None, format_option(VariantsFormat, FORM)] = None,
     output: Annotated[
-        Place | None,
-        optional(
-            "FILE|FOLDER/",
-            "Write into this file, whose ending determines the format; or into a folder, as "
-            "numbered Parquet files that threads or workers write; the same sweep again computes "
-            "missing ones. - is standard output.",
-            "--output",
-            "-o",
-            parser=read_place,
-        ),
+        Place | None, optional("FILE|FOLDER/", OUTPUT, "--output", "-o", parser=read_place)
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", help="Replace the earlier sweep that is in the folder.")
-    ] = False,
+    force: Annotated[bool, typer.Option("--force", help=FORCE)] = False,
     progress: ProgressAtOnce = False,
-    plot: Annotated[
-        Path | None,
-        optional(
-            "FILE",
-            "Also draw the quantities over one parameter (curves) or two (contours); "
-            ".svg, .png or .pdf.",
-            "--plot",
-        ),
-    ] = None,
+    plot: Annotated[Path | None, optional("FILE", PLOT)] = None,
     jobs: Annotated[
-        int | None,
-        typer.Option(
-            "--jobs",
-            "-j",
-            min=1,
-            max=MOST_THREADS,
-            show_default=False,
-            help="Number of threads if the sweep takes more than a second; default: one a core.",
-        ),
+        int | None, optional("N", JOBS, "--jobs", "-j", min=1, max=MOST_THREADS)
     ] = None,
-    dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.", "--dask")] = "",
+    dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.")] = "",
 ) -> None:
     """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
     or Parquet.
@@ -117,7 +86,9 @@ def sweep(
     from . import sweep as chapter, sweep_show, sweep_write
 
     job = chapter.read_sweep(path, vary, quantity)
-    _doubt(job, quantity)
+    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
+        warn_of_unknown_moments(job.name)
+    warn_each(job.doubts, job.name)
     if drawn is not None:
         sweep_show.check_drawable(job)
     shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
@@ -132,27 +103,17 @@ def sweep(
             done += len(chunk.values[0])
             watch(done)
 
-    with reporting("variants", job.variants, progress, shown) as watch:
+    with (
+        reporting("variants", job.variants, progress, shown) as watch,
+        sweep_write.share_work(jobs, dask) as share,
+    ):
         if output is not None and output.is_folder:
-            sweep_write.write_blocks(
-                job, output.path, sweep_write.share_work(jobs, dask), watch, force=force
-            )
+            sweep_write.write_blocks(job, output.path, share, watch, force=force)
         else:
-            with sweep_write.share_work(jobs, dask) as share:
-                sweep_write.write_sweep(
-                    job, report(chapter.evaluate_chunks(job, share)), kind, file
-                )
+            chunks = report(chapter.evaluate_chunks(job, share))
+            sweep_write.write_sweep(job, chunks, kind, file)
     if plot is not None and drawn is not None:
         write_figure(sweep_show.make_sweep(job, chapter.join_chunks(job, kept)), drawn, plot)
-
-
-def _doubt(job: Sweep, quantity: str | None) -> None:
-    """Warn of unknown moments, if the usual quantities would include some, and of unlikely figures
-    of the file that do not vary.
-    """
-    if quantity is None and all(asked.kind != "moment" for asked in job.of_engine):
-        warn_of_unknown_moments(job.name)
-    warn_each(job.doubts, job.name)
 
 
 def _choose_target(

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import cycle, product
+from itertools import cycle
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
@@ -23,9 +23,9 @@ from ..show.formats import Columnar
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, given, number
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds
+from .sweep import split_columns
 
 if TYPE_CHECKING:
-    import matplotlib.axes
     from matplotlib.figure import Figure
 
     from .parameters import Parameter
@@ -93,18 +93,9 @@ def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
-    """Return rows of a chunk, with commas; each value of a parameter is written out once."""
-    axes = [
-        _texts(p.values[cut], nothing) for p, cut in zip(sweep.parameters, chunk.box, strict=True)
-    ]
-    figures = (_texts(values, nothing) for values in chunk.values)
-    return map(",".join, zip(map(",".join, product(*axes)), *figures, strict=True))
-
-
-def _texts(values: Array, nothing: str) -> list[str]:
-    """Return the shortest texts that read back to the same numbers."""
-    texts = map(repr, values.tolist())
-    return [nothing if text == "nan" else text for text in texts]
+    """Yield the rows of a chunk, with commas: the shortest texts that read back to the numbers."""
+    for row in np.column_stack(split_columns(sweep, chunk)).tolist():
+        yield ",".join([repr(value) if value == value else nothing for value in row])
 
 
 def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
@@ -171,54 +162,42 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
     """Return the picture of a sweep that `check_drawable` accepts.
 
     Args:
+        sweep: Sweep of the variants.
         values: each quantity on the whole grid.
     """
-    several, shown = _varied_parameters(sweep), zip(sweep.quantities, values, strict=True)
+    first, *others = _varied_parameters(sweep)
     name = style.fit_name(sweep.file.name)
-    if len(several) == 1:
-        names = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
-        with style.open_figure(7, 1.2 + 3 * len(names)) as page:
-            places = page.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-            for axes, unit in zip(places, names, strict=True):
-                _draw_curves(axes, several[0], sweep, values, unit)
-                axes.label_outer()
-            places[0].set_title(name)
+    shown = [*zip(sweep.quantities, values, strict=True)]
+    if others:
+        (second,) = others
+        with style.open_figure(6 * len(values), 5.1) as page:
+            style.put_title(page, name)
+            places = page.subplots(1, len(values), squeeze=False)[0]
+            for axes, (quantity, value) in zip(places, shown, strict=True):
+                fit = _fit(quantity.unit, value)
+                figures = value.squeeze() / fit.size
+                page.colorbar(axes.contourf(second.values, first.values, figures, LEVELS), ax=axes)
+                axes.set_title(name_with_unit(quantity.name, fit.name))
+                axes.set_xlabel(name_with_unit(second.path, second.unit))
+                axes.set_ylabel(name_with_unit(first.path, first.unit))
         return page
-    first, second = several
-    with style.open_figure(6 * len(values), 5.1) as page:
-        style.put_title(page, name)
-        places = page.subplots(1, len(values), squeeze=False)[0]
-        for axes, (quantity, value) in zip(places, shown, strict=True):
-            fit = _fit(quantity.unit, value)
-            filled = axes.contourf(second.values, first.values, value.squeeze() / fit.size, LEVELS)
-            page.colorbar(filled, ax=axes)
-            axes.set(
-                xlabel=name_with_unit(second.path, second.unit),
-                ylabel=name_with_unit(first.path, first.unit),
-                title=name_with_unit(quantity.name, fit.name),
-            )
+    units = list(dict.fromkeys(quantity.unit for quantity in sweep.quantities))
+    with style.open_figure(7, 1.2 + 3 * len(units)) as page:
+        places = page.subplots(len(units), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, unit in zip(places, units, strict=True):
+            curves = {q.name: value.ravel() for q, value in shown if q.unit == unit}
+            fit = _fit(unit, np.concatenate([*curves.values()]))
+            for (label, curve), (line, colour) in zip(
+                curves.items(), cycle(style.MANY_LOOKS), strict=False
+            ):
+                drawn = curve / fit.size
+                axes.plot(first.values, drawn, color=colour, linestyle=line, label=label)
+            axes.set(xlabel=name_with_unit(first.path, first.unit), ylabel=fit.name)
+            axes.ticklabel_format(axis="y", useOffset=False, style="plain")
+            axes.legend()
+            axes.label_outer()
+        places[0].set_title(name)
     return page
-
-
-def _draw_curves(
-    axes: matplotlib.axes.Axes,
-    parameter: Parameter,
-    sweep: Sweep,
-    values: Sequence[Array],
-    name: str,
-) -> None:
-    """Draw the quantities of one unit, all in the one that fits the largest of them."""
-    shown = [
-        (quantity.name, value.ravel())
-        for quantity, value in zip(sweep.quantities, values, strict=True)
-        if quantity.unit == name
-    ]
-    unit = _fit(name, np.concatenate([value for _, value in shown]))
-    for (label, value), (line, colour) in zip(shown, cycle(style.MANY_LOOKS), strict=False):
-        axes.plot(parameter.values, value / unit.size, color=colour, linestyle=line, label=label)
-    axes.set(xlabel=name_with_unit(parameter.path, parameter.unit), ylabel=unit.name)
-    axes.ticklabel_format(axis="y", useOffset=False, style="plain")
-    axes.legend()
 
 
 def _fit(name: str, value: Array) -> ShownUnit:

@@ -1,15 +1,10 @@
-"""Variants of a sweep, written as they are computed: to a stream, a text or a Parquet file.
-
-Variants of a sweep as a Parquet file, with its units.
-
-A sweep as a folder of numbered Parquet files, each written by the thread or worker that computes
-it.
+"""Variants of a sweep, written as they are computed: as a text, a Parquet file with its units, or a
+folder of numbered Parquet files, each written by the thread or dask worker that computes it (extra
+`balcli[scale]`).
 
 The folder holds a manifest that names the sweep. A block exists or not: it is written under a
 hidden name and renamed when it is whole. The same sweep into the same folder computes the missing
 blocks. Nothing but blocks and manifests is ever replaced or deleted.
-
-Sweeps on a dask cluster (extra `balcli[scale]`).
 """
 
 from __future__ import annotations
@@ -20,7 +15,7 @@ import logging
 import re
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
@@ -28,7 +23,6 @@ from typing import Any
 
 import numpy as np
 
-from ..core.phasors import Array
 from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
 from ..limits import MOST_ROWS_READ, MOST_THREADS
@@ -40,13 +34,13 @@ from ..show.formats import Format, lay_out
 from ..show.sheet import Sheet
 from ..version import __version__
 from .sweep import (
-    Block,
     Chunk,
     Item,
     Outcome,
     Share,
     Sweep,
-    divide_into_blocks,
+    count_at_once,
+    divide_grid,
     evaluate_chunks,
     run_in_order,
     share_among_threads,
@@ -54,15 +48,28 @@ from .sweep import (
 )
 from .sweep_show import FIRST, make_sheet, sweep_csv, sweep_json
 
-NO_PYARROW = "a .parquet file needs pyarrow: install balcli[scale]"
+ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8  # each box has a tenth of a second's work
+MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
+_BLOCK = re.compile(r"part-\d{6,}\.parquet")
+# An unfinished block is called as `files.name_hidden` has it.
+_OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
+_LAST = 10  # rows of a table of many
+RETRIES = 3  # of what a worker has not finished
+AHEAD = 4  # tasks for each thread that may wait to be fetched
 
 
-def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) -> None:
+# ------------------------------------------------------------------ one file
+def _describe(sweep: Sweep) -> dict[str, Any]:
+    """Return the metadata of a file or folder."""
+    return {"format": "balcli.sweep/1", "version": __version__, "engine": sweep.file.name}
+
+
+def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
     """Write variants as they come.
 
     Args:
         sweep: Sweep of the variants.
-        rows: Chunks of variants as columns: parameters and quantities.
+        chunks: All variants.
         place: Path of the file.
 
     Raises:
@@ -72,25 +79,18 @@ def write_sweep_parquet(sweep: Sweep, rows: Iterable[list[Array]], place: Path) 
         import pyarrow
         from pyarrow import parquet
     except ImportError:
-        raise BalcliError(NO_PYARROW) from None
-    schema = pyarrow.schema(
-        [
-            pyarrow.field(name, pyarrow.float64(), metadata={"unit": unit})
-            for name, unit in sweep.units.items()
-        ],
-        metadata={
-            "balcli.format": "balcli.sweep/1",
-            "balcli.version": __version__,
-            "balcli.engine": sweep.file.name,
-        },
-    )
+        raise BalcliError("a .parquet file needs pyarrow: install balcli[scale]") from None
+    real = pyarrow.float64()
+    fields = [
+        pyarrow.field(name, real, metadata={"unit": unit}) for name, unit in sweep.units.items()
+    ]
+    about = {f"balcli.{key}": text for key, text in _describe(sweep).items()}
+    schema = pyarrow.schema(fields, about)
     with parquet.ParquetWriter(place, schema) as writer:
-        for columns in rows:
+        for chunk in chunks:
+            columns = split_columns(sweep, chunk)
             nulls = [pyarrow.array(column, from_pandas=True) for column in columns]  # for nan
             writer.write_table(pyarrow.table(nulls, schema=schema))
-
-
-_LAST = 10  # rows of a table of many
 
 
 def write_sweep(
@@ -110,7 +110,7 @@ def write_sweep(
         return
     with replacing(output) as place:
         if kind is VariantsFormat.PARQUET:
-            write_sweep_parquet(sweep, (split_columns(sweep, chunk) for chunk in chunks), place)
+            write_sweep_parquet(sweep, chunks, place)
         else:
             with place.open("w", encoding="utf-8", newline="\n") as stream:
                 stream.writelines(_make_text(sweep, chunks, kind))
@@ -140,17 +140,11 @@ def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
     return make_sheet(sweep, shown, sweep.variants - len(shown))
 
 
-ROWS_A_BLOCK = 1 << 20
-MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
-_BLOCK = re.compile(r"part-\d{6,}\.parquet")
-# An unfinished block is called as `files.name_hidden` has it.
-_OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
-
-
+# ------------------------------------------------------------------ a folder of blocks
 def write_blocks(
     sweep: Sweep,
     folder: Path,
-    sharing: AbstractContextManager[Share],
+    share: Share,
     progress: Progress,
     *,
     force: bool,
@@ -159,7 +153,7 @@ def write_blocks(
     stay.
 
     Args:
-        sharing: Context that yields the function that shares work among threads or workers.
+        share: Function that shares work among threads or workers.
         force: Whether an earlier sweep in this folder is deleted first.
 
     Raises:
@@ -170,13 +164,13 @@ def write_blocks(
         _claim(folder, _name_sweep(sweep), force)
     except OSError as error:
         raise tell_unwritable(folder, error) from None
+    rows = min(ROWS_A_BLOCK, BOXES_A_BLOCK * count_at_once(sweep))
+    blocks = enumerate(map(sweep.cut, divide_grid(sweep.shape, rows)))
     done = 0
     try:
-        with sharing as share:
-            blocks = divide_into_blocks(sweep, ROWS_A_BLOCK)
-            for variants in share(partial(_write_block, folder.absolute()), blocks):
-                done += variants
-                progress(done)
+        for variants in share(partial(_write_block, folder.absolute()), blocks):
+            done += variants
+            progress(done)
     except BalcliError:
         if not done:
             _give_up(folder)
@@ -191,23 +185,20 @@ def _give_up(folder: Path) -> None:
             folder.rmdir()
 
 
-def _write_block(folder: Path, block: Block) -> int:
+def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
     """Compute and write a block unless it is there; returns its number of variants."""
-    target = folder / f"part-{block.number:06}.parquet"
+    number, block = numbered
+    target = folder / f"part-{number:06}.parquet"
     if not target.exists():
-        rows = (split_columns(block.sweep, chunk) for chunk in evaluate_chunks(block.sweep))
         with replacing(target) as place:
-            write_sweep_parquet(block.sweep, rows, place)
-    return block.sweep.variants
+            write_sweep_parquet(block, evaluate_chunks(block), place)
+    return block.variants
 
 
 def _name_sweep(sweep: Sweep) -> str:
     """Return the manifest: the same for the same engine, numbers, values and quantities."""
     whole = repr((sweep.file, [(p.path, p.values.tobytes()) for p in sweep.parameters]))
-    content = {
-        "format": "balcli.sweep/1",
-        "version": __version__,
-        "engine": sweep.file.name,
+    content = _describe(sweep) | {
         "columns": sweep.columns,
         "variants": sweep.variants,
         "rows_a_block": ROWS_A_BLOCK,
@@ -249,10 +240,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
         raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
 
 
-RETRIES = 3  # of what a worker has not finished
-AHEAD = 4  # tasks for each thread that may wait to be fetched
-
-
+# ------------------------------------------------------------------ dask
 def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
     """Return the context that shares work among threads, or on a cluster at a given address."""
     if dask:
@@ -274,19 +262,17 @@ def connect_cluster(address: str) -> Iterator[Share]:
     except ImportError:
         raise BalcliError("--dask needs dask: install balcli[scale]") from None
     dask: Any = distributed
-    with ExitStack() as ends:
-        try:
-            if address == "local":
-                # Its workers, when it ends, complain of the scheduler's absence.
-                cluster = dask.LocalCluster(
-                    threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                )
-                client = ends.enter_context(dask.Client(ends.enter_context(cluster)))
-            else:
-                client = ends.enter_context(dask.Client(address, timeout=10))
-        except (OSError, ValueError, RuntimeError) as error:
-            raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
-        yield partial(run_on_cluster, client)
+    options: dict[str, Any] = {"address": address, "timeout": 10}
+    if address == "local":
+        # Its workers, when it ends, complain of the scheduler's absence.
+        quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL}
+        options = {"threads_per_worker": 1, **quiet}
+    try:
+        client = dask.Client(**options)
+    except (OSError, ValueError, RuntimeError) as error:
+        raise BalcliError(f"--dask {address}: no cluster answers there ({error})") from None
+    with client as cluster:
+        yield partial(run_on_cluster, cluster)
 
 
 def run_on_cluster(

@@ -79,8 +79,8 @@ def analyze_torque_of_engine(
     above, omega = surplus(curves.total), float(engine.omega)
     imep = sum(c.share * c.torque.work for c in gas.cylinders) / float(engine.displacement_m3)
     efficiency, silent = engine.mechanical_efficiency, engine.silent
-    pressures = [t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any()]
-    tops = [find_highest(pressure) for pressure in pressures if pressure is not None]
+    pressures = (t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any())
+    tops = map(find_highest, filter(None, pressures))
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
     spectra = compute_spectra(steady, shown, KINDS_OF_TORQUE)
     single = compute_spectra(steady, shown, KINDS_OF_TORQUE, each=True).select_place(row)

@@ -48,36 +48,23 @@ EngineFile = Annotated[
     ),
 ]
 Fluctuation = Annotated[
-    str | None,
-    optional(
-        "1/200", "Also the inertia that keeps (highest - lowest)/mean speed to this; or 0.5%."
-    ),
+    str | None, optional("1/200", "Also the inertia for this fluctuation of the speed; or 0.5%.")
 ]
 Cylinder = Annotated[int, typer.Option(metavar="N", help="Also the torque of cylinder N.")]
 LoadsOption = Annotated[
-    str | None,
-    optional("pin,main", "Also loads of crank and knuckle pins, and of main bearings.", "--loads"),
+    str | None, optional("pin,main", "Also loads of pins and main bearings.", "--loads")
 ]
 Curve = Annotated[
-    Path | None,
-    optional(
-        "CSV", "A torque instead of an engine: angle_deg,torque_Nm; the last row closes the period."
-    ),
+    Path | None, optional("CSV", "Instead of an engine: angle_deg,torque_Nm over a period.")
 ]
 Load = Annotated[
-    Path | None,
-    optional(
-        "CSV", "With --curve: the torque of the load, in such a file; default: constant, the mean."
-    ),
+    Path | None, optional("CSV", "With --curve: torque of the load; default: the constant mean.")
 ]
 Inertia = Annotated[
     str | None, optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.")
 ]
 Write = Annotated[
-    Path | None,
-    optional(
-        "OUT.toml", "Write the engine file with this uneven speed (speed_ripple) and misfires."
-    ),
+    Path | None, optional("OUT.toml", "Write the file with this speed_ripple and the misfires.")
 ]
 
 
@@ -116,17 +103,14 @@ def torque(
         raise BalcliError("give an engine file, or --curve with a torque")
     if path is not None and path.lower().endswith(".csv"):
         raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
-    of_file = "--curve; that of an engine stands in its file: [crank] inertia, [flywheel]"
-    for option, misplaced, needs in (
-        ("--misfire", misfire and curve, "an engine file"),
-        ("--write", write and curve, "an engine file"),
-        ("--cylinder", cylinder != 1 and curve, "an engine file"),
-        ("--loads", loads and curve, "an engine file"),
-        ("--load", load and path, "--curve"),
-        ("--inertia", inertia and path, of_file),
-    ):
-        if misplaced:
-            raise BalcliError(f"{option} needs {needs}")
+    misplaced: dict[str, object] = {"--load": load, "--inertia": inertia}
+    needed = "--curve; the inertia of an engine stands in its file: [crank] inertia, [flywheel]"
+    if curve is not None:
+        misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
+        misplaced["--cylinder"], needed = cylinder != 1, "an engine file"
+    for option, value in misplaced.items():
+        if value:
+            raise BalcliError(f"{option} needs {needed}")
     from . import answer, given_curve, show as pages
 
     rpm, asked, allowed = parse_speed(speed), parse_orders(orders), parse_fluctuation(fluctuation)
@@ -136,13 +120,7 @@ def torque(
         warn_each(given_curve.doubt_period(given), str(curve))
         taken = None if load is None else given_curve.read_curve(load)
         found = given_curve.analyze_curve(
-            curve.stem,
-            given,
-            taken,
-            speed_rpm=rpm,
-            inertia=own,
-            fluctuation=allowed,
-            orders=asked,
+            curve.stem, given, taken, speed_rpm=rpm, inertia=own, fluctuation=allowed, orders=asked
         )
     else:
         source = read_engine(path or "", rpm)
@@ -186,12 +164,11 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     refuse_leaving_files(source, path, target)
     flywheel = result.flywheel
     if flywheel is None or flywheel.fluctuation is None:
-        raise BalcliError(
-            f"--write: {flywheel.stall}"
-            if flywheel is not None and flywheel.stall
-            else "--write: the speed is not known; give inertia in [crank] or [flywheel], such as "
-            "[flywheel] and inertia = 250000"
+        unknown = (
+            "the speed is not known; give inertia in [crank] or [flywheel], such as [flywheel] and "
+            "inertia = 250000"
         )
+        raise BalcliError(f"--write: {(flywheel and flywheel.stall) or unknown}")
     lines = [
         {"order": line.order, "amplitude": line.amplitude, "angle": line.angle_deg}
         for line in flywheel.lines

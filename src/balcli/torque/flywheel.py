@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 
 from ..core.phases import RPM
-from ..core.phasors import Array, Complex
+from ..core.phasors import Complex
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..core.records import HIDDEN
 from ..core.speed_ripple import (
@@ -19,6 +19,7 @@ from ..core.speed_ripple import (
     speed_variation,
 )
 from ..errors import BalcliError
+from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
 _WORTH = 1e-4  # share of the largest line of the speed below which one is left out
@@ -78,34 +79,29 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    if fluctuation is not None and not SMALLEST_FLUCTUATION <= fluctuation < 2:
-        raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
-    if fluctuation is not None and mean_speed is None:
-        raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
     course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
-    own = course.mean
-    found = Flywheel(
-        inertia_kg_m2=None if constant is None else constant + own, moving_parts_kg_m2=own
-    )
-    if mean_speed is None:
-        return found
+    found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
+        if not SMALLEST_FLUCTUATION <= fluctuation < 2:
+            raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
+        if mean_speed is None:
+            raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
         needed = needed_inertia(torque, mean_speed, fluctuation, course.at)
-        found = replace(found, needed_kg_m2=own + needed)
+        found = replace(found, needed_kg_m2=course.mean + needed)
     if constant is None:
         return found
-
-    def inertia(angle: Array) -> Array:
-        return constant + course.at(angle)
-
+    mean = constant + course.mean
+    found = replace(found, inertia_kg_m2=mean)
+    if mean_speed is None:
+        return found
     try:
-        speed = speed_variation(torque, inertia, mean_speed)
+        speed = speed_variation(torque, lambda angle: constant + course.at(angle), mean_speed)
     except StallError as error:
         return replace(found, stall=str(error))
     return replace(
         found,
         fluctuation=speed.fluctuation,
-        fluctuation_small=small_fluctuation(surplus, constant + own, mean_speed),
+        fluctuation_small=small_fluctuation(surplus, mean, mean_speed),
         speed_max_rpm=speed.highest.value / RPM,
         speed_min_rpm=speed.lowest.value / RPM,
         speed_max_deg=degrees_in_cycle(speed.highest.angle, torque.period),
@@ -121,14 +117,10 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))
     c: Complex = speed.harmonics(np.arange(1, count + 1)) / mean_speed
-    size = np.abs(c)
-    worth = np.flatnonzero(size > _WORTH * size.max(initial=0))
-    lines = []
-    for k in worth.tolist():
-        halves = round(2 * (k + 1) / turns)
-        order = halves // 2 if halves % 2 == 0 else halves / 2
-        lines.append(RippleLine(order, float(size[k]), float(-np.degrees(np.angle(c[k])))))
-    return tuple(lines)
+    size, angle = np.abs(c), -np.degrees(np.angle(c))
+    worth = np.flatnonzero(size > _WORTH * size.max(initial=0)).tolist()
+    orders = (order_number(round(2 * (k + 1) / turns) / 2) for k in worth)
+    return tuple(map(RippleLine, orders, size[worth].tolist(), angle[worth].tolist()))
 
 
 def degrees_in_cycle(angle: float, period: float) -> float:

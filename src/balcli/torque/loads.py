@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
-from ..core.phasors import Array, Complex
+from ..core.phasors import Array
 from ..core.vectors_over_cycle import Vectors, find_panels
 from ..engine.engine import Engine
 from ..forces.crankshaft import (
@@ -86,8 +87,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
         loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
         pin = tuple(load for load in loads if load.cylinder not in hung)
-        others = [replace(load, pressure_Pa=None) for load in loads if load.cylinder in hung]
-        knuckle = tuple(others) or None
+        knuckle = tuple(replace(x, pressure_Pa=None) for x in loads if x.cylinder in hung) or None
     if "main" in asked:
         try:
             places, vectors = find_bearing_loads(steady)
@@ -121,10 +121,7 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
     """Yield the load of each vector over the cycle; 0 where it is a rounding error of others."""
 
-    def compute(angles: Array) -> Complex:
-        return compute_in_pieces(engine, vectors, angles)
-
-    breaks = find_breaks(engine)
+    compute, breaks = partial(compute_in_pieces, engine, vectors), find_breaks(engine)
     panels = find_panels(compute, breaks, 1.0)
     every = compute(panels.angles)
     every[np.abs(every).max(axis=1) <= ROUNDING * np.abs(every).max()] = 0.0

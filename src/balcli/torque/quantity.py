@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 from ..engine.build import build
@@ -14,42 +13,20 @@ from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.curves import find_constant_inertia, find_torque_curves
+from ..forces.quantity import TargetQuantity
 from .answer import analyze_torque_of_engine as analyze_torque
 
-_UNITS = {"torque.mean": "N·m", "torque.max": "N·m", "torque.min": "N·m", "fluctuation": ""}
+_NAMES = ("torque.mean", "torque.max", "torque.min", "fluctuation")
 NO_INERTIA = "fluctuation: the file gives no inertia; give inertia in [crank] or [flywheel]"
-
-
-@dataclass(frozen=True)
-class CycleQuantity:
-    """One figure: mean torque of the gas, largest and smallest torque, fluctuation of speed."""
-
-    name: str
-
-    @property
-    def unit(self) -> str:
-        """SI unit."""
-        return _UNITS[self.name]
-
-
-def parse_quantity(text: str) -> CycleQuantity:
-    """Return the quantity of a name such as `torque.mean`.
-
-    Raises:
-        BalcliError: Anything else, with what there is.
-    """
-    if text not in _UNITS:
-        raise BalcliError(f"{text} is no quantity: give {', '.join(_UNITS)}")
-    return CycleQuantity(text)
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities that an engine with gas has."""
     known = find_constant_inertia(build(model)) is not None
-    yield from (name for name in _UNITS if known or name != "fluctuation")
+    yield from (name for name in _NAMES if known or name != "fluctuation")
 
 
-def refuse_unknown(model: EngineFile, quantities: Sequence[CycleQuantity]) -> None:
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if the engine has no gas.
 
     Raises:
@@ -59,7 +36,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[CycleQuantity]) -> No
         raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
 
 
-def evaluate_engine(engine: Engine, quantities: Sequence[CycleQuantity]) -> list[float]:
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine with gas.
 
     Raises:

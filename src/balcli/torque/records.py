@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE
@@ -17,8 +17,7 @@ from .flywheel import Flywheel, degrees_in_cycle
 from .loads import CycleLoads
 
 
-@dataclass(frozen=True, kw_only=True)
-class Torques:
+class Torques(NamedTuple):
     """Torques of one order.
 
     Attributes:
@@ -32,8 +31,7 @@ class Torques:
     torque_Nm: Harmonic | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class TorqueOrder:
+class TorqueOrder(NamedTuple):
     """One order of the engine, and of one cylinder.
 
     Attributes:
@@ -47,8 +45,7 @@ class TorqueOrder:
     one_cylinder: Torques | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Extremes:
+class Extremes(NamedTuple):
     """Largest and smallest torque over a cycle.
 
     Attributes:
@@ -66,8 +63,7 @@ class Extremes:
     reversals: int
 
 
-@dataclass(frozen=True, kw_only=True)
-class Energy:
+class Energy(NamedTuple):
     """Energy that the torque gives above its mean between two angles.
 
     Attributes:
@@ -145,14 +141,11 @@ class TorqueAnalysis(Result):
 
 def measure_curve(torque: PiecewiseCurve) -> Extremes:
     """Return the extremes of a torque (N m)."""
-    lowest, highest = torque.extremes()
-    return Extremes(
-        max_Nm=highest.value,
-        max_deg=degrees_in_cycle(highest.angle, torque.period),
-        min_Nm=lowest.value,
-        min_deg=degrees_in_cycle(lowest.angle, torque.period),
-        reversals=torque.reversals(),
+    lowest, highest = (
+        (extreme.value, degrees_in_cycle(extreme.angle, torque.period))
+        for extreme in torque.extremes()
     )
+    return Extremes(*highest, *lowest, torque.reversals())
 
 
 def measure_energy(surplus: Surplus, period: float, work: float) -> Energy:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
+from functools import partial
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
-from ..show.figures import FigureRow, Harmonic, order_rows
+from ..show.figures import FigureRow, order_rows
 from ..show.formats import Renderer
 from ..show.sheet import (
     NAMELESS,
@@ -24,12 +25,13 @@ from ..show.sheet import (
     size_text,
     tell_assumed,
 )
-from ..show.units import ShownUnit, System
+from ..show.units import System
 from .flywheel import Flywheel
-from .loads import CycleLoad
+from .loads import CycleLoads
 from .records import TorqueAnalysis, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
+_size = partial(size_text, digits=None)  # with as many digits as most figures
 _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 
@@ -53,15 +55,15 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
     head = {key: value for key, value in found.items() if key not in ("format", *_PARTS)}
     for key in {"no_gas_in", "no_burning_in"} & head.keys():
         head[key] = " ".join(map(str, head[key]))
-    yield from _write("engine", head, system)
-    yield from _write(names[TORQUE_TOTAL.key], found["torque"], system)
-    yield from _write("energy", found["energy"], system)
-    yield from _write("flywheel", found.get("flywheel", {}), system)
-    for kind, loads in found.get("loads", {}).items():
-        for load in loads if kind != "obstacle" else ():
-            yield from _write(kind, load, system)
-        if kind == "obstacle":
-            yield FigureRow(0, "main", None, kind, loads, "")
+    parts = [("engine", head), (names[TORQUE_TOTAL.key], found["torque"])]
+    parts += [(key, found.get(key, {})) for key in ("energy", "flywheel")]
+    loads = found.get("loads", {})
+    obstacle = loads.pop("obstacle", None)
+    parts += [(kind, load) for kind, each in loads.items() for load in each]
+    for quantity, part in parts:
+        yield from _write(quantity, part, system)
+    if obstacle is not None:
+        yield FigureRow(0, "main", None, "obstacle", obstacle, "")
     for cylinder, entries in places:
         for key, name in names.items():
             for row, entry in zip(found["orders"], entries, strict=True):
@@ -84,15 +86,14 @@ def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
 # ------------------------------------------------------------------ for people
 def sheet(result: TorqueAnalysis, system: System) -> Sheet:
     """Return work, torque over the cycle, flywheel, and torque by order."""
-    name = result.name or NAMELESS
-    title = f"{name}: torque" if result.engine is None else f"{name}: torque on the crank"
+    title = f"{result.name or NAMELESS}: torque{' on the crank' if result.engine else ''}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
     if result.flywheel is not None:
         parts.append(Facts(tuple(_list_flywheel(result, result.flywheel, system)), "Flywheel"))
     elif result.engine is not None:
         parts.append(Text("Flywheel", (_NO_INERTIA,)))
-    parts += _make_load_tables(result, system)
+    parts += [] if result.loads is None else _make_load_tables(result.loads, system)
     parts.append(_make_order_table(result, system))
     return Sheet(title, tuple(parts))
 
@@ -100,11 +101,6 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
 def tenths(angle_deg: float) -> str:
     """Return an angle within a cycle, to a tenth of a degree."""
     return f"{round(angle_deg, 6) + 0.0:.1f}"
-
-
-def _size(value: float, unit: ShownUnit) -> str:
-    """Return what `size_text` does, with as many digits as most figures."""
-    return size_text(value, unit, None)
 
 
 def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, str]]:
@@ -124,40 +120,37 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         imep = result.imep_Pa or 0.0
         each = (_size(imep * share, system.pressure) + kind for kind, share in kinds.items())
         yield "mean pressure", ", ".join(each)
-    if result.max_pressure_Pa is not None:
-        at = degrees(result.max_pressure_deg or 0.0)
-        yield (
-            "largest pressure",
-            f"{_size(result.max_pressure_Pa, system.pressure)}, {at} deg after firing",
-        )
-    if engine is not None:
+        if result.max_pressure_Pa is not None:
+            size, at = _size(result.max_pressure_Pa, system.pressure), result.max_pressure_deg
+            yield "largest pressure", f"{size}, {degrees(at or 0.0)} deg after firing"
         yield from list_silent(engine.silent)
-    yield "mean torque", _tell_each(result.mean_torque_Nm, system.moment, kinds)
-    if result.power_W is not None:
-        yield "power", _tell_each(result.power_W, system.power, kinds)
+    for name, value, of in (
+        ("mean torque", result.mean_torque_Nm, system.moment),
+        ("power", result.power_W, system.power),
+    ):
+        if value is not None:
+            unit = of.fit(value)  # one for all kinds
+            sizes = (f"{number(unit.of(value * k))} {unit.name}{kind}" for kind, k in kinds.items())
+            yield name, ", ".join(sizes)
     if result.load_Nm is not None:
         mean, rest = (_size(size, system.moment) for size in result.load_Nm)
         yield "load", f"{mean} in the mean" + (f", and {rest} evenly" if result.load_Nm[1] else "")
 
 
-def _tell_each(value: float, unit: ShownUnit, kinds: Mapping[str, float]) -> str:
-    """Return a figure, and the share of it that each kind is, such as " brake"."""
-    of_all = unit.fit(value)
-    sizes = ((number(of_all.of(share * value)), kind) for kind, share in kinds.items())
-    return ", ".join(f"{size} {of_all.name}{kind}" for size, kind in sizes)
-
-
 def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
     torque, energy = result.torque, result.energy
     unit = system.moment.fit(max(abs(torque.min_Nm), abs(torque.max_Nm)))
-    large, small = (number(unit.of(value)) for value in (torque.max_Nm, torque.min_Nm))
-    surplus, start, end = energy.surplus_J, tenths(energy.from_deg), tenths(energy.to_deg)
+
+    def tell(value: float, angle_deg: float) -> str:
+        return f"{number(unit.of(value))} {unit.name} at {tenths(angle_deg)} deg"
+
+    surplus = _size(energy.surplus_J, system.energy)
     pairs = (
-        ("largest", f"{large} {unit.name} at {tenths(torque.max_deg)} deg"),
-        ("smallest", f"{small} {unit.name} at {tenths(torque.min_deg)} deg"),
+        ("largest", tell(torque.max_Nm, torque.max_deg)),
+        ("smallest", tell(torque.min_Nm, torque.min_deg)),
         ("reversals", str(torque.reversals)),
         ("work of a cycle", _size(energy.work_J, system.energy)),
-        ("surplus", f"{_size(surplus, system.energy)} from {start} to {end} deg"),
+        ("surplus", f"{surplus} from {tenths(energy.from_deg)} to {tenths(energy.to_deg)} deg"),
     )
     return Facts(pairs, "Torque over the cycle")
 
@@ -169,21 +162,19 @@ def _list_flywheel(
     if wheel.inertia_kg_m2 is not None:
         parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
-    if wheel.fluctuation is not None:
-        both = (wheel.fluctuation, wheel.fluctuation_small or 0.0)
-        exact, small = (f"{number(100 * share, 4)} %" for share in both)
-        one_in = f"1/{number(1 / wheel.fluctuation, 4)}" if wheel.fluctuation else "0"
-        yield "fluctuation", f"{exact} ({one_in}); {small} by the rule for small ones"
-        low = (wheel.speed_min_rpm or 0.0, wheel.speed_min_deg)
-        high = (wheel.speed_max_rpm or 0.0, wheel.speed_max_deg)
-        ends = (f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in (low, high))
-        yield "speed", " to ".join(ends)
+    if (share := wheel.fluctuation) is not None:
+        small = number(100 * (wheel.fluctuation_small or 0.0), 4)
+        one_in = f"1/{number(1 / share, 4)}" if share else "0"
+        exact = number(100 * share, 4)
+        yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small ones"
+        low, high = wheel.speed_min_rpm or 0.0, wheel.speed_max_rpm or 0.0
+        ends = ((low, wheel.speed_min_deg), (high, wheel.speed_max_deg))
+        yield "speed", " to ".join(f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in ends)
     if wheel.stall:
         yield "speed", wheel.stall
     if (needed := wheel.needed_kg_m2) is not None:
-        told = f"{_size(needed, unit)} in all"
-        crank = None if result.engine is None else result.engine.crank_inertia
-        crank = 0.0 if result.engine is not None and result.engine.rotary else crank
+        told, engine = f"{_size(needed, unit)} in all", result.engine
+        crank = None if engine is None else 0.0 if engine.rotary else engine.crank_inertia
         rest = needed - moving - float(crank or 0.0)
         if moving and rest <= 0:
             told += ", which is there without a flywheel"
@@ -193,76 +184,58 @@ def _list_flywheel(
         yield "needed", told
 
 
-def _make_load_tables(result: TorqueAnalysis, system: System) -> Iterator[Grid | Text]:
-    if (loads := result.loads) is None:
-        return
-    for title, word, each in (
-        ("Crank pins", "cylinder", loads.pin),
-        ("Knuckle pins", "cylinder", loads.knuckle),
-        ("Main bearings", "bearing", loads.main),
+def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
+    cut = (
+        "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
+        "as cut in each."
+    )
+    for title, word, each, note in (
+        ("Crank pins", "cylinder", loads.pin or (), ""),
+        ("Knuckle pins", "cylinder", loads.knuckle or (), ""),
+        ("Main bearings", "bearing", loads.main or (), cut),
     ):
+        unit = system.force.fit(max((load.max_N for load in each), default=0.0))
+        columns = [
+            (word, [str(getattr(load, word)) for load in each]),
+            (f"largest, {unit.name}", [number(unit.of(load.max_N)) for load in each]),
+            ("at, deg", [tenths(load.max_deg) for load in each]),
+            (f"mean, {unit.name}", [number(unit.of(load.mean_N)) for load in each]),
+        ]
+        pressures = [load.pressure_Pa for load in each if load.pressure_Pa is not None]
+        if len(pressures) == len(each):
+            stress = system.stress.fit(max(pressures, default=0.0))
+            columns.append((stress.name, [number(stress.of(one), 4) for one in pressures]))
         if each:
-            yield _make_load_table(title, word, each, system)
+            yield Grid.of_columns(title, columns, note)
     if loads.obstacle:
         yield Text("Main bearings", (f"Not known: {loads.obstacle}.",))
 
 
-def _make_load_table(title: str, word: str, loads: Sequence[CycleLoad], system: System) -> Grid:
-    unit = system.force.fit(max(load.max_N for load in loads))
-    pressures = [load.pressure_Pa for load in loads if load.pressure_Pa is not None]
-    pressed = len(pressures) == len(loads)
-    stress = system.stress.fit(max(pressures, default=0.0))
-
-    def row(load: CycleLoad) -> Iterator[str]:
-        yield str(getattr(load, word))
-        yield number(unit.of(load.max_N))
-        yield tenths(load.max_deg)
-        yield number(unit.of(load.mean_N))
-        if load.pressure_Pa is not None and pressed:
-            yield number(stress.of(load.pressure_Pa), 4)
-
-    heads = [word, f"largest, {unit.name}", "at, deg", f"mean, {unit.name}"]
-    heads += [stress.name] if pressed else []
-    note = (
-        "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
-        "as cut in each."
-    )
-    rows = tuple(tuple(row(load)) for load in loads)
-    return Grid(title, tuple(heads), rows, note if word == "bearing" else "")
-
-
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     """Return a table of the orders in which the engine or the one cylinder has something."""
-    orders, is_engine = result.orders, result.engine is not None
-    keys = ("gas_torque_Nm", "inertia_torque_Nm", "torque_Nm")[0 if is_engine else 2 :]
-    lines: list[list[Harmonic]] = [[getattr(o.torques, key) for key in keys] for o in orders]
+    orders, alone = list(result.orders), f"gas of {result.cylinder}"
     many = len(orders) == MOST_HARMONICS_UNASKED
-    heads, note = ["torque", "peak, deg"], "--orders asks for higher ones." if many else ""
-    if is_engine:
-        last = f"gas of {result.cylinder}"
-        heads = ["gas", "at, deg", "inertia", "at, deg", "total", "at, deg", last]
+    note = "--orders asks for higher ones." if many else ""
+    kinds = {"torque": [order.torques.torque_Nm for order in orders]}
+    if result.engine is not None:
+        keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}
+        kinds = {kind: [getattr(o.torques, key) for o in orders] for kind, key in keys.items()}
+        kinds[alone] = [getattr(order.one_cylinder, keys["gas"]) for order in orders]
         note = f"The last column is the gas torque of cylinder {result.cylinder} alone."
-        for line, order in zip(lines, orders, strict=True):
-            line.append(getattr(order.one_cylinder, keys[0]))
-    largest = max((harmonic.amplitude for line in lines for harmonic in line), default=0.0)
-    unit = system.moment.fit(largest)
-
-    def size(harmonic: Harmonic, n: float, digits: int) -> str:
-        return number(unit.of(harmonic.amplitude if n else harmonic.cos), digits)
-
-    def cells(n: float, line: list[Harmonic]) -> Iterator[str]:
-        yield order_name(n) if is_engine else f"{n:g}"
-        for harmonic in line[: len(keys)]:
-            yield size(harmonic, n, 5)
-            yield degrees(harmonic.peak_deg) if harmonic.amplitude else ""
-        yield from (size(harmonic, n, 4) for harmonic in line[len(keys) :])
-
-    shown = [
-        tuple(cells(order.order, line))
-        for order, line in zip(orders, lines, strict=True)
-        if not is_engine or not all(harmonic.balanced for harmonic in line)
-    ]
-    return Grid(f"Torque by order, {unit.name}", ("order", *heads), tuple(shown), note)
+    lines = list(zip(orders, *kinds.values(), strict=True))
+    unit = system.moment.fit(max((h.amplitude for _, *line in lines for h in line), default=0.0))
+    if result.engine is not None:
+        lines = [line for line in lines if not all(h.balanced for h in line[1:])]
+    names = [order_name(o.order) if result.engine else f"{o.order:g}" for o, *_ in lines]
+    columns = [("order", names)]
+    for k, kind in enumerate(kinds, 1):
+        pairs = [(line[0].order, line[k]) for line in lines]
+        values = (h.amplitude if n else h.cos for n, h in pairs)
+        columns.append((kind, [number(unit.of(v), 4 if kind == alone else 5) for v in values]))
+        if kind != alone:
+            head = "at, deg" if result.engine else "peak, deg"
+            columns.append((head, [degrees(h.peak_deg) if h.amplitude else "" for _, h in pairs]))
+    return Grid.of_columns(f"Torque by order, {unit.name}", columns, note)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

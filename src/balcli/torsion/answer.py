@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import NoneType
@@ -17,12 +17,13 @@ from ..core.vibration import Real
 from ..engine.engine import Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
-from ..file.fields import order_number, printable
+from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
-from .dampers import DamperAsked, SizedDamper, size_damper
+from .build import NO_DAMPERS
+from .dampers import FIGURES, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -53,51 +54,16 @@ class TorsionQuestion(NamedTuple):
 
     Attributes:
         speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
-        orders: Orders of the excitation to use; None: all.
         holzer: Requested Holzer tables.
         damper: Damper to size; the results are then those of the system with it.
     """
 
     speeds_rpm: Real | None = None
-    orders: Real | None = None
-    holzer: tuple[HolzerAsked, ...] = ()
-    damper: DamperAsked | None = None
+    holzer: Sequence[HolzerAsked] = ()
+    damper: DamperAsked = DamperAsked()
 
 
-def ask(
-    speeds_rpm: Real | None = None,
-    orders: Real | None = None,
-    holzer: Iterable[HolzerAsked] = (),
-    damper: str | None = None,
-    damper_at: str | None = None,
-    damper_inertia: float | None = None,
-) -> TorsionQuestion:
-    """Return the request of `balcli torsion` and `analyze_torsion`.
-
-    Args:
-        speeds_rpm: Rising speeds of the response, shape (speeds,).
-        orders: Orders of the excitation to use, shape (orders,); None: all.
-        holzer: Requested Holzer tables.
-        damper: Kind of damper to size.
-        damper_at: Name of the node that carries it.
-        damper_inertia: Inertia of its ring or pendulums, kg m2.
-
-    Raises:
-        BalcliError: node or inertia of a damper without its kind; a damper without speeds.
-    """
-    wanted = None
-    if damper is not None:
-        wanted = DamperAsked(damper, damper_at, damper_inertia)
-        if speeds_rpm is None:
-            raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
-    elif damper_at is not None or damper_inertia is not None:
-        option = "--damper-inertia" if damper_at is None else "--damper-at"
-        raise BalcliError(f"{option}: give the kind of damper, with --damper")
-    return TorsionQuestion(speeds_rpm, orders, tuple(holzer), wanted)
-
-
-@dataclass(frozen=True)
-class ChainNode:
+class ChainNode(NamedTuple):
     """Inertia of the chain.
 
     Attributes:
@@ -111,8 +77,7 @@ class ChainNode:
     gear: float
 
 
-@dataclass(frozen=True)
-class ChainJoint:
+class ChainJoint(NamedTuple):
     """Shaft between two nodes.
 
     Attributes:
@@ -124,8 +89,7 @@ class ChainJoint:
     stiffness_Nm_per_rad: float
 
 
-@dataclass(frozen=True)
-class HolzerRow:
+class HolzerRow(NamedTuple):
     """One inertia of Holzer's table.
 
     Attributes:
@@ -222,15 +186,14 @@ class TorsionAnalysis(Result):
 
 
 def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator[str]:
+    small = "but the computation assumes small swings"
     for each in response.pendulums or ():
         wide = each.worst.half_swing_deg
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, but the computation assumes small swings: at "
-                f"{WIDE_SWING:.0f} deg a pendulum on a circle is 0.8 % out of tune, beyond more; "
-                f"{wide / WIDE_SWING:.2g} times their mass would limit the swing to about "
-                f"{WIDE_SWING:.0f} deg"
+                f"{each.worst.speed_rpm:.4g} rpm, {small}; {wide / WIDE_SWING:.2g} times their "
+                f"mass would limit the swing to about {WIDE_SWING:.0f} deg"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"
     hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
@@ -243,8 +206,8 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
     elif swing.half_swing_deg > ASTOUNDING:
         yield (
             f"{printable(system.free_end)} swings by {swing.half_swing_deg:.4g} deg at "
-            f"{swing.speed_rpm:.5g} rpm, but the computation assumes small swings; is an inertia "
-            f"missing, or the speed too low? {question.capitalize()}"
+            f"{swing.speed_rpm:.5g} rpm, {small}; is an inertia missing, or the speed too low? "
+            f"{question.capitalize()}"
         )
 
 
@@ -259,19 +222,25 @@ def answer_question(
         tell: Called with the share of the work that is done.
 
     Raises:
-        BalcliError: a response without excitation or through an undamped resonance; a mode that
-            does not exist; Holzer's table of a chain with loops; a damper that no node can carry.
+        BalcliError: node or inertia of a damper without its kind; a damper without speeds; a
+            response without excitation or through an undamped resonance; a mode that does not
+            exist; Holzer's table of a chain with loops; a damper that no node can carry.
         InputError: contradictions in the file.
     """
-    if question.damper is None or question.speeds_rpm is None:
-        return _analyze_system(source.system(), question, tell)
-    sized = size_damper(source, question.damper, question.speeds_rpm, question.orders, tell)
+    kind, node, inertia = question.damper
+    if kind is None:
+        if node is not None or inertia is not None:
+            option = "--damper-inertia" if node is None else "--damper-at"
+            raise BalcliError(f"{option}: give the kind of damper, with --damper")
+        return _analyze_system(source.system(NO_DAMPERS), question, tell)
+    if question.speeds_rpm is None:
+        raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
+    sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
     found = _analyze_system(fitted, question)  # one response after dozens
-    for each in () if found.response is None else found.response.dampers or ():
+    for each in (found.response and found.response.dampers) or ():
         if each.node == sized.node:
-            heat = each.worst
-            sized = replace(sized, heat_W=heat.heat_W, heat_rpm=heat.speed_rpm)
+            sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
     return replace(found, damper=sized)
 
 
@@ -279,12 +248,8 @@ def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
     """Return the answer about a system as it is."""
-    speeds, orders = question.speeds_rpm, question.orders
-    if speeds is not None:
-        system = system.driven_at(orders)
-    elif orders is not None and system.excitation is not None:
-        system = replace(system, excitation=system.excitation.only(orders))
-    modes, chain, excitation = find_natural_modes(system), system.chain, system.excitation
+    speeds, modes = question.speeds_rpm, find_natural_modes(system)
+    chain, excitation = system.chain, system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
     response, barred = None, None
     if speeds is not None:
@@ -312,33 +277,29 @@ def _tabulate(
     system: TorsionalSystem, modes: tuple[NaturalMode, ...], asked: HolzerAsked
 ) -> HolzerTable:
     """Return Holzer's table at a frequency."""
-    omega, chain = asked.omega, system.chain
+    omega, chain, shape = asked.omega, system.chain, None
     if asked.mode is not None:
         if asked.mode > len(modes):
-            count = f"{len(modes)} mode{'s' * (len(modes) != 1)}"
+            count = counted(len(modes), "mode")
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
-        omega = modes[asked.mode - 1].omega
+        omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
     # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
     except ValueError as error:
         raise system.refusal(f"--holzer: {error}") from None
-    if asked.mode is not None:
-        shape = modes[asked.mode - 1].shape
-        if np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
-            raise system.refusal(
-                f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
-                "hardly moves in it, or a branch swings by itself"
-            )
+    if shape is not None and np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
+        raise system.refusal(
+            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
+            "hardly moves in it, or a branch swings by itself"
+        )
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
-    hertz = omega / (2 * np.pi)
-    left = table.residual
+    hertz, left = omega / (2 * np.pi), table.residual
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 
-KINDS_OF_DAMPERS = ("viscous", "rubber", "pendulum")
 _UNNAMED = "chain file"  # in messages, a text or dict
 
 
@@ -382,13 +343,13 @@ def analyze_torsion(
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm
     """
     check_type("damper", damper, (str, NoneType), 'give a kind of damper, such as "viscous"')
-    if damper not in (None, *KINDS_OF_DAMPERS):
-        raise BalcliError(f"damper {damper!r}: choose from {', '.join(KINDS_OF_DAMPERS)}")
+    if damper not in (None, *FIGURES):
+        raise BalcliError(f"damper {damper!r}: choose from {', '.join(FIGURES)}")
     asked = check_torsion_orders(orders)
     inertia = check_inertia("damper_inertia", damper_inertia)
     check_type("damper_at", damper_at, (str, NoneType), 'give the name of a part, such as "hub"')
     speeds = check_speeds("analyze_torsion", speeds_rpm)
-    question = ask(speeds, asked, (), damper, damper_at, inertia)
+    question = TorsionQuestion(speeds, (), DamperAsked(damper, damper_at, inertia))
     return answer_question(_read_source(source, asked), question)
 
 
@@ -399,6 +360,6 @@ def _read_source(source: object, orders: Array | None) -> Source:
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
         name = name or _UNNAMED
-        return make_chain_source(read_chain_tables(tables, name), name)
+        return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)

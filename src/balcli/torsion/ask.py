@@ -8,25 +8,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.phases import RPM
 from ..core.vibration import Real
 from ..errors import BalcliError
-from ..file.units import Dimension, convert
+from ..file.units import SPEED, convert
 from ..limits import HIGHEST_TORSION_ORDER
 from ..shell.options import read_orders
 from ..shell.values import parse_speeds, read_inertia
 from ..show.formats import Units
 from ..show.units import SYSTEMS
-from .answer import HolzerAsked, TorsionQuestion, answer_question, ask
+from .answer import HolzerAsked, TorsionQuestion, answer_question
+from .dampers import DamperAsked
 from .load import load_source
 from .plot import make_torsion
 from .quantity import choose_torsion_speeds
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-
-_FREQUENCY = Dimension("rad/s", "a frequency", ("20 rad/s",))
-_HERTZ = re.compile(r"\s*([0-9.eE+-]+)\s*Hz\s*")
 
 
 def parse_half_orders(text: str | None) -> Real | None:
@@ -53,18 +51,16 @@ def _parse_trial(text: str) -> HolzerAsked:
         return HolzerAsked(int(text))
     right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
     try:
-        hertz = _HERTZ.fullmatch(text)
-        turns = float(hertz[1]) * 2 * np.pi if hertz else convert(text, _FREQUENCY)
+        omega = convert(text, SPEED) * RPM
     except ValueError:
-        raise BalcliError(f'--holzer "{text[:60]}": {right}') from None
-    if not 0 < turns < 1e12:
+        omega = 0.0
+    if not 0 < omega < 1e12:
         raise BalcliError(f'--holzer "{text[:60]}": {right}')
-    return HolzerAsked(None, turns)
+    return HolzerAsked(None, omega)
 
 
 def parse_question(
     speeds: str | None,
-    orders: str | None,
     holzer: Sequence[str] = (),
     damper: str | None = None,
     damper_at: str | None = None,
@@ -74,14 +70,13 @@ def parse_question(
     """Return the request that these options make.
 
     Raises:
-        BalcliError: one of them cannot be read, or belongs to another that is missing.
+        BalcliError: one of them cannot be read.
     """
-    inertia = None
-    if damper_inertia is not None:
-        inertia = read_inertia("--damper-inertia", damper_inertia, units)
-    trials = map(_parse_trial, holzer)
-    exciting = parse_half_orders(orders)
-    return ask(parse_speeds(speeds), exciting, trials, damper, damper_at, inertia)
+    heavy = damper_inertia
+    inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
+    trials = [_parse_trial(each) for each in holzer]
+    sized = DamperAsked(damper, damper_at, inertia)
+    return TorsionQuestion(parse_speeds(speeds), trials, sized)
 
 
 def require_speeds(asked: TorsionQuestion, what: str) -> None:
@@ -95,11 +90,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 
 
 def make_figures_of_torsion(
-    path: str,
-    pages: Sequence[str],
-    speeds: str | None,
-    orders: str | None,
-    units: Units,
+    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
 ) -> list[Figure]:
     """Return figures of the chain or engine at a path, one a page.
 
@@ -110,10 +101,10 @@ def make_figures_of_torsion(
         orders: Orders that excite, as typed.
         units: System of units.
     """
-    asked = parse_question(speeds, orders)
-    source = load_source(path, asked.orders)
-    over_speed = {"response", "waterfall"} & {*pages}
-    if over_speed and asked.speeds_rpm is None and source.engine is not None:
+    asked = parse_question(speeds)
+    source = load_source(path, parse_half_orders(orders))
+    missing = asked.speeds_rpm is None and {"response", "waterfall"} & {*pages}
+    if missing and source.engine is not None:
         asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
     for page in pages:
         require_speeds(asked, page)

@@ -171,24 +171,12 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
-def trace_shafts(
-    chain: Chain, roots: Sequence[int], node: int, joining: NDArray[np.bool_]
-) -> list[int]:
-    """Return the shafts of some (shafts,) that lead from one of these roots to a node."""
-    led = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
-    way = list[int]()
-    while node in led:
-        way.append(led[node].shaft)
-        node = led[node].parent
-    return way[::-1]
-
-
 _TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
 
 
-def viscous_inertia(inertia: float, damping: float, frequency: Real) -> Complex:
-    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s:
-    `J/(1 + i w J/c)`.
+def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Real) -> Complex:
+    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s, or of several that
+    broadcast: `J/(1 + i w J/c)`.
     """
     return inertia / (1 + 1j * frequency * (inertia / damping))
 
@@ -198,15 +186,14 @@ def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> 
     at an order of the speed of its node: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it
     holds its node still.
     """
-    return mass * (radius + length) ** 2 / _away_from_zero(1 - order**2 * (length / radius) + 0j)
+    return mass * (radius + length) ** 2 / _detune(radius, length, order)
 
 
 def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
     """Return the angle of a pendulum against its node for each rad of swing of the node, both
     small: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
     """
-    detuning = _away_from_zero(1 - order**2 * (length / radius) + 0j)
-    return np.asarray(order**2 * (1 + length / radius) / detuning, complex)
+    return order**2 * (1 + length / radius) / _detune(radius, length, order)
 
 
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
@@ -218,5 +205,7 @@ def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> floa
     return 2 * inertia * frequency / sqrt(2 * (1 + ratio) * (2 + ratio))
 
 
-def _away_from_zero(detuning: Complex) -> Complex:
+def _detune(radius: float, length: float, order: Real) -> Complex:
+    """Return `1 - n^2 L/R`, where it is not 0."""
+    detuning = 1 - order**2 * (length / radius) + 0j
     return np.where(np.abs(detuning) < _TUNED, _TUNED, detuning)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -20,82 +19,48 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 
 
-class DamperKind(StrEnum):
-    """Kinds of dampers."""
-
-    VISCOUS = "viscous"
-    RUBBER = "rubber"
-    PENDULUM = "pendulum"
-
-
-class TorsionPicture(StrEnum):
-    """Which pictures are drawn."""
-
-    ALL = "all"
-    MODES = "modes"
-    CAMPBELL = "campbell"
-    RESPONSE = "response"
-    WATERFALL = "waterfall"
-
-
 def torsion(
     path: Annotated[
         str,
         typer.Argument(
             metavar="FILE",
-            help="Engine file with [torsion], or a chain of inertias and shafts (TOML); - reads "
-            "standard input.",
+            help="Engine file with [torsion], or a chain of shafts; - reads standard input.",
             show_default=False,
         ),
     ],
     speeds: Annotated[
         str | None,
-        optional(
-            "A:B:STEP",
-            "Forced vibration at these speeds, rpm; or a list such as 1500,2000.",
-            "--speeds",
-            "--speed",
-        ),
+        optional("A:B:STEP", "Forced vibration at these speeds, rpm.", "--speeds", "--speed"),
     ] = None,
     orders: Annotated[
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders that excite, 0.5-8 with halves, 1-8 whole ones; default: all of a chain, "
-            "to 32 of an engine, and that of firing.",
+            "Orders that excite; default: all of a chain, of an engine to 32 and that of firing.",
         ),
     ] = None,
     holzer: Annotated[
         list[str] | None,
-        optional(
-            "MODE|FREQUENCY",
-            'Holzer\'s table of a mode, or at "20 rad/s", "12 Hz"; may be given again.',
-        ),
+        optional("MODE|FREQUENCY", 'Holzer table of a mode, or at "20 rad/s"; may be given again.'),
     ] = None,
     misfire: Misfire = None,
     damper: Annotated[
-        DamperKind | None,
-        typer.Option(
-            show_default=False,
-            help="Size a damper that makes the largest stress over --speeds least.",
-        ),
+        Literal["viscous", "rubber", "pendulum"] | None,
+        optional("KIND", "Size a viscous, rubber or pendulum damper for the least stress."),
     ] = None,
     damper_at: Annotated[
         str | None, optional("NAME", "Node that carries the damper; default: the foremost part.")
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional(
-            "KGMM2",
-            "Its ring, or its pendulums about the axis; default: that in the file, or a usual "
-            "share.",
-        ),
+        optional("KGMM2", "Of its ring or pendulums; default: the file's or a usual one."),
     ] = None,
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
-        TorsionPicture, typer.Option(help="Picture of --plot; the last two need --speeds.")
-    ] = TorsionPicture.ALL,
+        Literal["all", "modes", "campbell", "response", "waterfall"],
+        typer.Option(help="Picture of --plot; the last two need --speeds."),
+    ] = "all",
     progress: ProgressAtOnce = False,
     units: UnitsOption = Units.SI,
     form: FormatOption = None,
@@ -116,15 +81,13 @@ def torsion(
     require_ending(write, ".toml", "--write")
     from . import answer, ask, dampers, load, plot as picture, show as pages
 
-    asked = ask.parse_question(
-        speeds, orders, holzer or (), damper, damper_at, damper_inertia, units
-    )
+    asked = ask.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
     if write is not None and damper is None:
         raise BalcliError("--write: give the kind of damper to write, with --damper")
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
     ask.require_speeds(asked, what)
-    source = load.load_source(path, asked.orders, misfire or ())
+    source = load.load_source(path, ask.parse_half_orders(orders), misfire or ())
     warn_each(source.doubts, name_file(path))
     with reporting("work", at_once=progress) as tell:
         result = answer.answer_question(source, asked, tell)

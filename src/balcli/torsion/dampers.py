@@ -21,33 +21,33 @@ from pydantic import ValidationError
 
 from ..core.extrema import ROUNDS, find_least
 from ..core.phases import RPM
-from ..core.records import HIDDEN, Node
+from ..core.records import HIDDEN
 from ..core.vibration import Real
 from ..errors import BalcliError
 from ..file.edit import set_keys
 from ..file.fields import printable
-from ..file.messages import describe_finding
 from ..file.torsion_tables import Damper
 from ..process import Tell, tell_nobody
+from .build import NO_DAMPERS
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
-from .motion import move, stress_by_torque
-from .response import count_columns, find_largest
+from .motion import compute_curves
+from .response import find_largest
 from .system import TorsionalSystem
 
-# Figures of a damper: key in JSON, and how many of the file's units are one SI unit.
+# Figures of a damper: key in JSON, how many of the file's units are one SI unit, and its label.
 DAMPER_KEYS = {
-    "inertia": ("inertia_kg_m2", 1e6),
-    "damping": ("damping_Nms_per_rad", 1.0),
-    "stiffness": ("stiffness_Nm_per_rad", 1.0),
-    "loss": ("loss", 1.0),
-    "mass": ("mass_kg", 1.0),
-    "radius": ("radius_m", 1e3),
-    "length": ("length_m", 1e3),
+    "inertia": ("inertia_kg_m2", 1e6, "ring"),
+    "damping": ("damping_Nms_per_rad", 1.0, "damping"),
+    "stiffness": ("stiffness_Nm_per_rad", 1.0, "stiffness"),
+    "loss": ("loss", 1.0, "loss factor"),
+    "mass": ("mass_kg", 1.0, "pendulums, in all"),
+    "radius": ("radius_m", 1e3, "hung up at a radius of"),
+    "length": ("length_m", 1e3, "length to the centre of mass"),
 }
 RUBBER_LOSS = 0.15  # usual for damper rubber
-_FIGURE = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
+FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
 # of the mode's inertia at the node, where nothing says how heavy a damper is
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
@@ -64,13 +64,13 @@ class DamperAsked(NamedTuple):
     """Damper to size.
 
     Attributes:
-        kind: Kind of damper: viscous, rubber or pendulum.
+        kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
         node: Name of the node that carries it; None: the first that can.
         inertia: Inertia of ring or pendulums, kg m2; None: that of the file's damper there, or a
             usual share of the mode's.
     """
 
-    kind: str
+    kind: str | None = None
     node: str | None = None
     inertia: float | None = None
 
@@ -120,7 +120,7 @@ class SizedDamper:
     after_Pa: float | None = None
     before_Nm: float | None = None
     after_Nm: float | None = None
-    heat_W: float
+    heat_W: float = 0.0  # until the whole system is computed
     heat_rpm: float
     doubts: tuple[str, ...] | None = None
     damper: Annotated[Damper, HIDDEN]
@@ -129,18 +129,9 @@ class SizedDamper:
     before: Annotated[float, HIDDEN]
     after: Annotated[float, HIDDEN]
 
-    @property
-    def figure(self) -> str:
-        """Name of the figure that was sized."""
-        return _FIGURE[self.kind]
-
 
 def size_damper(
-    source: Source,
-    asked: DamperAsked,
-    speeds: Real,
-    orders: Real | None = None,
-    tell: Tell = tell_nobody,
+    source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
 ) -> SizedDamper:
     """Return the damper that makes the largest stress of all shafts over speeds least.
 
@@ -148,55 +139,45 @@ def size_damper(
         source: File of the chain or engine.
         asked: Damper to size.
         speeds: Rising speeds, rpm, shape (speeds,).
-        orders: Orders of the excitation to use; None: all.
         tell: Called with the share of the work that is done.
 
     Raises:
         BalcliError: no node can carry it, or the system has no excitation.
     """
-    node, own = _find_carrier(source.dampers(), asked.node)
+    free_end = source.system(NO_DAMPERS).free_end
+    node, own = _find_carrier(source.dampers, asked.node, free_end)
 
-    def build(damper: Damper | None) -> TorsionalSystem:
-        return source.system({node: damper}).driven_at(orders)
-
-    bare = build(None)
-    by_torque = np.ones(len(bare.shafts))
-    if any(bare.sections):
-        by_torque = np.nan_to_num(stress_by_torque(bare))
-    weights = dict(zip(bare.shafts, by_torque.tolist(), strict=True))
+    bare = source.system({node: None})
     place = bare.nodes.index(node)
-    mode, order = _find_mode_to_damp(bare, speeds, weights, place)
+    mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
-    first = _propose(asked, own, bare, place, mode, order, source.crank_radius)
-    figure = _FIGURE[asked.kind]
-    start, width = float(getattr(first, figure)), math.log(_WIDTH[asked.kind])
-    tried = count(1)
+    radius = None if source.engine is None else float(source.engine.cylinders.radius)
+    first = _propose(asked, own, bare, place, mode, order, radius)
+    figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
+    start, tried = float(getattr(first, figure)), count(1)
 
-    def resize(logarithm: float) -> Damper:
-        return first.model_copy(update={figure: start * math.exp(logarithm)})
-
-    def judge(system: TorsionalSystem) -> float:
-        """Return the largest stress or torque of the shafts of the bare system; inf: no bound."""
+    def judge(damper: Damper | None) -> float:
+        """Return the largest stress or torque with a damper; inf: no bound."""
         tell(min(next(tried) / _RESPONSES, 1.0))
         try:
-            return _find_hardest(system, speeds, weights)[2]
+            return _find_hardest(source.system({node: damper}), speeds)[2]
         except BalcliError:
             return math.inf
 
-    farther = _minimise(lambda logarithm: judge(build(resize(logarithm))), width)
-    best = float(f"{start * math.exp(farther):.6g}")
-    damper = first.model_copy(update={figure: best})
-    measure, unit = ("stress", "Pa") if any(bare.sections) else ("torque", "Nm")
-    before, after = judge(bare), judge(build(damper))
+    farther = _minimise(
+        lambda each: judge(first.model_copy(update={figure: start * math.exp(each)})), width
+    )
+    damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
+    measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
+    before, after = judge(None), judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
     for key, value in damper.model_dump(exclude={"kind"}, exclude_none=True).items():
-        name, size = DAMPER_KEYS[key]
+        name, size, _ = DAMPER_KEYS[key]
         figures[name] = value / size
     found = SizedDamper(
         node=node,
         kind=damper.kind,
         mode=mode.number,
-        heat_W=0.0,  # until the whole system is computed
         heat_rpm=float(speeds[0]),
         damper=damper,
         start=start,
@@ -210,36 +191,35 @@ def size_damper(
 
 
 def _find_carrier(
-    carriers: Mapping[str, Damper | None], asked: str | None
+    carriers: Mapping[str, Damper | None], asked: str | None, free_end: str
 ) -> tuple[str, Damper | None]:
-    """Return the name of the node that is to carry the damper, and the damper it has."""
-    name = next(iter(carriers), None) if asked is None else asked
-    if name is None:
-        raise BalcliError("--damper: nothing can carry one; give a part in [[torsion.front]]")
+    """Return the name of the node that is to carry the damper, and the damper it has: the asked
+    one, else the free end or the foremost that can.
+    """
+    first = free_end if free_end in carriers else next(iter(carriers), free_end)
+    name, able = asked or first, ", ".join(map(printable, carriers))
     if name not in carriers:
+        able = able or "nothing; give a part in [[torsion.front]]"
         raise BalcliError(
-            f'--damper-at "{printable(name)}": cannot carry a damper; what can is '
-            f"{', '.join(printable(each) for each in carriers)}"
+            f'--damper-at "{printable(name)}": cannot carry a damper; what can is {able}'
         )
     return name, carriers[name]
 
 
-def _find_hardest(
-    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float]
-) -> tuple[int, float, float]:
-    """Return the shaft with the largest stress or torque of a range, at which speed (rpm), and how
-    large it is.
+def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, float]:
+    """Return the shaft with the largest stress over a range of speeds, its speed (rpm), and its
+    stress, Pa; where no shaft has a diameter, with the largest torque, N m. Rubber rings are left
+    out.
 
     Args:
         system: With an excitation.
         speeds: (speeds,) rising, rpm.
-        weights: Factor of the torque of each shaft by its name; others are not looked at.
     """
-    columns = np.zeros(count_columns(system))
-    columns[: len(system.shafts)] = [weights.get(name, 0.0) for name in system.shafts]
-    largest = find_largest(system, speeds, columns, together=True)
-    worst = int(largest.value.argmax())
-    return worst, float(largest.rpm[worst]), float(largest.value[worst])
+    rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
+    weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
+    rpm, value = find_largest(system, speeds, weights, together=True)
+    worst = int(value.argmax())
+    return worst, float(rpm[worst]), float(value[worst])
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:
@@ -258,7 +238,7 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
 
 # ------------------------------------------------------------------ where the search begins
 def _find_mode_to_damp(
-    system: TorsionalSystem, speeds: Real, weights: Mapping[str, float], node: int
+    system: TorsionalSystem, speeds: Real, node: int
 ) -> tuple[NaturalMode, float]:
     """Return the mode that a damper at a node has to damp, and the order that drives it.
 
@@ -270,12 +250,13 @@ def _find_mode_to_damp(
     if not modes:
         raise BalcliError("--damper: the system has no mode that could be damped")
     try:
-        worst, rpm, _ = _find_hardest(system, speeds, weights)
+        worst, rpm, _ = _find_hardest(system, speeds)
     except BalcliError:  # nothing damps a resonance
         loss = np.maximum(system.damping.loss, _LOSS)
         system = replace(system, damping=system.damping._replace(loss=loss))
-        worst, rpm, _ = _find_hardest(system, speeds, weights)
-    by_order = np.abs(move(system, np.array([rpm])).torque[:, 0, worst])
+        worst, rpm, _ = _find_hardest(system, speeds)
+    phasors, _ = compute_curves(system, np.array([rpm]))
+    by_order = np.abs(phasors[:, 0, worst])
     order = float(system.require_excitation().orders[by_order.argmax()])
     whole = float(np.sum(system.chain.inertia * (system.gears / system.gears[node]) ** 2))
     heavy = [_find_inertia_in(mode, system, node) for mode in modes]
@@ -308,37 +289,33 @@ def _propose(
     """
     if mode.shape[node] == 0:
         raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
-    there = _find_inertia_in(mode, system, node)
+    kind, there = str(asked.kind), _find_inertia_in(mode, system, node)
     given = {} if own is None else own.model_dump(exclude_none=True)
     usual = given["inertia"] / 1e6 if "inertia" in given else None
-    inertia = asked.inertia or usual or float(f"{_SHARE[asked.kind] * there:.4g}")
-    figures: dict[str, object] = {"kind": asked.kind, "inertia": float(f"{inertia * 1e6:.12g}")}
-    if asked.kind == "viscous":
+    inertia = asked.inertia or usual or float(f"{_SHARE[kind] * there:.4g}")
+    figures: dict[str, object] = {"kind": kind, "inertia": float(f"{inertia * 1e6:.12g}")}
+    if kind == "viscous":
         figures["damping"] = best_viscous_damping(inertia, inertia / there, mode.omega)
-    elif asked.kind == "rubber":
+    elif kind == "rubber":
         figures["stiffness"] = inertia * (mode.omega / (1 + inertia / there)) ** 2
         figures["loss"] = given.get("loss", RUBBER_LOSS)
     else:
         radius = given["radius"] / 1e3 if "radius" in given else crank_radius
         if radius is None:
             raise BalcliError(
-                "--damper pendulum: a chain has no crank radius for the pendulums; "
-                f"give {printable(system.nodes[node])} a radius, such as damper = "
+                "--damper pendulum: a chain has no crank radius; give the node a damper = "
                 '{ kind = "pendulum", mass = 2, radius = 60, length = 5 }'
             )
         length = radius * (system.gears[node] / order) ** 2
         mass = float(f"{inertia / (radius + length) ** 2:.4g}")
         if asked.inertia is None:
             mass = given.get("mass", mass)
-        figures = {"kind": asked.kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
+        figures = {"kind": kind, "mass": mass, "radius": radius * 1e3, "length": length * 1e3}
     try:
         return Damper.model_validate(figures)
-    except ValidationError as error:
-        wrong = describe_finding("damper", error.errors(include_url=False)[0], Damper)
-        raise BalcliError(
-            f"--damper {asked.kind}: the best damper is impossible: {wrong.path}: {wrong.message}; "
-            "check the units of inertias and stiffnesses"
-        ) from None
+    except ValidationError:
+        wrong = "the best damper is impossible; check the units of inertias and stiffnesses"
+        raise BalcliError(f"--damper {kind}: {wrong}") from None
 
 
 # ------------------------------------------------------------------ doubts
@@ -349,31 +326,23 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
-    sized = float(getattr(found.damper, found.figure))
-    units = "(on the command line bare numbers are kg mm2)"
+    sized = float(getattr(found.damper, FIGURES[found.kind]))
     if found.after > _HARDLY * found.before:
         does = "raises" if found.after > found.before else "hardly lowers"
         yield (
             f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
-            f"{found.measure}; the whole system has {whole:.4g} kg m2. Is it of the right size "
-            f"{units}, and in the right place?"
+            f"{found.measure}; the whole system has {whole:.4g} kg m2. Are size (on the command "
+            "line bare numbers are kg mm2) and place right?"
         )
-    elif given and inertia > whole:
+    elif inertia > (whole if given else _HEAVY * carrier) > 0:
         yield (
-            f"the damper has {inertia:.4g} kg m2, more than the whole system ({whole:.4g} kg m2); "
-            f"is it of the right size {units}?"
-        )
-    elif not given and inertia > _HEAVY * carrier > 0:
-        yield (
-            f"the damper that is proposed has {inertia:.4g} kg m2, {inertia / carrier:.3g} times "
-            f"as much as {node}, which carries it ({carrier:.4g} kg m2): give what there is room "
-            f'for, such as --damper-inertia "{float(f"{carrier:.2g}"):.12g} kg m^2"'
+            f"the damper has {inertia:.4g} kg m2, {node}, which carries it, {carrier:.4g}, and the "
+            f"whole system {whole:.4g}: give what there is room for, such as --damper-inertia "
+            f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):
-        yield (
-            f"the best {found.figure} is at an end of the searched range, {1 / width:.2g} to "
-            f"{width:g} times the optimum for mode {found.mode} alone"
-        )
+        ends = f"{1 / width:.2g} to {width:g} times the optimum for mode {found.mode} alone"
+        yield f"the best {FIGURES[found.kind]} is at an end of the searched range, {ends}"
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:
@@ -385,21 +354,13 @@ def insert_damper(text: bytes, name: str, damper: Damper) -> str:
         damper: New damper, in place of an older one.
     """
     old = text.decode("utf-8-sig")
-    table = _find_table(tomllib.loads(old), name)
-    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")
-
-
-def _find_table(data: Node, name: str) -> str:
-    """Return the dotted name of the table of a node or part, such as `torsion.rear.2`."""
+    data = tomllib.loads(old)
     torsion = data.get("torsion", {})
-    lists = {
-        "node": data.get("node", []),
-        "torsion.front": torsion.get("front", []),
-        "torsion.rear": torsion.get("rear", []),
-    }
-    return next(
+    lists = {f"torsion.{end}": torsion.get(end, ()) for end in ("front", "rear")}
+    table = next(
         f"{key}.{number}"
-        for key, tables in lists.items()
+        for key, tables in (lists | {"node": data.get("node", ())}).items()
         for number, table in enumerate(tables, 1)
         if table.get("name") == name
     )
+    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")

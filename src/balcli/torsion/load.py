@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
 
 from ..core.vibration import Real
 from ..engine.engine import Engine
@@ -17,148 +18,95 @@ from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.curves import silence
-from .build import (
-    NO_DAMPERS,
-    build_chain,
-    build_engine_system,
-    excite_engine,
-    find_free_end,
-)
+from .build import build_chain, build_engine_system, excite_engine, require_torsion
 from .read import describes_chain, read_chain_tables
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 from .tables import ChainFile
 
-_LIGHT = 1.0  # kg mm2: a steel disc of 10 mm across and 10 mm thick has 0.08
-_THIN = 1.0  # mm
+_SMALL = 1.0  # kg mm2, mm: a steel disc of 10 mm across and 10 mm thick has 0.08 kg mm2
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """A chain or engine file that has been read.
 
     Attributes:
-        file: Name of the file.
         text: Text of the file; empty if nothing can be written into it.
-        model: Tables of the file; of an engine, with [torsion].
         doubts: Warnings of figures that are allowed and yet unlikely.
+        system: Function of dampers by the names of their nodes to the system that the file
+            describes, with these in place of its own; it raises InputError where the file
+            contradicts itself.
+        dampers: Nodes that may carry a damper, by name, each with the damper it has.
         engine: Engine of the file; None: it describes a chain.
-        excitation: Torques of the engine's cylinders.
     """
 
-    file: str
     text: bytes
-    model: ChainFile | EngineFile
     doubts: tuple[str, ...]
+    system: Callable[[Mapping[str, Damper | None]], TorsionalSystem]
+    dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
-    excitation: Excitation | None = None
-
-    def system(self, fitted: Mapping[str, Damper | None] = NO_DAMPERS) -> TorsionalSystem:
-        """Return the system that the file describes, with these dampers in place of its own.
-
-        Raises:
-            InputError: contradictions in the file.
-        """
-        if isinstance(self.model, ChainFile):
-            return build_chain(self.model, self.file, fitted)
-        if self.engine is None or self.excitation is None:
-            raise TypeError("an engine's file without its engine")
-        return build_engine_system(self.model, self.engine, self.excitation, self.file, fitted)
-
-    @property
-    def crank_radius(self) -> float | None:
-        """Half the stroke, m; None of a chain."""
-        return None if self.engine is None else float(self.engine.cylinders.radius)
-
-    def dampers(self) -> Mapping[str, Damper | None]:
-        """Return the nodes that may carry a damper, by name, each with the damper it has."""
-        if isinstance(self.model, ChainFile):
-            return {node.name: node.damper for node in self.model.node}
-        torsion = self.model.torsion
-        if torsion is None or self.engine is None:
-            return {}
-        first = find_free_end(torsion, len(self.engine.joined_throws))
-        parts = sorted(
-            (*reversed(torsion.front), *torsion.rear), key=lambda part: part.name != first
-        )
-        return {part.name: part.damper for part in parts}
 
 
-def make_chain_source(model: ChainFile, name: str, text: bytes = b"") -> Source:
+def make_chain_source(
+    model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
+) -> Source:
     """Return the source of a chain file that has been read."""
-    doubts = *doubt_losses(model.list_losses()), *_doubt_units(model), *_doubt_torques(model)
-    return Source(name, text, model, doubts)
-
-
-def _doubt_torques(model: ChainFile) -> Iterator[str]:
-    """Yield warnings of excitations without a torque, and of those on a fixed node."""
-    for number, torque in enumerate(model.excitation, 1):
-        if not {"cos", "sin"} & torque.model_fields_set:
-            yield (
-                f"excitation.{number} on '{torque.node}' has neither cos nor sin, and so no "
-                "torque; give one of them, such as cos = 150 (N m)"
-            )
-        elif torque.node in model.fixed:
-            yield f"excitation.{number} is on '{torque.node}', which is fixed: it moves nothing"
+    losses = [(f"shaft.{k}.loss", shaft.loss) for k, shaft in enumerate(model.shaft, 1)]
+    damped = [(k, node.damper) for k, node in enumerate(model.node, 1) if node.damper]
+    losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
+    doubts = *doubt_losses([("loss", model.loss), *losses]), *_doubt_units(model)
+    dampers = {node.name: node.damper for node in model.node}
+    return Source(text, doubts, partial(build_chain, model, name, orders), dampers)
 
 
 def _doubt_units(model: ChainFile) -> Iterator[str]:
     """Yield warnings of inertias and diameters that were probably meant in kg m2 and m."""
-    for number, node in enumerate(model.node, 1):
-        if node.inertia is not None and node.inertia < _LIGHT:
-            yield (
-                f"node.{number}.inertia of '{node.name}' is {node.inertia:.4g} kg mm^2; "
-                f"{ask_unit('kg mm^2', f'{node.inertia:.4g} kg m^2')}"
-            )
-    for number, shaft in enumerate(model.shaft, 1):
-        if shaft.diameter is not None and shaft.diameter < _THIN:
-            yield (
-                f"shaft.{number}.diameter is {shaft.diameter:.4g} mm; "
-                f"{ask_unit('mm', f'{shaft.diameter:.4g} m')}"
-            )
+    figures = [
+        (f"node.{k}.inertia of '{node.name}'", node.inertia, "kg mm^2")
+        for k, node in enumerate(model.node, 1)
+    ]
+    figures += [(f"shaft.{k}.diameter", s.diameter, "mm") for k, s in enumerate(model.shaft, 1)]
+    for path, value, unit in figures:
+        if value is not None and value < _SMALL:
+            larger = ask_unit(unit, f"{value:.4g} {unit.replace('mm', 'm')}")
+            yield f"{path} is {value:.4g} {unit}; {larger}"
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
     """Read the source in a file, or in standard input for "-".
 
     Args:
-        orders: Orders of an engine's excitation, shape (orders,); None: those of `excite_engine`.
+        orders: Orders of the excitation to use, shape (orders,); None: all of a chain, of an engine
+            those of `excite_engine`.
         misfires: Numbers of an engine's cylinders without gas force.
 
     Raises:
-        BalcliError: The file cannot be read, or has mistakes.
+        BalcliError: The file cannot be read, or has mistakes; a misfire of an engine without gas,
+            or of a cylinder that the engine does not have.
     """
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
     if describes_chain(data):
         if misfires:
             raise BalcliError("--misfire: a chain has no cylinders")
-        return make_chain_source(read_chain_tables(data, name), name, text)
+        return make_chain_source(read_chain_tables(data, name), name, orders, text)
     refuse_other_kind(data, name, ENGINE, CHAIN)
     model = parse(text, name)
-    made = make_source(model, build_named(model, name), name, orders, misfires)
-    return replace(made, text=text)
+    engine = build_named(model, name)
+    doubts = engine.unlikely
+    for number in misfires:
+        engine = silence(engine, number)
+    return make_source(model, engine, name, orders)._replace(text=text, doubts=doubts)
 
 
-def make_source(
-    model: EngineFile,
-    engine: Engine,
-    name: str,
-    orders: Real | None = None,
-    misfires: Sequence[int] = (),
-) -> Source:
+def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
     """Return the source of an engine file that has been read and built. It has no text, so that
     nothing can be written into it.
 
     Raises:
-        BalcliError: The file has no [torsion]; a misfire of an engine without gas, or of a cylinder
-            that the engine does not have.
+        BalcliError: The file has no [torsion].
     """
-    if model.torsion is None:
-        raise BalcliError(
-            f"{name}: has no [torsion]; write it with throw_stiffness, throw_inertia and "
-            "[[torsion.rear]] for the flywheel, or a chain of [[node]] and [[shaft]]"
-        )
-    doubts = engine.unlikely
-    for number in misfires:
-        engine = silence(engine, number)
-    return Source(name, b"", model, doubts, engine, excite_engine(model, engine, orders))
+    doubts, torsion = engine.unlikely, require_torsion(model, name)
+    excitation = excite_engine(model, engine, orders)
+    system = partial(build_engine_system, model, engine, excitation, name)
+    parts = (*reversed(torsion.front), *torsion.rear)
+    return Source(b"", doubts, system, {part.name: part.damper for part in parts}, engine)

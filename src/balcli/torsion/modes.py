@@ -6,7 +6,6 @@ Holzer's table: a torsional chain at one frequency, node by node, as in textbook
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -17,12 +16,14 @@ from ..core.vibration import Complex, Indices, Modes, Real, find_modes, scale_sh
 from ..file.fields import order_number
 from .chain import (
     Chain,
+    ChainShaft,
     Damping,
     find_pieces,
     find_still,
     follow_gears,
     grow_branches,
     incidence,
+    join_chain,
     rigid_motions,
 )
 from .system import Excitation, TorsionalSystem
@@ -89,9 +90,8 @@ def chain_loss(
     twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
     moved = modes.shapes**2
     loss = chain.stiffness[elastic] * damping.loss[elastic]
-    lost = twist @ loss - modes.omega**2 * np.sum(
-        np.asarray(attached, complex).imag * moved, axis=1
-    )
+    felt = np.asarray(attached, complex).imag * moved
+    lost = twist @ loss - modes.omega**2 * felt.sum(axis=1)
     lost += modes.omega * (twist @ damping.dashpots[elastic] + moved @ damping.nodes)
     return np.where(modes.omega > 0, lost / np.where(modes.omega > 0, modes.omega, 1) ** 2, 0)
 
@@ -146,8 +146,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
 _UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class NaturalMode:
+class NaturalMode(NamedTuple):
     """Natural mode in which shafts twist.
 
     Attributes:
@@ -174,8 +173,7 @@ class NaturalMode:
         return 2 * np.pi * self.frequency_Hz
 
 
-@dataclass(frozen=True, kw_only=True)
-class Critical:
+class Critical(NamedTuple):
     """Speed at which an order excites a mode.
 
     Attributes:
@@ -224,21 +222,17 @@ def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
         order: Order at which pendulums have their inertia; None: they are left out.
     """
     chain, damping, rings = system.chain, system.damping, system.rings
-    inertia = chain.inertia
+    inertia, more = chain.inertia, (0, len(rings))
     if order is not None:
         inertia = inertia + system.attached_pendulums(np.array(order)).real
-    none, on = np.zeros(len(rings)), [ring.node for ring in rings]
-    with_rings = Chain(
-        np.append(inertia, [ring.inertia for ring in rings]),
-        np.append(chain.start, np.array(on, np.intp)),
-        np.append(chain.end, len(inertia) + np.arange(len(rings))),
-        np.append(chain.ratio, none + 1),
-        np.append(chain.stiffness, none),
-        np.append(chain.clamped, none.astype(bool)),
-    )
+    shafts = [*map(ChainShaft, chain.start, chain.end, chain.stiffness, chain.ratio)]
+    shafts += [ChainShaft(ring.node, k, 0.0) for k, ring in enumerate(rings, len(inertia))]
+    inertia = np.append(inertia, [ring.inertia for ring in rings])
     oil = np.append(damping.dashpots, [ring.damping for ring in rings])
-    losses = Damping(np.append(damping.loss, none), oil, np.append(damping.nodes, none))
-    return find_chain_poles(with_rings, losses)
+    return find_chain_poles(
+        join_chain(inertia, shafts, np.flatnonzero(chain.clamped).tolist()),
+        Damping(np.pad(damping.loss, more), oil, np.pad(damping.nodes, more)),
+    )
 
 
 def find_criticals(
@@ -254,26 +248,25 @@ def find_criticals(
         range_rpm: First and last speed, rpm; None: all speeds.
     """
     orders, (low, high) = excitation.orders, range_rpm or (0.0, np.inf)
-    found = []
-    for mode in modes:
-        speeds = mode.omega / orders
-        torque = np.diagonal(excitation.at(speeds), axis1=0, axis2=1).T  # (orders, sources)
-        moved, rpm = mode.shape[excitation.nodes], speeds / RPM
-        phasors = np.abs(torque @ moved)
-        counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
-        counted &= phasors > _UNDRIVEN * (np.abs(torque) @ np.abs(moved))
-        total = phasors[counted].sum()
-        found += [
-            Critical(
-                mode=mode.number,
-                order=order_number(float(orders[k])),
-                speed_rpm=float(rpm[k]),
-                phase_sum=float(phasors[k] / np.abs(torque[k]).max()),
-                work_share=float(phasors[k] / total),
-                work=float(np.pi * phasors[k]),
-            )
-            for k in np.flatnonzero(counted)
-        ]
+    moved = np.array([mode.shape[excitation.nodes] for mode in modes])
+    moved = moved.reshape(len(modes), 1, len(excitation.nodes))
+    speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
+    torque = excitation.steady + excitation.growing * speeds[..., None] ** 2
+    phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
+    counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
+    counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)
+    total = np.sum(phasors, axis=1, where=counted)
+    found = [
+        Critical(
+            mode=modes[m].number,
+            order=order_number(float(orders[k])),
+            speed_rpm=float(rpm[m, k]),
+            phase_sum=float(phasors[m, k] / np.abs(torque[m, k]).max()),
+            work_share=float(phasors[m, k] / total[m]),
+            work=float(np.pi * phasors[m, k]),
+        )
+        for m, k in np.argwhere(counted)
+    ]
     return tuple(sorted(found, key=lambda each: -each.work))
 
 
@@ -322,38 +315,27 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
-        raise ValueError(
-            "Holzer's table does not take gears that mesh with a fixed node; fix the other node as "
-            "well, and leave the gear out"
-        )
+        raise ValueError("Holzer's table does not take gears that mesh with a fixed node")
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:
         if chain.clamped[node]:
             raise ValueError("Holzer's table can lead to a clamped node, but not over it")
         node = parents[node]
-    inertial = frequency**2 * chain.inertia
+    inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
     unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
-    matrix, right = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
-    matrix[range(count), range(count)] = inertial / unit
-    for row, (child, parent, shaft, near, far) in enumerate(branches, count):
-        matrix[row, [child, parent]] = near, far
-        matrix[row, row] = -unit / chain.stiffness[shaft]
-        matrix[[child, parent], row] = -near, -far
-    for node in np.flatnonzero(chain.clamped).tolist():
-        matrix[node] = np.arange(2 * count) == node
-    matrix[last] = np.arange(2 * count) == first
-    right[last] = 1.0
-    matrix[-1, -1] = 1.0  # there is one shaft less than nodes
+    softness = np.diag(unit / chain.stiffness[stiff])
+    matrix = np.block([[np.diag(inertial / unit), -twisting.T], [twisting, -softness]])
+    alone, held = np.eye(len(matrix)), np.flatnonzero(chain.clamped)
+    matrix[held], matrix[last] = alone[held], alone[first]
     try:
-        solution = np.linalg.solve(matrix, right)
+        solution = np.linalg.solve(matrix, alone[last])
     except np.linalg.LinAlgError:
         raise ValueError("a branch is at resonance by itself") from None
-    angle, torque = solution[:count], inertial * solution[:count]
-    total, stiffness, twist = torque.copy(), np.zeros(count), np.zeros(count)
-    for carried, (child, parent, shaft, near, far) in zip(solution[count:], branches, strict=False):
-        total[child] = near * unit * carried
+    angle, carried = solution[:count], np.zeros(len(stiff))
+    carried[stiff] = unit * solution[count:]
+    total, stiffness = inertial * angle - incidence(chain).T @ carried, np.zeros(count)
+    for child, _, shaft, near, _ in branches:
+        total[child] = near * carried[shaft]
         stiffness[child] = near**2 * chain.stiffness[shaft]
-        twist[child] = total[child] / stiffness[child]
-        if parent == last:
-            total[last] -= far * unit * carried
-    return Holzer(angle, torque, total, stiffness, twist, float(total[last]))
+    twist = np.divide(total, stiffness, out=np.zeros(count), where=stiffness > 0)
+    return Holzer(angle, inertial * angle, total, stiffness, twist, float(total[last]))

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import cycle
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.vibration import Real
+from ..core.peaks import find_swing
+from ..core.vibration import Complex, Real
 from ..errors import BalcliError
 from ..show.plot_style import (
     BLUE,
@@ -27,6 +28,7 @@ from ..show.plot_style import (
 from ..show.sheet import number, order_name
 from ..show.units import SI, System
 from .answer import TorsionAnalysis
+from .motion import compute_curves
 from .response import TorsionResponse
 
 if TYPE_CHECKING:
@@ -39,6 +41,25 @@ _MOST_SHAFTS = 8  # whose torque is drawn: the largest
 _WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
 _MOST_ORDERS = 12  # that are named in a Campbell diagram
 _WORTH = 1e-3  # share of work from which a critical is drawn
+
+
+class _Curves(NamedTuple):
+    """Curves over the speeds and over those of their peaks: torques of shafts, then the swing of
+    the free end; `phasors` (orders, speeds, curves), `swings` half of peak to peak, SI.
+    """
+
+    rpm: Real
+    orders: Real
+    phasors: Complex
+    swings: Real
+
+
+def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curves:
+    peaks = [shaft.worst.speed_rpm for shaft in response.shafts]
+    peaks += [response.free_end_worst.speed_rpm]
+    rpm, orders = np.union1d(response.speeds_rpm, peaks), result.system.require_excitation().orders
+    phasors, _ = compute_curves(result.system, rpm)
+    return _Curves(rpm, orders, phasors, find_swing(orders, phasors).half)
 
 
 def make_torsion(
@@ -57,9 +78,8 @@ def make_torsion(
     with open_figure(5.6 * columns + 1.2 * (columns == 1), 4.1 * rows + 0.3) as fig:
         for place, draw in enumerate(parts, 1):
             draw(fig.add_subplot(rows, columns, place))
-        name = fit_name(result.name or "") or "shafts without a name"
         if titled:
-            put_title(fig, f"{name}: torsion")
+            put_title(fig, f"{fit_name(result.name or '') or 'shafts without a name'}: torsion")
         return fig
 
 
@@ -67,17 +87,19 @@ def _choose_parts(
     result: TorsionAnalysis, what: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
     """Yield a function for each picture of a page, as far as its figures were computed."""
-    response, shafts = result.response, result.system.shafts
     if what in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
         yield lambda ax: _draw_campbell(ax, result)
-    if response is not None and what in ("all", "response") and shafts:
-        yield lambda ax: _draw_torque(ax, result, response, system)
-    if response is not None and what == "response":
-        yield lambda ax: _draw_swing(ax, result, response)
-    if response is not None and what in ("all", "waterfall") and shafts:
-        yield lambda ax: _draw_waterfall(ax, response, system)
+    if result.response is None or what in ("modes", "campbell"):
+        return
+    curves = _compute_curves(result, result.response)
+    if what in ("all", "response") and result.shafts:
+        yield lambda ax: _draw_torque(ax, result, curves, system)
+    if what == "response":
+        yield lambda ax: _draw_swing(ax, result, curves)
+    if what in ("all", "waterfall") and result.shafts:
+        yield lambda ax: _draw_waterfall(ax, result, curves, system)
 
 
 def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
@@ -86,8 +108,8 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
     for mode, (line, colour) in zip(result.modes[:_MOST_MODES], MANY_LOOKS, strict=False):
         for start, end, stiffness in zip(chain.start, chain.end, chain.stiffness, strict=True):
             style = (0, (1, 2)) if np.isinf(stiffness) else line
-            angles = mode.shape[[start, end]]
-            ax.plot([start, end], angles, color=colour, linestyle=style, linewidth=1.4)
+            ends = [start, end]
+            ax.plot(ends, mode.shape[ends], color=colour, linestyle=style, linewidth=1.4)
         label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
         ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
         ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
@@ -120,10 +142,9 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            label = f"{number(mode.frequency_Hz, 4)} Hz"
-            ax.text(0.01 * top, mode.frequency_Hz, label, va="bottom", fontsize=7)
-    excitation = result.system.excitation
-    orders = [] if excitation is None else sorted({c.order for c in drawn}) or excitation.orders
+            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz, 4)} Hz"
+            ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
+    orders = sorted({c.order for c in drawn}) or result.orders or ()
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
     for order in orders:
         end = min(top, 60 * ceiling / order)
@@ -145,80 +166,64 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
         ax.axvspan(low, high, color=RED, alpha=0.12, linewidth=0)
 
 
-def _draw_torque(
-    ax: Axes, result: TorsionAnalysis, response: TorsionResponse, system: System
-) -> None:
+def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
     """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
-    with a diameter where the file limits it. Each curve includes its peak between the speeds.
+    with a diameter where the file limits it.
     """
-    limit, sections = result.system.limit_pa, result.system.sections
-    by_stress = any(sections) and limit is not None
-    curves = []  # shaft, by speed, largest
-    for shaft, section in zip(response.shafts, sections, strict=True):
-        torque, peak = shaft.half_peak_to_peak_Nm, shaft.worst.half_peak_to_peak_Nm
-        if not by_stress:
-            curves.append((shaft, torque, peak))
-        elif section is not None:
-            by_torque = section.stress_by_torque
-            curves.append((shaft, torque * by_torque, peak * by_torque))
-    least = sorted((peak for _, _, peak in curves), reverse=True)[:_MOST_SHAFTS][-1]
-    unit = (system.stress if by_stress else system.moment).fit(max(peak for _, _, peak in curves))
-    shown = [each for each in curves if each[2] >= least]
-    for (shaft, swings, peak), (line, colour) in zip(shown, cycle(MANY_LOOKS)):
-        rpm, swing = _put_in(response.speeds_rpm, swings, shaft.worst.speed_rpm, peak)
-        ax.plot(rpm, swing / unit.size, line, color=colour, label=fit_name(shaft.name, 22))
+    limit, stress = result.system.limit_pa, result.system.stress_by_torque
+    by_stress = limit is not None and any(stress)
+    by_torque: Real = stress if by_stress else np.ones(len(stress))
+    values = curves.swings[:, : len(by_torque)] * by_torque
+    peaks = values.max(axis=0)
+    unit = (system.stress if by_stress else system.moment).fit(peaks.max())
+    largest = np.argsort(-peaks, kind="stable")[:_MOST_SHAFTS]
+    shown = np.sort(largest[by_torque[largest] > 0]).tolist()
+    for k, (line, colour) in zip(shown, cycle(MANY_LOOKS), strict=False):
+        name = fit_name(result.shafts[k].name, 22)
+        ax.plot(curves.rpm, values[:, k] / unit.size, line, color=colour, label=name)
     if by_stress and limit is not None:
         ax.axhline(unit.of(limit), color=INK, linewidth=0.9, linestyle=(0, (1, 2)))
-    _finish(ax, response, unit.name)
-    ax.set_title("Vibratory stress" if by_stress else "Vibratory torque", pad=30)
-    put_legend_above(ax)
-    _shade_barred(ax, result)
+    _finish(ax, result, curves, "Vibratory stress" if by_stress else "Vibratory torque", unit.name)
 
 
-def _draw_swing(ax: Axes, result: TorsionAnalysis, response: TorsionResponse) -> None:
+def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:
     """Draw the half swing of the free end, and its largest orders."""
-    worst, speeds = response.free_end_worst, response.speeds_rpm
-    rpm, swing = _put_in(speeds, response.free_end_deg, worst.speed_rpm, worst.half_swing_deg)
-    _, swings = _put_in(speeds, response.swings_deg, worst.speed_rpm, response.worst_swings_deg)
-    ax.plot(rpm, swing, color=INK, label="added up in time")
-    largest = np.argsort(-swings.max(axis=1), kind="stable")[:5]
+    end = len(result.shafts)
+    amplitudes = np.degrees(np.abs(curves.phasors[:, :, end]))
+    ax.plot(curves.rpm, np.degrees(curves.swings[:, end]), color=INK, label="added up in time")
+    largest = np.argsort(-amplitudes.max(axis=1), kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
-        label = f"order {order_name(float(response.orders[k]))}"
-        ax.plot(rpm, swings[k], line, color=colour, linewidth=1, label=label)
-    _finish(ax, response, "deg")
-    ax.set_title(f"Half swing of {fit_name(result.system.free_end, 30)}", pad=30)
-    put_legend_above(ax, 3)
-    _shade_barred(ax, result)
+        label = f"order {order_name(float(curves.orders[k]))}"
+        ax.plot(curves.rpm, amplitudes[k], line, color=colour, linewidth=1, label=label)
+    title = f"Half swing of {fit_name(result.system.free_end, 30)}"
+    _finish(ax, result, curves, title, "deg", columns=3)
 
 
-def _put_in(rpm: Real, values: Real, peak_rpm: float, peak: Real | float) -> tuple[Real, Real]:
-    """Return speeds and values (..., speeds) with a peak inserted."""
-    k = int(np.searchsorted(rpm, peak_rpm))
-    return np.insert(rpm, k, peak_rpm), np.insert(values, k, peak, axis=-1)
-
-
-def _finish(ax: Axes, response: TorsionResponse, unit: str) -> None:
-    ax.set_xlim(float(response.speeds_rpm[0]), float(response.speeds_rpm[-1]) + 1e-9)
+def _finish(
+    ax: Axes, result: TorsionAnalysis, curves: _Curves, title: str, unit: str, columns: int = 4
+) -> None:
+    ax.set_xlim(float(curves.rpm[0]), float(curves.rpm[-1]) + 1e-9)
     ax.set_ylim(bottom=0)
     ax.set(xlabel="rpm", ylabel=f"± {unit}")
+    ax.set_title(title, pad=30)
+    put_legend_above(ax, columns)
+    _shade_barred(ax, result)
 
 
-def _draw_waterfall(ax: Axes, response: TorsionResponse, system: System) -> None:
+def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
     """Draw each order of the largest torque of a shaft as a stream up the speeds."""
-    shaft = max(response.shafts, key=lambda each: each.worst.half_peak_to_peak_Nm)
-    worst = [each.amplitude_Nm for each in shaft.worst.orders]
-    speeds = response.speeds_rpm
-    rpm, amplitudes = _put_in(speeds, shaft.amplitudes_Nm, shaft.worst.speed_rpm, np.array(worst))
-    gap = float(np.diff(response.orders).min()) if len(response.orders) > 1 else 1.0
-    half = _WIDEST * gap / 2 / (float(amplitudes.max()) or 1.0)
-    for order, sizes in zip(response.orders, amplitudes, strict=True):
+    shaft = int(curves.swings[:, : len(result.shafts)].max(axis=0).argmax())
+    amplitudes, orders = np.abs(curves.phasors[:, :, shaft]), curves.orders
+    most = float(amplitudes.max())
+    gap = float(np.diff(orders).min()) if len(orders) > 1 else 1.0
+    half = _WIDEST * gap / 2 / (most or 1.0)
+    for order, sizes in zip(orders, amplitudes, strict=True):
         left, right = order - half * sizes, order + half * sizes
         ax.axvline(order, color=FAINT, linewidth=0.5, zorder=0)
-        ax.fill_betweenx(rpm, left, right, color=BLUE, linewidth=0.4)
+        ax.fill_betweenx(curves.rpm, left, right, color=BLUE, linewidth=0.4)
     ax.set(xlabel="order", ylabel="rpm")
     ax.grid(visible=False, axis="x")
-    ax.set_xlim(0, float(response.orders[-1]) + gap)
-    unit = system.moment.fit(float(amplitudes.max()))
-    largest = f"{number(unit.of(float(amplitudes.max())), 3)} {unit.name}"
-    name = fit_name(shaft.name, 22)
+    ax.set_xlim(0, float(orders[-1]) + gap)
+    unit, name = system.moment.fit(most), fit_name(result.shafts[shaft].name, 22)
+    largest = f"{number(unit.of(most), 3)} {unit.name}"
     ax.set_title(f"Torque of {name} by order: width, at most {largest}")

@@ -15,43 +15,22 @@ from ..engine.load import EngineVariants, Values, choose_speeds, remember
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..file.read import change_figures
-from ..forces.quantity import Subject, TargetQuantity, parse_target_quantity, refuse_stranger
-from .build import build_engine_system, excite_engine
+from ..forces.quantity import TargetQuantity, refuse_stranger
+from .build import build_engine_system, excite_engine, require_torsion
 from .modes import find_chain_modes
-from .motion import stress_by_torque
-from .response import count_columns, find_largest
+from .response import find_largest
 from .system import Excitation, TorsionalSystem
 
 SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
-_SUBJECTS = {
-    "torsion": Subject("1", {"Hz": "Hz"}),
-    "shaft": Subject("flywheel", {"torque": "N·m", "stress": "Pa"}),
-}
-
-
-def parse_quantity(text: str) -> TargetQuantity:
-    """Return the quantity of a name such as `torsion.1.Hz`. Torque and stress of a shaft are the
-    largest half of peak to peak over a range of speeds.
-
-    Raises:
-        BalcliError: There is no such quantity; the error lists those there are.
-    """
-    found = parse_target_quantity(text, _SUBJECTS)
-    number = found.target
-    if found.kind == "torsion" and not (number.isascii() and number.isdigit() and int(number)):
-        raise BalcliError(
-            f"{text} is no quantity: after torsion comes the number of a mode, from 1"
-        )
-    return found
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities that a file has."""
     system = _build(model)
     yield from (f"torsion.{number}.Hz" for number, _ in enumerate(_find_frequencies(system), 1))
-    for shaft, section in zip(system.shafts, system.sections, strict=True):
+    for shaft, stress in zip(system.shafts, system.stress_by_torque, strict=True):
         yield f"shaft.{shaft}.torque"
-        if section is not None:
+        if stress:
             yield f"shaft.{shaft}.stress"
 
 
@@ -63,18 +42,15 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
         BalcliError: The quantity does not exist; the error lists those there are.
         InputError: contradictions in [torsion].
     """
-    if model.torsion is None:
-        raise BalcliError(
-            f"{quantities[0].name}: the file has no [torsion]; see balcli torsion --help"
-        )
+    require_torsion(model, quantities[0].name)
     system = _build(model)
-    modes = len(_find_frequencies(system))
+    modes = [str(number) for number, _ in enumerate(_find_frequencies(system), 1)]
     for q in quantities:
-        if q.kind == "torsion" and int(q.target) > modes:
-            raise BalcliError(f"{q.name}: there are {modes} modes")
+        if q.kind == "torsion" and q.target not in modes:
+            raise BalcliError(f"{q.name}: there are {len(modes)} modes")
         if q.kind == "shaft":
             refuse_stranger(q, system.shafts)
-        if q.part == "stress" and system.sections[system.shafts.index(q.target)] is None:
+        if q.part == "stress" and not system.stress_by_torque[system.shafts.index(q.target)]:
             raise BalcliError(f"{q.name}: this shaft has no diameter, so its stress is not known")
 
 
@@ -103,11 +79,18 @@ class Variants:
         )
         varied = change_figures(self._model, values, {"torsion"})
         system = build_engine_system(varied, engine, excitation)
-        frequencies = _find_frequencies(system)
-        speeds = choose_speeds(engine, values, choose_torsion_speeds)
-        largest = _find_largest(system, speeds, self._quantities)
+        frequencies, shafts = _find_frequencies(system), system.shafts
+        looked_at = {q.target for q in self._quantities if q.kind == "shaft"}
+        torques: Real = np.zeros(len(shafts))
+        if looked_at:
+            speeds = choose_speeds(engine, values, choose_torsion_speeds)
+            weights = np.isin(shafts, list(looked_at)).astype(float)
+            _, torques = find_largest(system, speeds, weights)
+        largest = {"torque": torques, "stress": torques[: len(shafts)] * system.stress_by_torque}
         return [
-            largest[q] if q.kind == "shaft" else float(frequencies[int(q.target) - 1])
+            float(frequencies[int(q.target) - 1])
+            if q.kind == "torsion"
+            else float(largest[q.part][shafts.index(q.target)])
             for q in self._quantities
         ]
 
@@ -116,21 +99,6 @@ def _find_frequencies(system: TorsionalSystem) -> Real:
     """Return the natural frequencies of the modes in which shafts twist, Hz, lowest first."""
     modes = find_chain_modes(system.chain)
     return np.asarray(modes.omega[modes.rigid :] / (2 * np.pi))
-
-
-def _find_largest(
-    system: TorsionalSystem, speeds: Real, quantities: Sequence[TargetQuantity]
-) -> dict[TargetQuantity, float]:
-    """Return torque and stress of shafts, those quantities that are one of them."""
-    places = {q: system.shafts.index(q.target) for q in quantities if q.kind == "shaft"}
-    if not places:
-        return {}
-    weights = np.isin(np.arange(count_columns(system)), list(places.values())).astype(float)
-    largest, by_torque = find_largest(system, speeds, weights).value, stress_by_torque(system)
-    return {
-        q: float(largest[shaft] * (by_torque[shaft] if q.part == "stress" else 1))
-        for q, shaft in places.items()
-    }
 
 
 def choose_torsion_speeds(engine: Engine) -> Real:

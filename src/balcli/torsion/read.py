@@ -57,28 +57,27 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
         name = node.get("name")
         if isinstance(name, str) and name in names[: k - 1]:
             yield Problem(f"node.{k}.name", f"{shorten(name)} is there twice; give each its own")
+    fixed = data.get("fixed", ())
+    named = [("fixed", name) for name in (fixed if isinstance(fixed, list) else ())]
     for key, ends in _ENDS.items():
         for k, table in _tables(data, key):
-            yield from _check_ends(f"{key}.{k}", table, ends, known)
-    fixed = data.get("fixed", ())
-    for name in fixed if isinstance(fixed, list) else ():
+            named += [(f"{key}.{k}.{end}", table.get(end)) for end in ends]
+            start, end = table.get("from"), table.get("to")
+            if isinstance(start, str) and start == end:
+                text = f"goes from {shorten(start)} to itself; it joins two nodes"
+                yield Problem(f"{key}.{k}", text)
+    for path, name in named:
         if isinstance(name, str) and name not in known:
-            yield Problem("fixed", _refuse_node(name, known))
+            yield Problem(path, refuse_node(name, known))
 
 
-def _check_ends(
-    path: str, table: Mapping[str, object], ends: Sequence[str], known: Sequence[str]
-) -> Iterator[Problem]:
-    named = [table.get(end) for end in ends]
-    for end, name in zip(ends, named, strict=True):
-        if isinstance(name, str) and name not in known:
-            yield Problem(f"{path}.{end}", _refuse_node(name, known))
-    if len(named) == 2 and isinstance(named[0], str) and named[0] == named[1]:
-        yield Problem(path, f"goes from {shorten(named[0])} to itself; it joins two nodes")
+def refuse_node(name: str, known: Sequence[str]) -> str:
+    """Return the message about a name that no node has.
 
-
-def _refuse_node(name: str, known: Sequence[str]) -> str:
-    """Return the mistake of a name that no node has."""
+    Args:
+        name: Name in the file.
+        known: Names of the nodes.
+    """
     listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
     return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
 

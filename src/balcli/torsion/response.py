@@ -1,61 +1,39 @@
 """Forced vibration at speeds: torque of every shaft, added up in time, with stress and heat; and
 the largest values over a range of speeds.
 
-Largest values between the given speeds are found as well. Speeds at which an order meets a damped
-resonance are added, and speeds half its width and its width away. Every peak at these speeds that
-may be the highest is then refined by halving the intervals next to it, and by the vertex of the
-parabola through it.
+Largest values between the given speeds are found as well. The speeds at which an order meets a
+damped resonance are added to the given ones, and those at which a mode alone would have half the
+power of its top. Every peak at these speeds that may be the highest is then approached.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from ..core.extrema import find_highest, find_peaks_between
 from ..core.peaks import find_swing, sum_amplitudes
 from ..core.phases import RPM
-from ..core.records import HIDDEN
-from ..core.vibration import ROUNDING, Complex, Real
+from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number
 from ..process import Tell, tell_nobody
 from .modes import find_poles
-from .motion import compute_curves, refuse_unbounded, stress_by_torque
+from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
-_SIDES = np.array([[-1], [-0.5], [0.5], [1]])  # of a resonance, in widths
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
 _WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_HIGH = 0.5  # of the largest: a resonance as high may have a higher top beside it
-_NEAR = 0.9  # of the largest value at the speeds looked at: a top beside them may exceed this
-_CLOSER = 0.3  # of the rest to the largest value, from round to round
-_ROUNDS = 7
-_FLAT = 1e-4  # share of a top by which it stands out: a flatter one is a parabola
-_FOUND = 1e-10  # share of a top by which the vertex of the parabola is above it
-
-
-class Largest(NamedTuple):
-    """The largest values over a range of speeds.
-
-    Attributes:
-        rpm: (columns,) speeds at which they occur; columns as of `find_largest`.
-        value: (columns,) the values.
-    """
-
-    rpm: Real
-    value: Real
+_NEAR = 0.9  # of the largest value at the speeds looked at: a peak beside them may exceed this
 
 
 def find_largest(
-    system: TorsionalSystem,
-    rpm: Real,
-    weights: Real | None = None,
-    known: Real | None = None,
-    *,
-    together: bool = False,
-) -> Largest:
-    """Return where each column is largest, and how large, between the first and last of the speeds.
+    system: TorsionalSystem, rpm: Real, weights: Real | None = None, *, together: bool = False
+) -> tuple[Real, Real]:
+    """Return where each column is largest, and how large, between the first and last of the speeds:
+    speeds (columns,), rpm, and values (columns,).
 
     The columns are half of peak to peak of the torque of each shaft (N m), half of the swing of the
     free end and of each pendulum (rad), and the heat of each damper (W).
@@ -63,52 +41,48 @@ def find_largest(
     Args:
         system: With an excitation.
         rpm: (speeds,) rising.
-        weights: (columns,) factor of each column; 0: it is not looked at. Default: 1.
-        known: (speeds, columns) values at these speeds, where they are known.
+        weights: Factors of the first columns; those without a factor, or with 0, are not looked
+            at. Default: 1 for all.
         together: whether only the highest of all columns is wanted, which takes less time.
 
     Raises:
         BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
-    columns = count_columns(system)
-    weights = np.ones(columns) if weights is None else weights
-    least = np.zeros(columns)
+    orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
+    parts = compute_in_parts(system, speeds)
+    heights = np.concatenate([np.append(sum_amplitudes(c), heat, axis=1) for c, heat in parts])
+    columns = np.arange(heights.shape[1])
+    weights = np.ones(len(columns)) if weights is None else weights
+    factors = np.pad(weights, (0, len(columns) - len(weights)))
 
-    def measure(some: Real) -> Real:
-        return _measure(system, some, weights, least, together=together)
+    def judge(at: Real, which: Indices) -> Real:
+        """Return the values at speeds, each of one of the columns."""
+        speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
+        rpm, point = np.unique(speeds, return_inverse=True)
+        phasors, heat = compute_curves(system, rpm)
+        values, count = np.zeros(len(speeds)), phasors.shape[2]
+        swings = column < count
+        curves = phasors[:, point[swings], column[swings]]
+        values[swings] = find_swing(orders, curves).half
+        values[~swings] = heat[point[~swings], column[~swings] - count]
+        return (values * factors[column]).reshape(at.shape)
 
-    speeds, values = rpm, measure(rpm) if known is None else known * weights
-    more, width = find_resonances(system, rpm)
-    for k in range(_ROUNDS):
-        sides = rpm[:0]
-        if len(more):
-            least = values.max(axis=0)
-            found = measure(more)
-            speeds, places = np.unique(np.append(speeds, more), return_index=True)
-            values = np.concatenate([values, found])[places]
-        if len(more) and k == 0:  # beside high resonances there may be higher tops
-            level = values.max() if together else values.max(axis=0)
-            high = np.any((found >= _HIGH * level) & (found > 0), axis=1)
-            sides = (more[high] + width[high] * _SIDES).ravel()
-            sides = sides[(sides > rpm[0]) & (sides < rpm[-1])]
-        near = 1 - (1 - _NEAR) * _CLOSER**k
-        more = np.append(sides, _approach_tops(speeds, values, near, together=together))
-    return Largest(speeds[values.argmax(axis=0)], values.max(axis=0))
-
-
-def count_columns(system: TorsionalSystem) -> int:
-    """Return the number of columns of `find_largest`."""
-    return len(system.shafts) + 1 + len(system.pendulums) + len(system.dampers)
+    heights *= factors  # the values are at most so high
+    level = judge(speeds[heights.argmax(axis=0)], columns)
+    least = _NEAR * (level.max() if together else level)
+    near = np.nonzero((heights > 0) & (heights >= least))
+    heights[near] = judge(speeds[near[0]], near[1])
+    level = heights.max() if together else heights.max(axis=0)
+    return find_highest(judge, speeds, heights, level, _NEAR)
 
 
-def find_resonances(system: TorsionalSystem, rpm: Real) -> tuple[Real, Real]:
-    """Return the speeds between the first and the last of a range at which an order meets a damped
-    resonance, and how wide it is there, rpm, (resonances,) each; without those so wide that the
-    speeds of the range show them.
+def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
+    """Return the speeds (rpm), and those about damped resonances which an order meets between them;
+    without resonances so wide that the speeds show them.
     """
     if len(rpm) == 1:
-        return rpm[:0], rpm[:0]
+        return rpm
     of_all = None if system.pendulums else find_poles(system)  # else they differ by order
     found = []
     for order in system.require_excitation().orders.tolist():
@@ -118,59 +92,11 @@ def find_resonances(system: TorsionalSystem, rpm: Real) -> tuple[Real, Real]:
     at, width = np.concatenate(found, axis=1)
     steps = np.diff(rpm)[np.clip(np.searchsorted(rpm, at) - 1, 0, len(rpm) - 2)]
     there = (at > rpm[0]) & (at < rpm[-1]) & (width < _WIDE * steps)
-    return at[there], width[there]
+    about = (at + width * _ABOUT)[:, there]
+    return np.unique(np.clip(np.append(rpm, about), rpm[0], rpm[-1]))
 
 
-def _measure(
-    system: TorsionalSystem, rpm: Real, weights: Real, least: Real, *, together: bool
-) -> Real:
-    """Return the columns (speeds, columns), weighted. A value that is clearly below the largest,
-    at these speeds or known of others (columns,), may be replaced by the sum of the amplitudes of
-    all orders: no curve swings farther.
-    """
-    phasors, heat = compute_curves(system, rpm)
-    count, orders = phasors.shape[2], system.require_excitation().orders
-    phasors = phasors * weights[:count]
-    found = sum_amplitudes(phasors)
-
-    def add_up(where: Real) -> None:
-        found[where] = find_swing(orders, phasors[:, where]).half
-
-    first = (np.arange(len(rpm))[:, None] == found.argmax(axis=0)) & (found > 0)
-    add_up(first)
-    level = np.maximum(least[:count], np.where(first, found, 0).max(axis=0))
-    add_up(~first & (found > 0) & (found >= _NEAR * (level.max() if together else level)))
-    return np.concatenate([found, heat * weights[count:]], axis=1)
-
-
-def _approach_tops(speeds: Real, values: Real, near: float, *, together: bool) -> Real:
-    """Return new speeds next to every peak of a column that is within a share of its highest: the
-    middles of both adjacent intervals, and the vertex of the parabola through the three speeds.
-    """
-    level = values.max() if together else values.max(axis=0)
-    padded = np.pad(values, ((1, 1), (0, 0)), constant_values=-1)
-    tops = (values >= padded[:-2]) & (values > padded[2:])
-    tops &= (values >= near * level) & (values > 0)
-    at, column = np.nonzero(tops)
-    at = np.clip(at, 1, max(len(speeds) - 2, 1))
-    if len(speeds) < 3 or not len(at):
-        return speeds[:0]
-    around = np.add(at, [[-1], [0], [1]])
-    (x0, x1, x2), (y0, y1, y2) = speeds[around], values[around, column]
-    before, after = (y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1)
-    bend = np.where(after < before, (after - before) / (x2 - x0), -np.inf)
-    vertex = np.clip((x0 + x1) / 2 - before / (2 * bend), x0, x2)
-    sharp = y1 - np.minimum(y0, y2) > _FLAT * y1
-    higher = -bend * (vertex - x1) ** 2 > _FOUND * y1
-    return np.unique(np.stack([x0 + x1, x1 + x2, 2 * vertex])[np.stack([sharp, sharp, higher])] / 2)
-
-
-_HALVINGS = 24  # of an interval of speeds in which a limit is passed
-_SAMPLES = 1 << 22  # of curves over a cycle: progress is reported after these
-
-
-@dataclass(frozen=True)
-class OrderTorque:
+class OrderTorque(NamedTuple):
     """Torque of one order.
 
     Attributes:
@@ -198,11 +124,6 @@ class WorstTorque:
     stress_Pa: float | None = None
     orders: tuple[OrderTorque, ...]
 
-    @property
-    def sum_of_amplitudes_Nm(self) -> float:
-        """Sum of the amplitudes of all orders."""
-        return sum(each.amplitude_Nm for each in self.orders)
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ShaftResponse:
@@ -214,7 +135,6 @@ class ShaftResponse:
         sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
         stress_Pa: Stress by half of peak to peak, by speed; left out without a diameter.
         worst: Largest torque over the range of speeds.
-        amplitudes_Nm: Torque by order and speed.
     """
 
     name: str
@@ -222,11 +142,9 @@ class ShaftResponse:
     sum_of_amplitudes_Nm: Real
     stress_Pa: Real | None = None
     worst: WorstTorque
-    amplitudes_Nm: Annotated[Real, HIDDEN]
 
 
-@dataclass(frozen=True)
-class WorstSwing:
+class WorstSwing(NamedTuple):
     """Largest swing over the range of speeds, between the speeds as well.
 
     Attributes:
@@ -238,8 +156,7 @@ class WorstSwing:
     half_swing_deg: float
 
 
-@dataclass(frozen=True)
-class WorstHeat:
+class WorstHeat(NamedTuple):
     """Largest power that a damper turns to heat, over the range of speeds.
 
     Attributes:
@@ -251,8 +168,7 @@ class WorstHeat:
     heat_W: float
 
 
-@dataclass(frozen=True, eq=False)
-class DamperHeat:
+class DamperHeat(NamedTuple):
     """Power that a damper turns to heat.
 
     Attributes:
@@ -266,8 +182,7 @@ class DamperHeat:
     worst: WorstHeat
 
 
-@dataclass(frozen=True, eq=False)
-class PendulumSwing:
+class PendulumSwing(NamedTuple):
     """Swing of pendulums against their node.
 
     Attributes:
@@ -292,9 +207,6 @@ class TorsionResponse:
         free_end_worst: Largest swing of the free end.
         dampers: Heat of dampers, rings in oil first; left out without any.
         pendulums: Swing of pendulums; left out without any.
-        orders: Orders of the excitation.
-        swings_deg: Amplitude of the free end by order and speed.
-        worst_swings_deg: Amplitude of the free end by order, where it swings most.
     """
 
     speeds_rpm: Real
@@ -303,9 +215,6 @@ class TorsionResponse:
     free_end_worst: WorstSwing
     dampers: tuple[DamperHeat, ...] | None = None
     pendulums: tuple[PendulumSwing, ...] | None = None
-    orders: Annotated[Real, HIDDEN]
-    swings_deg: Annotated[Real, HIDDEN]
-    worst_swings_deg: Annotated[Real, HIDDEN]
 
 
 def find_response(
@@ -322,74 +231,55 @@ def find_response(
         BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
-    orders = system.require_excitation().orders
-    phasors, heat = compute_curves(system, speeds_rpm)
-    swings = _add_up(orders, phasors, tell)
-    largest = find_largest(system, speeds_rpm, known=np.concatenate([swings, heat], axis=1))
-    at, value = largest.rpm.tolist(), largest.value.tolist()
-    end = len(system.shafts)
-    there, _ = compute_curves(system, largest.rpm[: end + 1])
-    by_order = np.abs(there[:, range(end + 1), range(end + 1)])  # of each curve where it is largest
-    named_orders = list(map(order_number, orders.tolist()))
+    orders, end = system.require_excitation().orders, len(system.shafts)
+    found = []
+    for phasors, lost in compute_in_parts(system, speeds_rpm):
+        found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
+        tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
+    swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
+    at, value = find_largest(system, speeds_rpm)
+    there, _ = compute_curves(system, at[:end])
+    by_order = np.abs(there[:, range(end), range(end)])  # of each shaft where it is largest
+    named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
     shafts = []
     for k, name in enumerate(system.shafts):
-        by_torque = None if (section := system.sections[k]) is None else section.stress_by_torque
-        amplitudes = np.abs(phasors[:, :, k])
         worst = WorstTorque(
-            speed_rpm=at[k],
-            half_peak_to_peak_Nm=value[k],
-            stress_Pa=None if by_torque is None else value[k] * by_torque,
+            speed_rpm=float(at[k]),
+            half_peak_to_peak_Nm=float(value[k]),
+            stress_Pa=float(value[k] * stress[k]) if stress[k] else None,
             orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
         )
         shaft = ShaftResponse(
             name=name,
             half_peak_to_peak_Nm=swings[:, k],
-            sum_of_amplitudes_Nm=amplitudes.sum(axis=0),
-            stress_Pa=None if by_torque is None else swings[:, k] * by_torque,
+            sum_of_amplitudes_Nm=sums[:, k],
+            stress_Pa=swings[:, k] * stress[k] if stress[k] else None,
             worst=worst,
-            amplitudes_Nm=amplitudes,
         )
         shafts.append(shaft)
-
-    worst_swings = list(map(WorstSwing, at, np.degrees(largest.value).tolist()))
+    degrees = np.degrees(swings)
+    worst_swings = list(map(WorstSwing, at.tolist(), np.degrees(value).tolist()))
     pendulums = tuple(
-        PendulumSwing(system.nodes[each.node], np.degrees(swings[:, k]), worst_swings[k])
+        PendulumSwing(system.nodes[each.node], degrees[:, k], worst_swings[k])
         for k, each in enumerate(system.pendulums, end + 1)
     )
-    worst_heat = list(map(WorstHeat, at, value))[swings.shape[1] :]
+    worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
     names = (name.removesuffix(" ring") for name in system.dampers)
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
         shafts=tuple(shafts),
-        free_end_deg=np.degrees(swings[:, end]),
+        free_end_deg=degrees[:, end],
         free_end_worst=worst_swings[end],
         dampers=dampers or None,
         pendulums=pendulums or None,
-        orders=orders,
-        swings_deg=np.degrees(np.abs(phasors[:, :, end])),
-        worst_swings_deg=np.degrees(by_order[:, end]),
     )
-
-
-def _add_up(orders: Real, phasors: Complex, tell: Tell) -> Real:
-    """Return half of peak to peak (speeds, curves) of phasors (orders, speeds, curves)."""
-    speeds, curves = phasors.shape[1:]
-    step = max(int(_SAMPLES / (curves * 32 * orders.max())), 1)
-    found = np.zeros((speeds, curves))
-    for start in range(0, speeds, step):
-        some = slice(start, min(start + step, speeds))
-        found[some] = find_swing(orders, phasors[:, some]).half
-        tell(some.stop / speeds)
-    return found
 
 
 # ------------------------------------------------------------------ barred speeds
 _FINE = 0.003  # of a speed: steps in which a range is looked through for barred speeds
 _CLOSE = 0.9  # of a limit: a top or valley so near to it at these speeds may pass it between them
-_GOLDEN = (5**0.5 - 1) / 2
-_NARROWINGS = 26  # by the golden section: of 0.6 % of a speed 2e-8 is left
-_AT_ONCE = 256  # speeds
+_HALVINGS = 24  # of an interval of speeds in which a limit is passed
 
 
 def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:
@@ -401,7 +291,7 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     points of peaks below a limit and the lowest points of valleys above it. The ends of a barred
     range are found by halving.
     """
-    stress = np.nan_to_num(stress_by_torque(system)) / (system.limit_pa or np.inf)
+    stress = system.stress_by_torque / (system.limit_pa or np.inf)
     weights = np.append(stress, 1 / (system.angle_limit or np.inf))
     if not weights.any():
         return None
@@ -409,32 +299,29 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
 
     def measure(some: Real) -> Real:
         """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
-        found = np.zeros(len(some))
-        for start in range(0, len(some), _AT_ONCE):
-            part = slice(start, start + _AT_ONCE)
-            curves = compute_curves(system, some[part])[0][:, :, : len(weights)] * weights
+        found = []
+        for phasors, _ in compute_in_parts(system, some):
+            curves = phasors[:, :, : len(weights)] * weights
             speed, curve = np.nonzero(sum_amplitudes(curves) > _CLOSE)
-            if len(speed):
-                half = find_swing(orders, curves[:, speed, curve]).half
-                np.maximum.at(found[part], speed, half)
-        return found
+            highest = np.zeros(curves.shape[1])
+            np.maximum.at(highest, speed, find_swing(orders, curves[:, speed, curve]).half)
+            found.append(highest)
+        return np.concatenate(found)
+
+    def judge(at: Real, which: Indices) -> Real:
+        return measure(at.ravel()).reshape(at.shape) * sign[which]
 
     steps = max(math.ceil(math.log(rpm[-1] / rpm[0]) / _FINE), 1) if len(rpm) > 1 else 0
-    grid = np.geomspace(rpm[0], rpm[-1], steps + 1)
-    at, width = find_resonances(system, grid)
-    speeds = np.unique(np.clip([*grid, *at, *(at + width * _SIDES).ravel()], rpm[0], rpm[-1]))
+    speeds = _add_resonances(system, np.geomspace(rpm[0], rpm[-1], steps + 1))
     values = measure(speeds)
     inner, before, after = values[1:-1], values[:-2], values[2:]
-    tops = (inner >= before) & (inner >= after) & (inner > _CLOSE) & (inner <= 1)
-    valleys = (inner <= before) & (inner <= after) & (inner > 1) & (inner < 1 / _CLOSE)
-    places = np.flatnonzero(tops | valleys)
-    sign = np.where(tops[places], 1, -1)
-    low, high = speeds[places], speeds[places + 2]
-    for _ in range(_NARROWINGS if len(places) else 0):
-        left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        upward = sign * (measure(right) - measure(left)) > 0
-        low, high = np.where(upward, left, low), np.where(upward, high, right)
-    speeds = np.unique(np.append(speeds, (low + high) / 2))
+    sign = np.where(inner <= 1, 1, -1)  # tops below the limit, valleys above it
+    turns = np.all(sign * (inner - np.stack([before, after])) >= 0, axis=0)
+    places = np.flatnonzero(turns & (inner > _CLOSE) & (inner < 1 / _CLOSE))
+    if len(places):
+        sign, each = sign[places], np.arange(len(places))
+        found, _ = find_peaks_between(judge, speeds[places], speeds[places + 2], each)
+        speeds = np.unique(np.append(speeds, found))
     above = measure(speeds) > 1
     changes = np.flatnonzero(above[1:] != above[:-1])
     low, high, upward = speeds[changes], speeds[changes + 1], above[changes + 1]

@@ -18,13 +18,13 @@ from ..show.formats import Renderer
 from ..show.sheet import Facts, Grid, Sheet, Text, assumed_facts, number, order_name, size_text
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
-from .dampers import DAMPER_KEYS, SizedDamper
+from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import ShaftResponse, TorsionResponse
-from .system import Excitation, TorsionalSystem
+from .system import TorsionalSystem
 
 _MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
 _MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
-_MOST_BARE = 8  # shafts without a diameter that are named
+_MOST_LISTED = 8  # orders of the excitation, shafts without a diameter
 _MOST_ORDERS = 3  # of a shaft's torque, named with it
 
 
@@ -33,19 +33,19 @@ class Line(NamedTuple):
     """A line of the CSV of a torsional system; None is an empty cell."""
 
     part: str
-    number: int | None
-    speed_rpm: float | None
-    order: float | None
-    name: str
-    figure: str
-    value: float | bool | str | None
-    unit: str
+    number: float | None = None
+    speed_rpm: float | None = None
+    order: float | None = None
+    name: str = ""
+    figure: str = ""
+    value: float | bool | str | None = None
+    unit: str = ""
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
     """Return CSV: one figure a row."""
-    lines, units = _list_lines(to_document(result)), _choose_units(system)
-    return Rows(Line._fields, lines if system == SI else (_convert(line, units) for line in lines))
+    units = {} if system == SI else _choose_units(system)
+    return Rows(Line._fields, (_convert(line, units) for line in _list_lines(to_document(result))))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
@@ -70,123 +70,95 @@ def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
     return line._replace(value=unit.of(line.value) + 0.0, unit=unit.name)
 
 
-def _put(
-    part: str,
-    figures: Iterable[Figure],
-    name: str = "",
-    *,
-    number: int | None = None,
-    speed: float | None = None,
-    order: float | None = None,
-) -> Iterator[Line]:
-    """Yield lines of CSV: the leading cells, and one of the figures."""
+def _put(head: Line, figures: Iterable[Figure]) -> Iterator[Line]:
+    """Yield a line of CSV for each of the figures, with the leading cells of `head`."""
+    head = head._replace(name=name_cell(head.name))
     for each in figures:
-        called = remove_unit(each.name)
-        yield Line(part, number, speed, order, name_cell(name), called, each.value, each.unit)
+        yield head._replace(figure=remove_unit(each.name), value=each.value, unit=each.unit)
 
 
 def _list_lines(found: Node) -> Iterator[Line]:
     """Yield the lines of CSV in their order."""
     for key in ("no_gas_in", "no_burning_in"):
         if key in found:
-            yield from _put("engine", [Figure(key, " ".join(map(str, found[key])), "")])
+            yield Line("engine", figure=key, value=" ".join(map(str, found[key])))
     for part in ("node", "shaft"):
         for each in found[f"{part}s"]:
-            yield from _put(part, list_figures(each, ("name",)), each["name"])
+            yield from _put(Line(part, name=each["name"]), list_figures(each, ("name",)))
     for k, mode in enumerate(found["modes"], 1):
-        yield from _put("mode", list_figures(mode), number=k)
+        yield from _put(Line("mode", k), list_figures(mode))
         for node, angle in zip(found["nodes"], mode["shape"], strict=True):
-            yield from _put("mode", [Figure("angle", angle, "")], node["name"], number=k)
+            yield from _put(Line("mode", k, name=node["name"]), [Figure("angle", angle, "")])
     for each in found.get("criticals", ()):
-        figures = list_figures(each, ("mode", "order", "speed_rpm"))
-        where = {"number": each["mode"], "speed": each["speed_rpm"], "order": each["order"]}
-        yield from _put("critical", figures, **where)
+        where = ("mode", "speed_rpm", "order")
+        head = Line("critical", *(each[key] for key in where))
+        yield from _put(head, list_figures(each, where))
     yield from _list_extras(found)
 
 
 def _list_extras(found: Node) -> Iterator[Line]:
-    """Yield the lines of further requested parts: Holzer's tables, response, damper."""
+    """Yield the lines of further requested parts: Holzer's tables, damper, response."""
     for k, table in enumerate(found.get("holzer", ()), 1):
         *frequency, residual = list_figures(table, ("mode", "rows"))
-        yield from _put("holzer", frequency, number=k)
+        yield from _put(Line("holzer", k), frequency)
         for row in table["rows"]:
-            yield from _put("holzer", list_figures(row, ("node",)), row["node"], number=k)
-        yield from _put("holzer", [residual], number=k)
+            yield from _put(Line("holzer", k, name=row["node"]), list_figures(row, ("node",)))
+        yield from _put(Line("holzer", k), [residual])
     if damper := found.get("damper"):
-        yield from _put("damper", list_figures(damper, ("node", "kind")), damper["node"])
-    if response := found.get("response"):
-        yield from _list_response(response)
-        yield from _list_worst(response)
+        figures = list_figures(damper, ("node", "kind"))
+        yield from _put(Line("damper", name=damper["node"]), figures)
+    yield from _list_response(found.get("response", {}))
     for k, ends in enumerate(found.get("barred_rpm", ()), 1):
-        pairs = zip(("from", "to"), ends, strict=True)
-        yield from _put("barred", [Figure(key, end, "rpm") for key, end in pairs], number=k)
+        for key, end in zip(("from", "to"), ends, strict=True):
+            yield Line("barred", k, figure=key, value=end, unit="rpm")
 
 
 def _list_response(response: Node) -> Iterator[Line]:
-    """Yield the lines at every speed."""
-    for s, speed in enumerate(response["speeds_rpm"]):
-        for shaft in response["shafts"]:
-            yield from _put("response", list_series(shaft, s), shaft["name"], speed=speed)
-        swing = Figure("free_end", response["free_end_deg"][s], "deg")
-        yield from _put("response", [swing], speed=speed)
-        for each in response.get("dampers", ()):
-            yield from _put("response", list_series(each, s), each["node"], speed=speed)
-        for each in response.get("pendulums", ()):
+    """Yield the lines at every speed, then those of the largest values over all speeds."""
+    shafts, dampers = response.get("shafts", ()), response.get("dampers", ())
+    pendulums = response.get("pendulums", ())
+    for s, speed in enumerate(response.get("speeds_rpm", ())):
+        head = Line("response", speed_rpm=speed)
+        for shaft in shafts:
+            yield from _put(head._replace(name=shaft["name"]), list_series(shaft, s))
+        yield from _put(head, [Figure("free_end", response["free_end_deg"][s], "deg")])
+        for each in dampers:
+            yield from _put(head._replace(name=each["node"]), list_series(each, s))
+        for each in pendulums:
             swing = Figure("pendulums", each["half_swing_deg"][s], "deg")
-            yield from _put("response", [swing], each["node"], speed=speed)
-
-
-def _list_worst(response: Node) -> Iterator[Line]:
-    """Yield the lines of the largest values over all speeds."""
-    for shaft in response["shafts"]:
-        worst, name, speed = shaft["worst"], shaft["name"], shaft["worst"]["speed_rpm"]
-        yield from _put("worst", list_figures(worst, ("speed_rpm", "orders")), name, speed=speed)
-        for each in worst["orders"]:
-            figures = list_figures(each, ("order",))
-            yield from _put("worst", figures, name, speed=speed, order=each["order"])
-    for each in response.get("dampers", ()):
-        heat, speed = list_figures(each["worst"], ("speed_rpm",)), each["worst"]["speed_rpm"]
-        yield from _put("worst", heat, each["node"], speed=speed)
-    swings = [("pendulums", each["node"], each["worst"]) for each in response.get("pendulums", ())]
-    for key, name, worst in (*swings, ("free_end", "", response["free_end_worst"])):
-        swing = Figure(key, worst["half_swing_deg"], "deg")
-        yield from _put("worst", [swing], name, speed=worst["speed_rpm"])
+            yield from _put(head._replace(name=each["node"]), [swing])
+    for each in (*shafts, *dampers):
+        worst = each["worst"]
+        head = Line("worst", None, worst["speed_rpm"], name=each.get("name") or each["node"])
+        yield from _put(head, list_figures(worst, ("speed_rpm", "orders")))
+        for one in worst.get("orders", ()):
+            yield from _put(head._replace(order=one["order"]), list_figures(one, ("order",)))
+    swings = [("pendulums", each["node"], each["worst"]) for each in pendulums]
+    swings += [("free_end", "", response["free_end_worst"])] if response else []
+    for key, name, worst in swings:
+        head = Line("worst", None, worst["speed_rpm"], name=name)
+        yield from _put(head, [Figure(key, worst["half_swing_deg"], "deg")])
 
 
 # ------------------------------------------------------------------ for people
 def sheet(result: TorsionAnalysis, system: System) -> Sheet:
     """Return the sheet: modes first, then the requested parts."""
-    parts: list[Grid | Facts | Text] = []
-    if silent := list_silent(result.system.silent):
-        parts.append(Facts(tuple(silent)))
+    silent = tuple(list_silent(result.system.silent))
+    parts: list[Grid | Facts | Text] = [Facts(silent)] if silent else []
     parts += assumed_facts(result.assumed)
     if result.damper is not None:
         parts.append(_show_damper(result.damper, system))
     parts += [_show_modes(result), _show_shapes(result, system)]
-    excitation = result.system.excitation
-    if result.modes and excitation is not None and len(excitation.orders):
-        parts.append(_show_criticals(result, excitation))
+    if result.modes and result.orders:
+        parts.append(_show_criticals(result))
     parts += [_show_holzer(result, table, system) for table in result.holzer or ()]
     if result.response is not None:
         parts.append(_show_response(result, result.response, system))
         if limits := tuple(_judge_limits(result, system)):
             parts.append(Facts(limits, "Limits"))
-    return Sheet(f"{_name(result)}: torsion", tuple(parts))
+    return Sheet(f"{result.name or 'shafts without a name'}: torsion", tuple(parts))
 
 
-def _name(result: TorsionAnalysis) -> str:
-    return result.name or "shafts without a name"
-
-
-_DAMPER_LABELS = {
-    "inertia": "ring",
-    "damping": "damping",
-    "stiffness": "stiffness",
-    "loss": "loss factor",
-    "mass": "pendulums, in all",
-    "radius": "hung up at a radius of",
-    "length": "length to the centre of mass",
-}
 _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
@@ -197,16 +169,16 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
     units = _choose_units(system)
     units["kg m2"] = _RING if system == SI else system.inertia
     pairs = [("on", sized.node)]
-    for key, (name, size) in DAMPER_KEYS.items():
+    for key, (name, size, label) in DAMPER_KEYS.items():
         if (value := getattr(sized, name)) is None:
             continue
         (figure,) = list_figures({name: value})
         shown = units.get(figure.unit, ShownUnit("", 1)).fit(value)
         text = size_text(value, shown, 6).rstrip()
-        if key == sized.figure:
+        if key == FIGURES[sized.kind]:
             alone = number(shown.of(sized.start / size))
             text += f" (best for mode {sized.mode} alone: {alone})"
-        pairs.append((_DAMPER_LABELS[key], text))
+        pairs.append((label, text))
     for when, size in (("none there", sized.before), ("it", sized.after)):
         text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
         pairs.append((f"largest {sized.measure} with {when}", text))
@@ -230,8 +202,7 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
         for mode in result.modes
     )
     note = "Node in: the shafts whose ends turn against each other."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}."
+    note += _name_left_out(result.system, ".")
     heads = ("mode", "Hz", "1/min", "nodes", "node in")
     return Grid("Natural modes", heads, rows, note, words=(0, 4))
 
@@ -252,12 +223,13 @@ def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
     return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
 
 
-def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | Text:
+def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
     span = "" if result.response is None else f", {_name_span(result.response.speeds_rpm)}"
-    title, scope = f"Critical speeds{span}", _name_scope(result, excitation)
+    title, scope = f"Critical speeds{span}", _name_scope(result)
     criticals = result.criticals or ()
     if not criticals:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
+    shown = [each for each in criticals if each.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
     rows = tuple(
         (
             str(each.mode),
@@ -266,44 +238,35 @@ def _show_criticals(result: TorsionAnalysis, excitation: Excitation) -> Grid | T
             number(each.phase_sum, 4),
             f"{each.work_share:.1%}",
         )
-        for each in [one for one in criticals if one.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
+        for each in shown
     )
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
-    if len(criticals) > len(rows):
-        note += f" JSON has {len(criticals) - len(rows)} more."
+    if left := len(criticals) - len(shown):
+        note += f" JSON has {left} more."
     return Grid(title, ("mode", "order", "rpm", "phase sum", "share"), rows, note)
 
 
-def _name_scope(result: TorsionAnalysis, excitation: Excitation) -> str:
+def _name_scope(result: TorsionAnalysis) -> str:
     """Return which orders, speeds, dampers and torques critical speeds are of."""
-    rated = result.system.rated_rpm
-    note = f"Included: {_list_runs(excitation.orders)}."
-    if left_out := _list_left_out(result.system):
-        note += f" Without {left_out}, which shift them."
+    rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
+    note += _name_left_out(result.system, ", which shift them.")
     if result.response is not None:
         return note
     note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
-    return note + _name_gas(excitation)
+    return note + _name_gas(result)
 
 
-def _list_runs(orders: Real) -> str:
-    """Return orders in words: "orders 1 to 9, 12"; with halves "orders ½ to 6 in steps of ½, 9"."""
-    step = 1.0 if np.all(orders % 1 == 0) else 0.5
-    runs = np.split(orders, np.flatnonzero(np.abs(np.diff(orders) - step) > 1e-9) + 1)
-    halves = " in steps of ½" * (step < 1)
-    parts = [
-        f"{order_name(float(run[0]))} to {order_name(float(run[-1]))}{halves}"
-        if len(run) > 2
-        else ", ".join(order_name(float(each)) for each in run)
-        for run in runs
-    ]
-    return f"order{'s' * (len(orders) > 1)} {', '.join(parts)}"
+def _list_orders(orders: Sequence[float]) -> str:
+    """Return a few orders by name, of many the first and the last."""
+    if len(orders) > _MOST_LISTED:
+        return f"{len(orders)} orders, {order_name(orders[0])} to {order_name(orders[-1])}"
+    return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
 
 
-def _list_left_out(system: TorsionalSystem) -> str:
+def _name_left_out(system: TorsionalSystem, end: str) -> str:
     """Return the dampers that modes and criticals are without."""
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
-    return " and ".join(dampers)
+    return f" Without {' and '.join(dampers)}{end}" if dampers else ""
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
@@ -318,8 +281,8 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
             number(_settle(row.angle, angles), 6),
             number(unit.of(_settle(row.torque_Nm, torques))),
             number(unit.of(_settle(row.sum_Nm, torques))),
-            _show_stiffness(stiffness.of(row.stiffness_Nm_per_rad)),
-            number(row.twist, 4) if row.stiffness_Nm_per_rad else "–",
+            number(stiffness.of(row.stiffness_Nm_per_rad or math.nan)).replace("inf", "rigid"),
+            number(row.twist if row.stiffness_Nm_per_rad else math.nan, 4),
         )
         for row in table.rows
     )
@@ -336,10 +299,6 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     )
 
 
-def _show_stiffness(value: float) -> str:
-    return "rigid" if math.isinf(value) else number(value) if value else "–"
-
-
 def _settle(value: float, others: Sequence[float]) -> float:
     """Return an angle or torque, 0 where it is a rounding error of others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
@@ -348,39 +307,30 @@ def _settle(value: float, others: Sequence[float]) -> float:
 def _show_response(
     result: TorsionAnalysis, response: TorsionResponse, system: System
 ) -> Grid | Text:
-    span, swings = _name_span(response.speeds_rpm), _describe_swings(result, response)
+    span, worst = _name_span(response.speeds_rpm), _describe_worst(result, response, system)
     if not response.shafts:
-        return Text(f"Vibration, {span}", (swings,))
-    unit = system.moment.fit(max(shaft.worst.sum_of_amplitudes_Nm for shaft in response.shafts))
-    stress, stressed = system.stress.fit(0.0), any(result.system.sections)
+        return Text(f"Vibration, {span}", (worst,))
+    sums = [sum(each.amplitude_Nm for each in s.worst.orders) for s in response.shafts]
+    unit = system.moment.fit(max(sums))
+    stress, stressed = system.stress.fit(0.0), any(result.system.stress_by_torque)
     rows = []
-    for shaft in response.shafts:
-        worst = shaft.worst
+    for shaft, total in zip(response.shafts, sums, strict=True):
+        most = shaft.worst
+        known = math.nan if most.stress_Pa is None else most.stress_Pa
         cells = [
             shaft.name,
-            number(unit.of(worst.half_peak_to_peak_Nm)),
-            number(worst.speed_rpm),
-            number(unit.of(worst.sum_of_amplitudes_Nm)),
+            number(unit.of(most.half_peak_to_peak_Nm)),
+            number(most.speed_rpm),
+            number(unit.of(total)),
+            *[number(stress.of(known), 4)] * stressed,
         ]
-        if stressed:
-            cells.append(
-                number(stress.of(math.nan if worst.stress_Pa is None else worst.stress_Pa), 4)
-            )
         rows.append((*cells, _name_orders(shaft, unit)))
     heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
     heads += [*[stress.name] * stressed, "largest orders"]
     note = (
         "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {swings}"
+        f"do not peak together. {worst}{_name_gas(result, ' Gas as in the file at every speed.')}"
     )
-    if excitation := result.system.excitation:
-        note += _name_gas(excitation, " Gas as in the file at every speed.")
-    for damper in response.dampers or ():
-        note += (
-            f" The damper of {damper.node} turns up to "
-            f"{size_text(damper.worst.heat_W, system.heat)} to heat, at "
-            f"{number(damper.worst.speed_rpm)} rpm."
-        )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
 
@@ -390,23 +340,24 @@ def _name_span(ends: Sequence[float] | Real) -> str:
     return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
 
 
-def _name_gas(excitation: Excitation, where_counted: str = "") -> str:
+def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
     """Return how far the gas of an engine counts; nothing of a chain."""
-    if not excitation.growing.any():
+    excitation = result.system.excitation
+    if excitation is None or not excitation.growing.any():
         return ""
     alone = " Inertia only; gas torque is not included."
     return where_counted if excitation.steady.any() else alone
 
 
-def _describe_swings(result: TorsionAnalysis, response: TorsionResponse) -> str:
-    """Return the largest swing of the free end and of pendulums, and where."""
-    parts = [(result.system.free_end, "swings", response.free_end_worst)]
-    for each in response.pendulums or ():
-        parts.append((f"The pendulums of {each.node}", "swing", each.worst))
-    return " ".join(
-        f"{name} {verb} by ±{number(worst.half_swing_deg, 4)} deg at {number(worst.speed_rpm)} rpm."
-        for name, verb, worst in parts
-    )
+def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
+    """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
+    swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
+    swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
+    parts = [(f"{what} by ±{number(w.half_swing_deg, 4)} deg", w.speed_rpm) for what, w in swings]
+    for each in response.dampers or ():
+        heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
+        parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))
+    return " ".join(f"{what} at {number(speed)} rpm." for what, speed in parts)
 
 
 def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
@@ -424,21 +375,18 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
     system, limits, bare = result.system, [], []
     if system.limit_pa is not None:
         limits.append(size_text(system.limit_pa, units.stress, None))
-        each = zip(system.shafts, system.sections, system.chain.stiffness, strict=True)
+        each = zip(system.shafts, system.stress_by_torque, system.chain.stiffness, strict=True)
         rings = system.nodes[system.last + 1 :]  # rubber has no section
-        bare = [s for s, section, k in each if not section and math.isfinite(k) and s not in rings]
+        bare = [s for s, stress, k in each if not stress and math.isfinite(k) and s not in rings]
     if system.angle_limit is not None:
         limits.append(f"±{number(math.degrees(system.angle_limit))} deg at {system.free_end}")
     if limits:
         yield "limit", " and ".join(limits)
     if result.barred_rpm is not None:
-        text = ", ".join(map(_name_span, result.barred_rpm)) or "none in this range"
-        own = system.rated_rpm or 0.0
-        if any(low <= own <= high for low, high in result.barred_rpm):
-            text += f"; the file's own speed, {number(own)} rpm, is barred"
-        yield "barred speeds", text
+        spans = ", ".join(map(_name_span, result.barred_rpm))
+        yield "barred speeds", spans or "none in this range"
     if bare:
-        named = ", ".join(bare[:_MOST_BARE]) + ", ..." * (len(bare) > _MOST_BARE)
+        named = ", ".join(bare[:_MOST_LISTED]) + ", ..." * (len(bare) > _MOST_LISTED)
         yield "not checked", f"{named}: no diameter, so the stress is not known"
 
 

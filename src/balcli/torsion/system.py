@@ -4,9 +4,8 @@ and orders are those of its reference, the crankshaft or the first node of a cha
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -15,18 +14,6 @@ from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
-
-
-class ShaftSection(NamedTuple):
-    """Outer and inner diameter of a shaft, m."""
-
-    outer: float
-    inner: float = 0.0
-
-    @property
-    def stress_by_torque(self) -> float:
-        """Shear stress at the surface in Pa for 1 N m: `16 D/(pi (D^4 - d^4))`."""
-        return 16 * self.outer / (pi * (self.outer**4 - self.inner**4))
 
 
 class ViscousRing(NamedTuple):
@@ -66,10 +53,6 @@ class Excitation(NamedTuple):
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
-    def on_nodes(self, speeds: Real, count: int) -> Complex:
-        """Return the torques added up node by node, (orders, speeds, nodes)."""
-        return self.at(speeds) @ np.equal.outer(self.nodes, np.arange(count))
-
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
@@ -86,7 +69,7 @@ class TorsionalSystem:
         shafts: Names of the chain's shafts.
         chain: Inertias and shafts; a rubber ring is a node of it.
         damping: Losses of shafts and nodes.
-        sections: Sections of the shafts where diameters are given.
+        stress_by_torque: (shafts,) shear stress at the surface for 1 N m, Pa; 0 without a diameter.
         rings, pendulums: Dampers that are no nodes.
         excitation: Torques by order; None: no excitation.
         limit_pa: Stress above which a speed is barred.
@@ -106,7 +89,7 @@ class TorsionalSystem:
     shafts: tuple[str, ...]
     chain: Chain
     damping: Damping
-    sections: tuple[ShaftSection | None, ...]
+    stress_by_torque: Real
     rings: tuple[ViscousRing, ...] = ()
     pendulums: tuple[Pendulums, ...] = ()
     excitation: Excitation | None = None
@@ -129,24 +112,13 @@ class TorsionalSystem:
         """Return the excitation.
 
         Raises:
-            BalcliError: There is none.
+            BalcliError: There is none, or none at the requested orders.
         """
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
-        return self.excitation
-
-    def driven_at(self, orders: Real | None) -> TorsionalSystem:
-        """Return the system excited at these orders alone; None: at all orders.
-
-        Raises:
-            BalcliError: It has no excitation, or none at these orders.
-        """
-        excitation = self.require_excitation()
-        if orders is not None:
-            excitation = excitation.only(orders)
-        if not len(excitation.orders):
+        if not len(self.excitation.orders):
             raise self.refusal("nothing excites it at the orders asked for")
-        return replace(self, excitation=excitation)
+        return self.excitation
 
     @property
     def free_end(self) -> str:
@@ -190,8 +162,8 @@ class TorsionalSystem:
         """Angles of pendulums against their nodes (orders, speeds, pendulums), where these swing by
         `angle` (orders, speeds, nodes) at orders (orders,) of the reference.
         """
-        found = np.zeros((*angle.shape[:2], len(self.pendulums)), complex)
-        for k, swung in enumerate(self.pendulums):
+        found = [angle[..., :0]]
+        for swung in self.pendulums:
             ratio = pendulum_swing(swung.radius, swung.length, orders / self.gears[swung.node])
-            found[..., k] = ratio[:, None] * angle[..., swung.node]
-        return found
+            found.append((ratio[:, None] * angle[..., swung.node])[..., None])
+        return np.concatenate(found, axis=-1)

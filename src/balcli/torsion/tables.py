@@ -5,7 +5,6 @@ Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
@@ -21,9 +20,6 @@ Torque = Annotated[float, Number(TORQUE, most=1e18)]
 
 class _HalfOrder(Number):
     """An order: a multiple of 1/2."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)
 
     def read(self, value: object) -> float:
         order = super().read(value)
@@ -67,7 +63,7 @@ class Excitation(FileTable):
     """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, t the angle of the first node."""
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
-    order: Annotated[float, _HalfOrder()] = Field(
+    order: Annotated[float, _HalfOrder(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)] = Field(
         examples=[1.5], description="how often in a turn of the first node; a multiple of 0.5"
     )
     cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
@@ -85,15 +81,6 @@ class ChainFile(ChainKeys):
     shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
     gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")
     excitation: tuple[Excitation, ...] = Field((), examples=[], description="torques on nodes")
-
-    def list_losses(self) -> Iterator[tuple[str, float | None]]:
-        """Loss factors of all shafts and dampers, by their paths."""
-        yield "loss", self.loss
-        for number, shaft in enumerate(self.shaft, 1):
-            yield f"shaft.{number}.loss", shaft.loss
-        for number, node in enumerate(self.node, 1):
-            if node.damper is not None:
-                yield f"node.{number}.damper.loss", node.damper.loss
 
 
 LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)

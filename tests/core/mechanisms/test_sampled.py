@@ -12,7 +12,6 @@ import pytest
 from balcli.core.mechanisms import harmonics as sampled
 from balcli.core.mechanisms.closed_form import SERIES
 from balcli.core.mechanisms.linkage import Rotary, hang
-from balcli.core.mechanisms.slidercrank import SliderCrank
 
 MANY = 4096  # samples: of nothing here an order is left beyond them
 FEW = 32
@@ -55,10 +54,10 @@ def test_few_samples_keep_the_bound(kind, orders):
     first = np.full(len(figures[0]), FEW)
     few = sampled.sample_mechanisms(orders, SERIES, move, figures, first, max(orders))
     many = of_many_samples(kind)
-    assert few.counts.max() < MANY
+    assert few[1].max() < MANY
     for name in SERIES:
-        error = np.abs(few.series[name].c - many.series[name].c[orders])
-        assert np.all(error <= 0.5 * many.series[name].noise), name
+        error = np.abs(few[0][name].c - many[0][name].c[orders])
+        assert np.all(error <= 0.5 * many[0][name].noise), name
 
 
 def test_a_mechanism_is_the_same_among_any_others(monkeypatch):
@@ -71,17 +70,8 @@ def test_a_mechanism_is_the_same_among_any_others(monkeypatch):
     for k in range(0, len(first), 7):
         own = [values[k : k + 1] for values in rods]
         alone = sampled.sample_mechanisms([1, 2], SERIES, hang, own, first[:1], 2)
-        assert together.counts[k] == parted.counts[k] == alone.counts[0]
+        assert together[1][k] == parted[1][k] == alone[1][0]
         for name in SERIES:
-            values = together.series[name].c[:, k]
-            assert np.array_equal(values, parted.series[name].c[:, k]), name
-            assert np.array_equal(values, alone.series[name].c[:, 0]), name
-
-
-def test_only_what_is_wanted_and_there_is_sampled():
-    figures = [np.array([0.3]), np.array([0.01])]
-    found = sampled.sample_mechanisms([1], SERIES, SliderCrank, figures, np.array([FEW]), 1)
-    assert found.series.keys() == {"piston", "rod", "kinetic", "rod_kinetic"}
-    first = np.full(len(random_rods()[0]), FEW)
-    found = sampled.sample_mechanisms([1], {"along"}, hang, random_rods(), first, 1)
-    assert found.series.keys() == {"along"}
+            values = together[0][name].c[:, k]
+            assert np.array_equal(values, parted[0][name].c[:, k]), name
+            assert np.array_equal(values, alone[0][name].c[:, 0]), name

@@ -9,7 +9,6 @@ import itertools
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from support.engines import RADIAL
 from support.searches import search_least
 
 from balcli.engine.build import build
@@ -21,7 +20,7 @@ from balcli.forces.symmetry import explain_symmetry
 from balcli.show.units import SYSTEMS
 from balcli.studies.search.answer import search_arrangements
 from balcli.studies.search.command import rows
-from balcli.studies.search.designs import Objective, fires_evenly, parse_objective, write_design
+from balcli.studies.search.designs import BROKEN, Objective, fires_evenly, parse_objective, write_design
 
 pytestmark = pytest.mark.slow
 
@@ -63,8 +62,8 @@ def sweep(file: EngineFile, over: str, wanted: Objective, x: Array) -> Array:
     engine = build(file, {PATHS[over]: x})
     figures = evaluate_quantities(engine, wanted.quantities)
     figures = [np.broadcast_to(figure, x.shape) for figure in figures]
-    merit = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
-    return np.where(merit.excess > 0, np.inf, merit.cost)
+    costs = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
+    return np.where(costs < BROKEN, costs, np.inf)
 
 
 def found_by(file: EngineFile, over: str, wanted: Objective) -> tuple[Array, Array]:
@@ -117,33 +116,6 @@ def test_no_angle_of_a_dense_sweep_is_better(seed: int) -> None:
     assert len(np.unique(np.round(np.mod(angles, 360), 6))) == len(angles)
 
 
-@pytest.mark.parametrize(
-    ("file", "over", "goal", "limit", "angle"),
-    [
-        (vee(throws=[0, 180], spacing=110), "bank_angle", "moment.2.major", "moment.1.backward", 1),
-        (vee(throws=[0, 180, 180, 0]), "bank_angle", "roll.2.amplitude", "force.2.major", 30),
-    ],
-)
-def test_a_limit_met_by_hand(file: EngineFile, over: str, goal: str, limit: str, angle: float) -> None:
-    """The limit is what the engine has at an angle that is on no grid."""
-    place = angle + 0.1234
-    bound = float(sweep(file, over, parse_objective(limit), np.array([place]))[0])
-    wanted = parse_objective(goal, [f"{limit}<{bound!r}"])
-    dense = sweep(file, over, wanted, np.linspace(0, 180, 18_001))
-    angles, values = found_by(file, over, wanted)
-    assert values.min() <= dense.min() * (1 + 1e-12)
-    assert len(angles)
-
-
-def test_a_turn_is_listed_once_and_no_maximum() -> None:
-    for goal in ("force.1.major", "force.1.forward", "force.2.major"):
-        angles, values = found_by(vee(), "splay", parse_objective(goal))
-        x = np.linspace(-180, 180, 3601)
-        dense = sweep(vee(), "splay", parse_objective(goal), x)
-        assert values.max() <= np.median(dense)
-        assert len(np.unique(np.mod(angles, 360))) == len(angles)
-
-
 # ------------------------------------------------------------------ even firing
 @pytest.mark.parametrize("pairs", range(2, 15))
 @pytest.mark.parametrize("over", ["bank_angle", "splay"])
@@ -179,13 +151,6 @@ def _even(second: float, throws: list[float], interval: float) -> bool:
     return bool(np.allclose(ready, even, atol=1e-5))
 
 
-def test_uneven_throws_fire_evenly_at_no_angle() -> None:
-    file = vee(throws=[0, 100, 190])
-    for over in PATHS:
-        with pytest.raises(BalcliError, match="can fire evenly"):
-            search_least(file, over, "moment.1.major", even_firing=True)
-
-
 @pytest.mark.parametrize(
     ("throws", "over", "even"),
     [
@@ -203,12 +168,6 @@ def test_even_firing_is_required_of_a_number_too(throws, over, even) -> None:
         return
     found = search_arrangements(file, over, objective, even_firing=True).results
     assert sorted(one.design[over.partition("=")[0]] for one in found) == even
-
-
-def test_a_throw_that_lets_a_three_fire_evenly() -> None:
-    three = load(in_line("[0, 230, 120]"))
-    found = search_least(three, "crank.throws.2=200:250", "moment.1.major", even_firing=True)
-    assert [one.design for one in found.results] == [{"crank.throws.2": 240.0}]
 
 
 def test_even_firing_and_a_limit() -> None:
@@ -257,36 +216,7 @@ def test_sevenths_of_a_turn_stay_such() -> None:
     assert verdicts == ["symmetry", "symmetry"]
 
 
-def test_firing_orders_bring_cranks_of_exact_fractions() -> None:
-    text = in_line("[0]").replace("throws = [0]\n", "") + "[layout]\nfiring_order = [1,2,3,4,5,6,7]"
-    results = search_least(load(text), "firing_order", "force.1.major", count=3).results
-    for one in results:
-        assert sorted(one.design["throws"]) == [k * 360 / 7 for k in range(7)]
-
-
 # ------------------------------------------------------------------ throws and firing orders
-@pytest.mark.parametrize("seed", range(12))
-def test_no_permutation_of_throws_is_better(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    count = int(random.integers(3, 6))
-    given = random.choice([0, 72, 90, 120, 144, 180, 240, 300], count).tolist()
-    file = vee(throws=given, bank=72.4, stagger=24, throw_mass=1.1)
-    every = np.array(sorted(set(itertools.permutations(given))), float)
-    engine = build(file, {f"crank.throws.{k + 1}": row for k, row in enumerate(every.T)})
-
-    def values(wanted: Objective) -> Array:
-        figures = evaluate_quantities(engine, wanted.quantities)
-        figures = [np.broadcast_to(figure, len(every)) for figure in figures]
-        merit = wanted.judge(dict(zip(wanted.quantities, figures, strict=True)))
-        return np.where(merit.excess > 0, np.inf, merit.cost)
-
-    goal, limited = random.permutation(["moment.1.major", "moment.2.backward", "force.2.major", "moment.1.forward"])[
-        :2
-    ].tolist()
-    bound = float(np.quantile(values(parse_objective(limited)), random.choice([0.2, 0.6]))) * 1.001 + 1e-3
-    wanted = parse_objective(goal, [f"{limited}<{bound!r}"])
-    angles = search_arrangements(file, "throws", wanted, 1).results
-    assert angles[0].objective == pytest.approx(float(values(wanted).min()), rel=1e-9, abs=1e-7)
 
 
 # ------------------------------------------------------------------ bank angles that lock
@@ -322,23 +252,3 @@ def test_bank_angles_at_which_articulated_rods_lock_are_no_candidates() -> None:
     best = found.results[0]
     assert best.objective <= sweep(file, "bank_angle", wanted, dense).min() * (1 + 1e-9)
     assert low < best.design["bank_angle"] < high
-
-
-@pytest.mark.stress
-def test_even_firing_is_looked_for_where_nothing_locks() -> None:
-    twelve = load(LOCKING.replace("[0, 120, 240]", "[0, 120, 240, 240, 120, 0]"))
-    found = search_least(twelve, "bank_angle", "force.6.major", even_firing=True)
-    assert [round(one.design["bank_angle"], 9) for one in found.results] == [60.0]
-
-
-def test_bank_angles_vary_beside_given_knuckle_angles() -> None:
-    """Their axes vary, their knuckle pins do not."""
-    file, wanted = load(LOCKING), parse_objective("force.6.major")
-    together = sweep(file, "bank_angle", wanted, np.array([50.0, 60.0, 70.0]))
-    one = [sweep(file, "bank_angle", wanted, np.array([x]))[0] for x in (50.0, 60.0, 70.0)]
-    assert together == pytest.approx(one, rel=1e-9)
-
-
-def test_an_articulated_radial_has_no_bank_angle_to_look_for() -> None:
-    with pytest.raises(BalcliError, match="there is no bank angle to look for"):
-        search_least(load(RADIAL), "bank_angle", "force.6.major")

@@ -6,7 +6,10 @@ from itertools import permutations
 
 import numpy as np
 import pytest
+from support.cases import cases
+from support.commands import refusal
 from support.engines import GOOD, changed, engine_text
+from support.paths import ENGINES
 from support.searches import search_least
 
 from balcli.engine.build import build
@@ -45,18 +48,20 @@ def test_in_line_four() -> None:
     ],
 )
 def test_branch_and_bound_finds_what_trying_all_finds(throws: list[float], layout: str) -> None:
-    file, wanted = (engine(throws, layout), parse_objective("moment.1.major=1,moment.2.backward=2,force.1.major=0.5"))
-    every = np.array(
-        sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
-    )
-    sample = every if len(every) < 1000 else every[np.random.default_rng(1).choice(len(every), 1000, replace=False)]
-    whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(sample.T)})
-    values = dict(zip(wanted.quantities, evaluate_quantities(whole, wanted.quantities), strict=True))
-    tried = wanted.judge(values).cost.min()
-    first = search_arrangements(file, "throws", wanted, 1).results[0].objective
-    if len(sample) == len(every):
-        assert first == pytest.approx(tried, rel=1e-12, abs=1e-8)
-    assert first <= tried + 1e-8
+    """Without a limit, and with one that two fifths of the cranks keep."""
+    file, goal = engine(throws, layout), "moment.1.major=1,moment.2.backward=2,force.1.major=0.5"
+    every = sorted(set(permutations(throws))) if len(throws) < 8 else [(0, *p) for p in permutations(throws[1:])]
+    chosen = np.random.default_rng(1).permutation(len(every))[:1000]
+    whole = build(file, {f"crank.throws.{t + 1}": column for t, column in enumerate(np.array(every)[chosen].T)})
+    quantities = parse_objective(goal).quantities
+    values = dict(zip(quantities, evaluate_quantities(whole, quantities), strict=True))
+    bound = float(np.quantile(values[quantities[2]], 0.4)) * 1.001 + 1e-3
+    for wanted in (parse_objective(goal), parse_objective(goal, [f"force.1.major<{bound!r}"])):
+        tried = wanted.judge(values).min()
+        first = search_arrangements(file, "throws", wanted, 1).results[0].objective
+        if len(chosen) == len(every):
+            assert first == pytest.approx(tried, rel=1e-12, abs=1e-8)
+        assert first <= tried + 1e-8
 
 
 def test_every_arrangement_of_a_five_once() -> None:
@@ -64,12 +69,6 @@ def test_every_arrangement_of_a_five_once() -> None:
     keys = {tuple(r.design["throws"]) for r in found}
     assert len(keys) == len(found) == 8  # 5!/5 rotations = 24 cranks, 8 but for mirror images
     assert all(r.design["throws"][0] == 0 for r in found)
-
-
-def test_eight_distinct_throws_are_all_tried() -> None:
-    file, count = engine([0, 45, 90, 135, 180, 225, 270, 315]), 5040
-    rows = find_best_throws(file, parse_objective("moment.1.major"), 10_000)
-    assert len(np.unique(np.mod(rows, 360), axis=0)) == len(rows) == count
 
 
 NINE = [0, 31, 67, 95, 140, 170, 222, 260, 301]
@@ -125,11 +124,6 @@ def test_limits_are_kept() -> None:
     assert kept[0].quantities["moment.2.major"] < 1
     with pytest.raises(BalcliError, match="no throws can keep these limits"):
         search_least(file, "throws", "moment.1.major", ["force.4.major<1e-9"])
-
-
-def test_firing_orders_of_a_given_crank_once() -> None:
-    found = search_least(load(GOOD), "firing_order", "moment.1.major").results
-    assert [tuple(r.design["firing_order"]) for r in found] in ([(1, 3, 4, 2)], [(1, 2, 4, 3)])  # mirror images
 
 
 def test_firing_orders_bring_their_cranks() -> None:
@@ -217,55 +211,12 @@ def _images(order: tuple[int, ...], file: EngineFile) -> list[tuple[int, ...]]:
 
 def test_millions_of_firing_orders_are_no_hindrance() -> None:
     order = [1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 9, 10, 11, 12, 13, 14]
-    file = load(
-        changed(
-            ("throws = [0, 180, 180, 0]\n", ""),
-            ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
-        )
-    )
-    found = search_least(file, "firing_order", "moment.1.major,moment.2.major=1", count=3).results
-    assert [r.objective for r in found] == [0, 0, 0]
-    assert all(
-        fires_evenly(
-            build(
-                load(
-                    write_design(
-                        changed(
-                            ("throws = [0, 180, 180, 0]\n", ""),
-                            ("firing_order = [1, 3, 4, 2]", f"bank_angle = 90\nfiring_order = {order}"),
-                        ).encode(),
-                        r.design,
-                    )
-                )
-            ),
-            file,
-        ).all()
-        for r in found
-    )
-
-
-def test_ninety_degree_twin() -> None:
-    file = engine([0], "bank_angle = 50")
-    (found, *_) = search_least(file, "bank_angle", "force.1.backward").results
-    assert (found.design, found.objective) == ({"bank_angle": 90}, 0)
-
-
-def test_splay_of_the_90_degree_v6_for_even_firing() -> None:
-    file = engine([0, 240, 120], "bank_angle = 90")
-    found = search_least(file, "splay", "moment.1.major", even_firing=True).results
-    assert sorted(r.design["splay"] for r in found) == [-150, -30, 90]
-
-
-def test_even_firing() -> None:
-    for throws, layout, even in (
-        ([0, 180, 180, 0], "", True),
-        ([0, 90, 270, 180], "", False),
-        ([0, 0], "strokes = 4", True),
-        ([0, 180], "strokes = 4", False),
-        ([0, 180], "strokes = 2", True),
-    ):
-        file = engine(throws, layout)
-        assert bool(fires_evenly(build(file), file)) is even
+    layout = f"bank_angle = 90\nfiring_order = {order}"
+    text = changed(("throws = [0, 180, 180, 0]\n", ""), ("firing_order = [1, 3, 4, 2]", layout))
+    found = search_least(load(text), "firing_order", "moment.1.major,moment.2.major=1", count=3).results
+    assert [one.objective for one in found] == [0, 0, 0]
+    for one in found:
+        assert fires_evenly(build(load(write_design(text.encode(), one.design))), load(text)).all()
 
 
 CHOICES = (
@@ -274,24 +225,10 @@ CHOICES = (
 )
 
 
-@pytest.mark.parametrize(
-    ("over", "message"),
-    [
-        ("colour", f'--over "colour": {CHOICES}'),
-        ("trows", f'--over "trows": {CHOICES}; did you mean throws?'),
-        (
-            "rod.length=150",
-            '--over "rod.length=150": give the ends of a range, such as rod.length=from:to; balcli '
-            "sweep takes steps and lists",
-        ),
-        ("bank_angle", "there is no bank angle to look for: the engine is no vee (give layout.bank_angle)"),
-        ("splay", "there is no splay to look for: the engine is no vee (give layout.bank_angle)"),
-    ],
-)
-def test_mistakes_in_words(over: str, message: str) -> None:
-    with pytest.raises(BalcliError) as caught:
-        search_least(load(GOOD), over, "force.1.major")
-    assert str(caught.value) == message
+@cases("studies/search", "mistakes", CHOICES=CHOICES)
+def test_mistakes_in_words(over: str, goal: list[str], message: str) -> None:
+    told = refusal("search", ENGINES / "i4.toml", "--over", over, *goal)
+    assert told.removeprefix(f"{ENGINES / 'i4.toml'}: ").startswith(message)
 
 
 @pytest.mark.parametrize("over", ["bank_angle", "splay"])
@@ -302,54 +239,6 @@ def test_an_angle_is_looked_for_on_a_given_crank(over: str) -> None:
     )
     with pytest.raises(BalcliError, match=r"give crank\.throws, so that the crank stays as it is"):
         search_least(file, over, "force.1.major")
-
-
-@pytest.mark.parametrize(
-    ("minimise", "limits", "message"),
-    [
-        ("force.1.major=heavy", (), '"force.1.major=heavy": heavy is no positive number'),
-        (
-            "force.1.major",
-            ("force.2.major=3",),
-            '--limit "force.2.major=3": give a quantity and its upper limit',
-        ),
-        (
-            "force.1.axis",
-            (),
-            "force.1.axis has a sign or a direction; name a size such as force.1.major",
-        ),
-        (
-            "roll.2.cos",
-            (),
-            "roll.2.cos has a sign or a direction; name a size such as roll.2.major",
-        ),
-        (
-            "moment.1.major,moment.2.major,force.1.major=2",
-            (),
-            "--minimise adds up N·m and N; give weights: moment.1.major=1, moment.2.major=1, force.1.major=8 (m)",
-        ),
-        (
-            "fluctuation,torque.max",
-            (),
-            "--minimise adds up 1 and N·m; give weights: fluctuation=1, torque.max=8 (1/N·m)",
-        ),
-    ],
-)
-def test_mistakes_of_objectives(minimise: str, limits: tuple[str, ...], message: str) -> None:
-    with pytest.raises(BalcliError) as caught:
-        parse_objective(minimise, limits)
-    assert str(caught.value).startswith(message)
-
-
-def test_units_are_added_up_where_each_has_a_weight():
-    objective = parse_objective("force.1.major=1,moment.1.major=8")
-    assert list(objective.weights.values()) == [1, 8]
-    assert list(parse_objective("force.1.major,force.2.major").weights.values()) == [1, 1]
-
-
-def test_peaks_do_not_add_up() -> None:
-    with pytest.raises(BalcliError, match=r"which peak\.force does not allow"):
-        search_least(load(SHUFFLED), "throws", "peak.force")
 
 
 def test_written_file_keeps_its_comments() -> None:
@@ -416,5 +305,3 @@ firing_order = [1, 5, 3, 6, 2, 4]
 @pytest.mark.parametrize("limit", ["shaft.a.stress<6e7", "shaft.a.stress<60 N/mm^2", "shaft.a.stress<60 MPa"])
 def test_a_limit_may_have_a_unit(limit):
     assert list(parse_objective("moment.1.major", [limit]).limits.values()) == [pytest.approx(6e7, rel=1e-15)]
-    with pytest.raises(BalcliError, match="3 kg is no positive number"):
-        parse_objective("moment.1.major", ["shaft.a.stress<3 kg"])

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,20 +25,10 @@ HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 
 CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
 
 
-class Distinct(NamedTuple):
-    """Mechanisms that differ, one after the other.
-
-    Attributes:
-        figures: each figure that tells them apart, shape (mechanisms,).
-        which: number of the mechanism that each cylinder has, shape (cylinders or 1, *trailing).
-    """
-
-    figures: tuple[Numbers, ...]
-    which: Rows
-
-
-def find_distinct(*figures: Numbers) -> Distinct:
-    """Return the mechanisms that differ in some figure, in the order in which cylinders have them.
+def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
+    """Return the mechanisms that differ in some figure, in the order in which cylinders have them:
+    each figure that tells them apart, shape (mechanisms,), and the number of the mechanism that
+    each cylinder has, shape (cylinders or 1, *trailing).
 
     A cylinder that does not vary along an axis has one mechanism there; cylinders with the same
     figures at every variant have the same mechanisms.
@@ -63,7 +52,7 @@ def find_distinct(*figures: Numbers) -> Distinct:
             count += own_count
         which[row] = starts[key] + np.arange(own_count).reshape(own_shape)
     joined = tuple(np.concatenate(parts) for parts in zip(*different, strict=True))
-    return Distinct(joined, which)
+    return joined, which
 
 
 def narrow(values: Numbers) -> Numbers:
@@ -113,7 +102,7 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
     Args:
         lam, eps: shape (cylinders or 1, *trailing).
     """
-    ratios, offsets = find_distinct(lam, eps).figures
+    (ratios, offsets), _ = find_distinct(lam, eps)
     return len(ratios), int(count_samples(ratios, offsets).sum())
 
 
@@ -164,7 +153,7 @@ def sample_harmonics(
     from .slidercrank import SliderCrank
 
     counts = count_samples(lam, eps, highest)
-    return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest).series
+    return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest)[0]
 
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
@@ -186,15 +175,6 @@ _SAMPLED: dict[str, Callable[[Motion], Array]] = {
 _OF_ROD = frozenset({"piston", "rod", "kinetic", "rod_kinetic"})
 
 
-class Sampled(NamedTuple):
-    """Series of mechanisms by name, each of shape (orders, mechanisms), and the number of samples
-    of each mechanism, shape (mechanisms,).
-    """
-
-    series: Harmonics
-    counts: NDArray[np.intp]
-
-
 def sample_mechanisms(
     orders: ArrayLike,
     wanted: Collection[str],
@@ -202,8 +182,9 @@ def sample_mechanisms(
     figures: Sequence[Numbers],
     counts: NDArray[np.intp],
     highest: float,
-) -> Sampled:
-    """Return series of many mechanisms, each sampled as often as it needs.
+) -> tuple[Harmonics, NDArray[np.intp]]:
+    """Return series of many mechanisms by name, each of shape (orders, mechanisms), and the number
+    of samples of each mechanism, as many as it needs, shape (mechanisms,).
 
     Args:
         orders: shape (orders,).
@@ -225,7 +206,11 @@ def sample_mechanisms(
         if len(rows) > most:
             waiting.append((count, rows[most:]))
             rows = rows[:most]
-        motion = move(unit_circle(count)[:, None], *(values[rows] for values in figures))
+        circle = unit(np.arange(count) * (360 / count))[:, None]
+        motion = move(circle, *(values[rows] for values in figures))
+        inside = (n % 1 == 0) & (n < count // 2)  # orders that the samples have
+        numbers = np.where(inside, n, 0).astype(int)
+        scale = (np.where(numbers == 0, 1, 2) * inside)[:, None]
         enough = np.ones(len(rows), bool)
         for name in _OF_ROD.union(_SAMPLED if motion.points else ()).intersection(wanted):
             samples = _SAMPLED[name](motion)
@@ -234,32 +219,13 @@ def sample_mechanisms(
             if name not in series:
                 shape = len(n), len(counts)
                 series[name] = Series(np.zeros(shape, complex), np.zeros(shape[1]))
-            series[name].c[:, rows] = _pick_orders(spectrum, n)
+            series[name].c[:, rows] = spectrum[numbers] * scale
             np.asarray(series[name].noise)[rows] = SAMPLING * rounding
             enough &= _is_enough(spectrum, rounding, highest) | (count >= MOST_SAMPLES)
         taken[rows] = count
         if not enough.all():
             waiting.append((2 * count, rows[~enough]))
-    return Sampled(series, taken)
-
-
-def unit_circle(count: int) -> Complex:
-    """Return e^{i psi} at `count` evenly spaced psi, each component within 2 ulp of itself."""
-    return unit(np.arange(count) * (360 / count))
-
-
-def _pick_orders(spectrum: Complex, orders: Numbers) -> Complex:
-    """Return the coefficients of these orders, shape (orders, mechanisms), 0 for orders that are
-    not whole or beyond the samples.
-
-    Args:
-        spectrum: `rfft` of the samples with norm "forward", shape (samples/2 + 1, mechanisms).
-        orders: shape (orders,).
-    """
-    inside = (orders % 1 == 0) & (orders < len(spectrum) - 1)
-    numbers = np.where(inside, orders, 0).astype(int)
-    scale = np.where(numbers == 0, 1, 2) * inside
-    return np.asarray(spectrum[numbers] * scale[:, None])
+    return series, taken
 
 
 def _amplify_rounding(samples: Array, condition: Array | float) -> Array:

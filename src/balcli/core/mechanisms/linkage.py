@@ -35,7 +35,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array, Complex, Figure, Numbers, compose, unit
 from .closed_form import Harmonics, Rows
-from .harmonics import Distinct, Sampled, count_samples, find_distinct, sample_mechanisms
+from .harmonics import count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
 from .slidercrank import SliderCrank, on_circle
 
@@ -95,9 +95,9 @@ class Linkage(ABC):
             lam, eps: shape (cylinders or 1, *trailing).
             wanted: names of series (`closed_form.SERIES`).
         """
-        few = find_distinct(*self.figures(lam, eps))
+        few, which = find_distinct(*self.figures(lam, eps))
         highest = float(np.max(orders, initial=0))
-        return self._sample(few, orders, wanted, highest).series, few.which
+        return self._sample(few, orders, wanted, highest)[0], which
 
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
@@ -126,7 +126,7 @@ class Linkage(ABC):
             lam: Crank radius / rod length, as in `Cylinders`.
             eps: Offset / rod length, as in `Cylinders`.
         """
-        count = len(find_distinct(*self.figures(lam, eps)).figures[0])
+        count = len(find_distinct(*self.figures(lam, eps))[0][0])
         leans = self.sample(lambda motion: motion.lean, revolution(STEPS), lam, eps)
         return count, count * int(count_samples(float(np.abs(leans).max()), 0.0))
 
@@ -137,14 +137,14 @@ class Linkage(ABC):
             lam: Crank radius / rod length, as in `Cylinders`.
             eps: Offset / rod length, as in `Cylinders`.
         """
-        found = self._sample(find_distinct(*self.figures(lam, eps)), [], _SHARPEST, np.inf)
-        return int(found.counts.max()) // 2
+        few, _ = find_distinct(*self.figures(lam, eps))
+        return int(self._sample(few, [], _SHARPEST, np.inf)[1].max()) // 2
 
     def _sample(
-        self, few: Distinct, orders: ArrayLike, wanted: Collection[str], highest: float
-    ) -> Sampled:
-        counts = np.full(len(few.figures[0]), _FEWEST_SAMPLES)
-        return sample_mechanisms(orders, wanted, self.move, few.figures, counts, highest)
+        self, few: tuple[Numbers, ...], orders: ArrayLike, wanted: Collection[str], highest: float
+    ) -> tuple[Harmonics, NDArray[np.intp]]:
+        counts = np.full(len(few[0]), _FEWEST_SAMPLES)
+        return sample_mechanisms(orders, wanted, self.move, few, counts, highest)
 
 
 def revolution(count: int) -> Array:
@@ -175,16 +175,6 @@ class Articulated(Linkage):
     def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
         return hang(psi, *figures)
 
-    def bound_lean(self, lam: Array, eps: Array) -> Array:
-        """Return a bound of the sine of each rod's angle to the cylinder's axis, shape (cylinders,
-        *trailing): knuckle pins are at most a crank and a knuckle radius away.
-
-        Args:
-            lam: Crank radius / rod length, as in `Cylinders`.
-            eps: Offset / rod length, as in `Cylinders`.
-        """
-        return np.asarray(lam * (1 + np.abs(self.knuckle)) + np.abs(eps))
-
 
 def hang(
     psi: Array | Complex,
@@ -203,29 +193,14 @@ def hang(
         lam, eps, knuckle, lead_deg: of the articulated rods, as in `Articulated`.
         master_lam, master_eps: of the master rods.
     """
-    pin = follow_knuckle(on_circle(psi), knuckle, lead_deg, master_lam, master_eps)
+    crank, lead = on_circle(psi), unit(lead_deg)
+    master = SliderCrank(crank * lead, master_lam, master_eps)  # e^{i psi_m}, turned back by lead
+    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
+    bend = compose(master.spin**2, -master.spin_rate)
+    pin = PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)
     lean = lam * pin.z.imag - eps
     condition = 1 / (1 - np.minimum(np.abs(lean), 1 - EPS))
     return Motion(pin, lam, lean, np.sqrt((1 - lean) * (1 + lean)), (pin,), condition)
-
-
-def follow_knuckle(
-    crank: Complex, knuckle: Complex, lead_deg: Array, lam: Array, eps: Array
-) -> PointMass:
-    """Return the knuckle pins K in the cylinders' frames by the motion of their master rods.
-
-    Args:
-        crank: e^{i psi} of the cylinders.
-        knuckle: Knuckle pin from the crank pin, in crank radii, on the master rod.
-        lead_deg: Crank angle of the master less the cylinder's own, deg.
-        lam: Crank radius / rod length of the masters.
-        eps: Offset / rod length of the masters.
-    """
-    lead = unit(lead_deg)
-    master = SliderCrank(crank * lead, lam, eps)  # e^{i psi_m}, turned back by the lead
-    arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
-    bend = compose(master.spin**2, -master.spin_rate)
-    return PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)
 
 
 @dataclass(frozen=True)

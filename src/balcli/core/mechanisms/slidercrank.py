@@ -13,20 +13,11 @@ revolution, however near the lock: differences that vanish there are factorized.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..phasors import Array, Complex
 from .motion import Motion, PointMass
-
-
-class Fastest(NamedTuple):
-    """Crank angle (rad) of the greatest piston velocity, and that velocity over r omega."""
-
-    psi: Array
-    value: Array
 
 
 class SliderCrank(Motion):
@@ -129,8 +120,9 @@ def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Ar
     return -SliderCrank(psi, lam, eps).spin_rate
 
 
-def fastest(lam: ArrayLike) -> Fastest:
-    """Return where the piston of the centred mechanism is fastest, between 0 and 90 degrees.
+def fastest(lam: ArrayLike) -> tuple[Array, Array]:
+    """Return the crank angle (rad), between 0 and 90 degrees, at which the piston of the centred
+    mechanism is fastest, and its velocity over r omega.
 
     The acceleration vanishes where cos psi = lam sin^2 psi cos beta, that is with t = sin^2 psi
     where 1 - t = lam^2 t^2 (1 - lam^2 t); t is found by Newton's method.
@@ -142,13 +134,13 @@ def fastest(lam: ArrayLike) -> Fastest:
         rest = (1 - t) - square * t**2 * (1 - square * t)
         t = t + rest / (1 + square * t * (2 - 3 * square * t))
     psi = np.arctan2(np.sqrt(t), lam * t * np.sqrt(1 - square * t))
-    return Fastest(np.asarray(psi), velocity(psi, lam))
+    return np.asarray(psi), velocity(psi, lam)
 
 
-def fastest_two_term(lam: ArrayLike) -> Fastest:
-    """Return where the two-term form sin psi + lam/2 sin 2 psi is largest: cos psi = (sqrt(1 + 8
-    lam^2) - 1)/(4 lam).
+def fastest_two_term(lam: ArrayLike) -> tuple[Array, Array]:
+    """Return the crank angle (rad) at which the two-term form sin psi + lam/2 sin 2 psi is largest,
+    and its value there: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam).
     """
     lam = np.asarray(lam, float)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))
-    return Fastest(np.asarray(psi), np.asarray(np.sin(psi) * (1 + lam * np.cos(psi))))
+    return np.asarray(psi), np.asarray(np.sin(psi) * (1 + lam * np.cos(psi)))

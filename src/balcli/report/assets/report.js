@@ -1,6 +1,7 @@
 "use strict";
-(() => {
-  const scene = JSON.parse(document.getElementById("scene").textContent);
+const Page = {
+// Draws the engine of a scene in motion; orders and crank angle that were chosen stay.
+draw(scene) {
   const byId = (id) => document.getElementById(id);
   const rad = (degrees) => degrees * Math.PI / 180;
   const element = (name, attributes, parent) => {
@@ -12,6 +13,10 @@
   const set = (made, attributes) => {
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   };
+
+  for (const id of ["end", "side", "force", "moment"]) byId(id).replaceChildren();
+  const left = new Set([...byId("orders").querySelectorAll("input:not(:checked)")].map((input) => input.value));
+  for (const id of ["orders", "variants"]) byId(id).replaceChildren(byId(id).querySelector("legend"));
 
   // ---------------------------------------------------------------- mechanism
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
@@ -254,17 +259,18 @@
     let rows = [], scale = 1;
     const point = ([x, y]) => `${(y * scale).toFixed(2)} ${(-x * scale).toFixed(2)}`;
     const turns = (of) => Array.from({ length: 361 }, (_, k) => sum(of, k));
-    const path = (of) => "M" + turns(of).map(point).join("L");
-    const largest = (of) => Math.max(0, ...turns(of).map((v) => Math.hypot(...v)));
+    const path = (values) => "M" + values.map(point).join("L");
+    const largest = (values) => Math.max(0, ...values.map((v) => Math.hypot(...v)));
     return {
       choose(all, before) {
         rows = all;
-        const most = Math.max(largest(rows), before ? largest(before) : 0), matters = most && most >= unit.least;
+        const values = turns(rows), earlier = before ? turns(before) : [];
+        const most = Math.max(largest(values), largest(earlier)), matters = most && most >= unit.least;
         const full = nice(matters ? most : 1000 * unit.least || 1);
         scale = HALF / full;
         for (const { share, label } of rings) label.textContent = most ? figure(full * share, unit, round, full) : "";
-        set(curve, { d: path(rows) });
-        set(old, { d: before ? path(before) : "" });
+        set(curve, { d: path(values) });
+        set(old, { d: before ? path(earlier) : "" });
       },
       turn(theta, showChain) {
         const [x, y] = sum(rows, theta), size = Math.hypot(x, y);
@@ -295,13 +301,10 @@
   }
 
   // ---------------------------------------------------------------- controls
-  if (scene.rotary) {
-    byId("end-caption").textContent = `From the free end: ${scene.axes[0]} up, ${scene.axes[1]} to the right; `
-      + "the cylinders turn clockwise, the crank stands still";
-  }
-  if (scene.variants.some((variant) => variant.devices.some((d) => d.beside))) {
-    byId("end-caption").textContent += ". Dashed: shafts whose place is free, or not said, drawn beside the engine";
-  }
+  const turning = scene.rotary ? "the cylinders turn clockwise, the crank stands still" : "the crank turns clockwise";
+  const beside = scene.variants.some((variant) => variant.devices.some((d) => d.beside));
+  byId("end-caption").textContent = `From the free end: ${scene.axes[0]} up, ${scene.axes[1]} to the right; ${turning}`
+    + (beside ? ". Dashed: shafts whose place is free, or not said, drawn beside the engine" : "");
   const end = endView(), side = sideView();
   const views = {
     force: locusView("force", scene.units.force),
@@ -316,9 +319,10 @@
     byId(parent).append(label);
     return input;
   };
-  const orders = scene.orders.map((n) => switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, true));
+  const orders = scene.orders.map((n) =>
+    switchFor("orders", "checkbox", "order", n, n === 0 ? "mean" : n, !left.has(String(n))));
   if (!orders.length) byId("orders").append("balanced");
-  const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === 0));
+  const variants = scene.variants.map((v, k) => switchFor("variants", "radio", "variant", k, v.label, k === (scene.shown || 0)));
   byId("variants").hidden = variants.length < 2;
 
   const chosen = () => Math.max(variants.findIndex((input) => input.checked), 0);
@@ -338,18 +342,24 @@
     for (const view of Object.values(views)) view.turn(theta, chain.checked);
     document.dispatchEvent(new CustomEvent("crank", { detail: theta }));
   }
-  angle.addEventListener("input", turn);
-  chain.addEventListener("change", turn);
+  Page.turn = angle.oninput = chain.onchange = turn;
   for (const input of [...orders, ...variants]) input.addEventListener("change", choose);
 
+  choose();
+},
+
+// Animation and colours, once.
+start() {
+  const byId = (id) => document.getElementById(id);
+  const angle = byId("angle"), play = byId("play"), theme = byId("theme");
   const DEGREES_PER_SECOND = 60;
   let last = null;
   function step(time) {
     if (play.getAttribute("aria-pressed") !== "true") { last = null; return; }
     if (last !== null) {
       angle.step = "any";
-      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % cycle;
-      turn();
+      angle.value = (Number(angle.value) + DEGREES_PER_SECOND * (time - last) / 1000) % Number(angle.max);
+      Page.turn();
     }
     last = time;
     requestAnimationFrame(step);
@@ -359,15 +369,15 @@
     play.setAttribute("aria-pressed", on);
     play.textContent = on ? "Pause" : "Play";
     if (on) requestAnimationFrame(step);
-    else { angle.step = "1"; angle.value = Math.round(Number(angle.value)); turn(); }
+    else { angle.step = "1"; angle.value = Math.round(Number(angle.value)); Page.turn(); }
   });
-
-  const theme = byId("theme");
   theme.hidden = false;
   theme.addEventListener("click", () => {
     const set = document.documentElement.dataset.theme;
     const dark = set ? set === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
     document.documentElement.dataset.theme = dark ? "light" : "dark";
   });
-  choose();
-})();
+},
+};
+Page.start();
+if (document.getElementById("scene")) Page.draw(JSON.parse(document.getElementById("scene").textContent));

@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -18,36 +18,30 @@ from ...engine.build import build
 from ...engine.engine import Engine, check_engine, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
-from ...engine.parse import parse_dict
 from ...errors import BalcliError, InputError, check_type, wrong_type
 from ...file.fields import nearest
 from ...file.model import EngineFile
-from ...file.plain_tables import change_tables
-from ...forces.quantity import refuse_unknown
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
 from ...shell.arguments import Words, check_count, join_names, tell_arguments
 from ...show.figures import name_engine
 from ...show.result import Result
 from ..parameters import Parameter, find_numbers, parse_parameter
-from ..quantities import choose_of_engine, list_assumed, refuse_unknown_of_chapters
+from ..quantities import choose_of_engine, list_assumed, refuse_unknown
 from .designs import (
     PATHS,
-    Design,
     Found,
     NumbersJudge,
     Objective,
     drop_firing_order,
     drop_mirror_images,
-    fires_evenly,
     list_changes,
     parse_objective,
     rank_designs,
-    rank_one_by_one,
 )
-from .firing_orders import find_slots, search_firing_order
+from .firing_orders import search_firing_order
 from .local import Box, Effort, find_local_optima
-from .throws import give_throws, list_throws, search_throws
+from .throws import search_throws
 
 ARRANGED = ("throws", "firing_order")
 _ARRANGED = {"crank.throws", "layout.firing_intervals"}  # with throws or the firing order
@@ -56,23 +50,6 @@ NEAR_AN_END = 1e-4  # of a range
 _ROUNDING = 1e-13  # relative difference of equal objectives
 _GRID, _SPREAD = 720, 2048  # candidates of one number, of several
 _SLOW = 32  # candidates a number, where each takes a computation of its own
-
-
-class SearchRange(NamedTuple):
-    """A number that is searched over.
-
-    Attributes:
-        key: Name as the user wrote it.
-        number: Its dotted name, its unit, and the ends of its range, ascending.
-    """
-
-    key: str
-    number: Parameter
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Least and largest value."""
-        return float(self.number.values.min()), float(self.number.values.max())
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -85,7 +62,8 @@ class Search(Result):
         over: Searched keys: `throws`, `firing_order`, or numbers with commas between.
         results: Arrangements, best first.
         objective: The quantities, their weights and limits.
-        ranges: The numbers that were searched over.
+        ranges: The numbers that were searched over, with the ends of their ranges, ascending, by
+            the keys that the user wrote.
         constant: Whether the numbers have no effect on the objective.
         refused: Values of the numbers without an engine, and why; empty if there are none.
         even_firing: Whether only arrangements that can fire evenly were considered.
@@ -97,7 +75,7 @@ class Search(Result):
     over: str
     results: tuple[Found, ...]
     objective: Annotated[Objective, HIDDEN]
-    ranges: Annotated[tuple[SearchRange, ...], HIDDEN] = ()
+    ranges: Annotated[Mapping[str, Parameter], HIDDEN]
     constant: Annotated[bool, HIDDEN] = False
     refused: Annotated[str, HIDDEN] = ""
     even_firing: Annotated[bool, HIDDEN] = False
@@ -109,20 +87,15 @@ class Search(Result):
         """
         if self.constant:
             return ()
-        numbers, best = find_numbers(self.model), self.results[0].design
-        named = []
-        for one in self.ranges:
-            if one.key in ANGLES:
-                continue
-            last = numbers[one.key].least, numbers[one.key].most
-            near = NEAR_AN_END * (one.ends[1] - one.ends[0])
-            if any(abs(best[one.key] - end) <= near for end in one.ends if end not in last):
-                named.append(one.key)
-        return tuple(named)
-
-    def find_unit(self, key: str) -> str:
-        """Return the unit of a number that was searched over; empty for anything else."""
-        return next((one.number.unit for one in self.ranges if one.key == key), "")
+        known, best = find_numbers(self.model), self.results[0].design
+        return tuple(
+            key
+            for key, number in self.ranges.items()
+            if key not in ANGLES
+            for end in number.values.tolist()
+            if end not in (known[key].least, known[key].most)
+            if abs(best[key] - end) <= NEAR_AN_END * np.ptp(number.values)
+        )
 
     @property
     def summary(self) -> str:
@@ -169,25 +142,17 @@ def search_arrangements(
             moment is asked for and the file does not say where the throws stand.
     """
     wanted = [over] if isinstance(over, str) else list(over)
-    engine = build(model)
-    refuse_unknown(engine, choose_of_engine(objective.quantities))
-    refuse_unknown_of_chapters(model, objective.quantities)
+    refuse_unknown(model, build(model), objective.quantities)
     ranges = read_ranges(model, wanted)
-    named = ", ".join(one.key for one in ranges) or wanted[0]
-    asked = [q.name for q in objective.quantities]
+    named = ", ".join(ranges) or wanted[0]
+    varied = {number.path for number in ranges.values()} or _ARRANGED
     constant, refused = False, ""
     if ranges:
         candidates, constant, refused = _search_numbers(model, ranges, objective, even_firing, tell)
-    elif objective.is_sum_over_cylinders:
-        if named == "throws":
-            base = drop_firing_order(give_throws(model))
-            candidates = search_throws(base, objective, count, even_firing, tell)
-        else:
-            candidates = search_firing_order(model, objective)
+    elif named == "throws":
+        candidates = search_throws(model, objective, count, even_firing, tell)
     else:
-        designs = _list_designs(model, named, even_firing)
-        base = drop_firing_order(model) if named == "throws" else model
-        candidates = rank_one_by_one(base, designs, objective, tell)
+        candidates = search_firing_order(model, objective, tell)
     found = tuple(islice(drop_mirror_images(candidates, model), count))
     if not found:
         limits = ["keep these limits"] * bool(objective.limits) + ["fire evenly"] * even_firing
@@ -195,7 +160,7 @@ def search_arrangements(
         raise BalcliError(f"no {words} can {' and '.join(limits or ['make an engine'])}")
     return Search(
         model=model,
-        assumed=list_assumed(model, asked, {one.number.path for one in ranges} or _ARRANGED),
+        assumed=list_assumed(model, objective.quantities, varied),
         over=named,
         results=found,
         objective=objective,
@@ -206,49 +171,36 @@ def search_arrangements(
     )
 
 
-# ------------------------------------------------------------------ throws and firing orders
-def _list_designs(model: EngineFile, what: str, even_firing: bool) -> Iterator[Design]:
-    """Yield all designs, for quantities that are computed one by one."""
-    if what == "firing_order":
-        slots, cranks = find_slots(model)
-        for throws in cranks.tolist():
-            for order in slots.find_orders(throws):
-                yield {"firing_order": [*order], "throws": throws}
-        return
-    free = drop_firing_order(model)
-    for design in list_throws(give_throws(model)):
-        changed = parse_dict(change_tables(free, list_changes(design)), free.folder)
-        if not even_firing or fires_evenly(build(changed), changed).all():
-            yield design
-
-
 # ------------------------------------------------------------------ numbers
-def read_ranges(model: EngineFile, over: Sequence[str]) -> tuple[SearchRange, ...]:
-    """Read the numbers that are searched over; none for throws and firing orders.
+def read_ranges(model: EngineFile, over: Sequence[str]) -> dict[str, Parameter]:
+    """Return the numbers that are searched over, with the ends of their ranges, by the keys that
+    the user wrote; none for throws and firing orders.
 
     Raises:
         BalcliError: an unknown name or a wrong range, keys that cannot be combined, a number twice.
     """
     arranged = [text for text in over if text in ARRANGED]
     if arranged and len(over) == 1:
-        return ()
+        return {}
     if arranged:
         other = next((text for text in over if text != arranged[0]), arranged[0])
         raise BalcliError(
             f"--over {arranged[0]} goes with no other --over ({other}); several numbers can be "
             "searched together"
         )
-    ranges = tuple(_read_range(model, text) for text in over)
-    paths = [one.number.path for one in ranges]
-    if twice := [path for path in paths if paths.count(path) > 1]:
-        raise BalcliError(f"--over {twice[0]} is given twice; give one range")
+    ranges: dict[str, Parameter] = {}
+    for text in over:
+        number = _read_range(model, text)
+        if number.path in [other.path for other in ranges.values()]:
+            raise BalcliError(f"--over {number.path} is given twice; give one range")
+        ranges[text if text in ANGLES else number.path] = number
     return ranges
 
 
-def _read_range(model: EngineFile, text: str) -> SearchRange:
+def _read_range(model: EngineFile, text: str) -> Parameter:
     if text in ANGLES:
         _check_angle(model, text)
-        return SearchRange(text, Parameter(PATHS[text], np.array(ANGLES[text]), "deg"))
+        return Parameter(PATHS[text], np.array(ANGLES[text]), "deg")
     path, is_number, ends = text.partition("=")
     if not is_number:
         known = (*ARRANGED, *ANGLES)
@@ -264,7 +216,7 @@ def _read_range(model: EngineFile, text: str) -> SearchRange:
             "takes steps and lists"
         )
     number = parse_parameter(f"{path}={ends.replace(':', ',')}", model)
-    return SearchRange(number.path, number)
+    return replace(number, values=np.sort(number.values))
 
 
 def _check_angle(model: EngineFile, key: str) -> None:
@@ -284,7 +236,7 @@ def _check_angle(model: EngineFile, key: str) -> None:
 
 def _search_numbers(
     model: EngineFile,
-    ranges: Sequence[SearchRange],
+    ranges: Mapping[str, Parameter],
     objective: Objective,
     even_firing: bool,
     tell: Tell,
@@ -297,32 +249,31 @@ def _search_numbers(
     """
     if model.gas is None and model.crank.throws is not None:
         model = drop_firing_order(model)
-    ends = np.array([one.ends for one in ranges])
-    spans = ends[:, 1] - ends[:, 0]
-    angles = np.array([one.number.unit == "deg" for one in ranges])
-    box = Box(ends[:, 0], ends[:, 1], angles & (spans == TURN))
-    total = 1.0
-    paths = [one.number.path for one in ranges]
-    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
-    effort = _choose_effort(box, objective, judge.alone)
+    numbers = ranges.values()
+    low, high = np.transpose([number.values for number in numbers])
+    turns = [number.unit == "deg" and np.ptp(number.values) == TURN for number in numbers]
+    box = Box(low, high, np.array(turns))
+    alone = not objective.is_sum_over_cylinders
+    effort = _choose_effort(box, objective, alone)
     if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
+    paths = [number.path for number in numbers]
+    judge = NumbersJudge(model, paths, objective, even_firing, lambda n: tell(min(n / total, 1.0)))
     optima = find_local_optima(judge, box, effort)
     refused = judge.refused
-    if not np.isfinite(optima.merits.excess).any() and refused is not None:
+    if refused is not None and not np.isfinite(optima.costs).any():
         raise InputError(refused.problems)
     designs, lines = (
-        [dict(zip((one.key for one in ranges), place, strict=True)) for place in places.tolist()]
+        [dict(zip(ranges, place, strict=True)) for place in places.tolist()]
         for places in (optima.places, optima.lines)
     )
     found: Iterator[Found] = iter(())
     if designs:
         found = rank_designs(designs, judge.evaluate(optima.places), objective, lines)
-    costs = optima.merits.cost
-    same = np.ptp(costs) <= _ROUNDING * np.abs(costs).max()
+    same = np.ptp(optima.costs) <= _ROUNDING * np.abs(optima.costs).max()
     why = "" if refused is None else f"{refused.file}: {refused.problems[0]}"
-    return found, bool(same and spans.all() and not why), why
+    return found, bool(not why and same and np.all(low < high)), why
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
@@ -383,7 +334,7 @@ def search(
     bounds = {} if limits is None else limits
     check_type("search", bounds, Mapping, 'give a dict, such as {"moment.2.major": 100}')
     check_type("even_firing", even_firing, bool, "give True or False")
-    kept = [f"{name}<{bound!r}" for name, bound in _as_floats(bounds).items()]
+    kept = [f"{name}<{bound}" for name, bound in bounds.items()]
     objective = parse_objective(
         _join_goal(minimise), kept, maximise=_join_goal(maximise), with_gas=model.gas is not None
     )
@@ -395,10 +346,5 @@ def search(
 def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
     """Return quantities with their weights as the command line has them; None as it is."""
     if isinstance(goal, Mapping):
-        return ",".join(f"{name}={weight!r}" for name, weight in _as_floats(goal).items())
+        return ",".join(f"{name}={weight}" for name, weight in goal.items())
     return join_names("search", goal)
-
-
-def _as_floats(figures: Mapping[str, float]) -> dict[str, object]:
-    """Return numpy's numbers as Python's, which print as plain digits."""
-    return {name: float(v) if hasattr(v, "dtype") else v for name, v in figures.items()}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,9 +25,8 @@ from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
 
 if TYPE_CHECKING:
-    from ...show.units import ShownUnit, System
+    from ...show.units import System
     from .answer import Search
-    from .designs import Found
 
 
 _EQUAL = 1e-9  # relative difference of objectives that are equal
@@ -42,7 +42,7 @@ def columns(result: Search) -> Columns:
     found["objective"] = [one.objective for one in result.results]
     found |= {name: [one.quantities[name] for one in result.results] for name in first.quantities}
     units = {q.name: q.unit for q in result.objective.quantities}
-    set_in = {key: unit for key in first.design if (unit := result.find_unit(key))}
+    set_in = {key: number.unit for key, number in result.ranges.items() if number.unit}
     return Columns(found, units | set_in)
 
 
@@ -56,22 +56,24 @@ def sheet(result: Search, _system: System) -> Sheet:
     """Return the best arrangements, a row each, with each figure in the unit that fits it. One
     quantity alone is its own objective.
     """
-    first = result.results[0]
-    units = {
-        q.name: unit_of_name(q.unit).fit(max(one.quantities[q.name] for one in result.results))
-        for q in result.objective.quantities
-    }
-    heads = [
-        *(name_with_unit(_in_words(key), result.find_unit(key)) for key in first.design),
-        *(["objective"] if _is_sum(result) else []),
-        *(name_with_unit(name, units[name].name) for name in first.quantities),
-    ]
+    design, found = result.results[0].design, columns(result)
+    heads: list[str] = []
+    cells: list[list[str]] = []
+    for name, column in found.values.items():
+        unit = found.units.get(name, "")
+        if name in design:
+            heads.append(name_with_unit(_in_words(name), unit))
+            cells.append([_setting(one.design[name]) for one in result.results])
+        elif name != "objective" or [*result.objective.weights.values()] != [1.0]:
+            fit = unit_of_name(unit).fit(max(column))
+            heads.append(name_with_unit(name, fit.name))
+            cells.append([number(value / fit.size) for value in column])
     grid = Grid(
         _title(result),
         tuple(heads),
-        tuple(_cells(result, one, units) for one in result.results),
+        tuple(zip(*cells, strict=True)),
         note=" ".join(_notes(result)),
-        words=tuple(range(len(first.design))),
+        words=tuple(range(len(design))),
     )
     return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
@@ -90,9 +92,12 @@ def _in_words(over: str) -> str:
 
 
 def _notes(result: Search) -> Iterator[str]:
-    angles = [one for one in result.ranges if "." not in one.key]  # whose range nobody gave
-    if angles:
-        ends = (f"{_in_words(a.key)} {a.ends[0]:g} to {a.ends[1]:g} deg" for a in angles)
+    ends = [
+        f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
+        for key, number in result.ranges.items()
+        if "." not in key  # whose range nobody gave
+    ]
+    if ends:
         yield f"Searched: {', '.join(ends)}."
     if result.refused:
         yield f"Some of these values make no engine, such as {result.refused}."
@@ -110,20 +115,6 @@ def _notes(result: Search) -> Iterator[str]:
         yield speeds
 
 
-def _cells(result: Search, one: Found, units: Mapping[str, ShownUnit]) -> tuple[str, ...]:
-    return (
-        *map(_setting, one.design.values()),
-        *([number(one.objective)] if _is_sum(result) else []),
-        *(number(value / units[name].size) for name, value in one.quantities.items()),
-    )
-
-
-def _is_sum(result: Search) -> bool:
-    """Return whether the objective is more than one of the figures."""
-    weights = list(result.objective.weights.values())
-    return weights != [1.0]
-
-
 def _setting(value: float | list[float]) -> str:
     """Return a number, or several with hyphens between them."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
@@ -138,59 +129,38 @@ def _exactly(value: float | list[float]) -> str:
 RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
+OVER = (
+    "What is arranged: the throws of the file (or of its firing order), its firing order, the "
+    "angle of the vee or of its split pins, or any number in a range, as mount.left.loss=0.05:0.3. "
+    "Several numbers and angles are searched together."
+)
+MINIMISE = (
+    "Minimize this sum of quantities, such as moment.1.major=1,force.2.major=0.5 (different units "
+    "need weights)."
+)
+LIMIT = (
+    "Upper limit of a quantity, SI or with its unit, such as 'moment.2.major<100' or "
+    "'shaft.flywheel.stress<60 N/mm^2'."
+)
+MAXIMISE = "Maximize this sum instead."
+REQUIRE = "Only arrangements with even firing intervals."
+WRITE = "Write the engine file with the best one."
+goal = partial(optional, "WHAT[=WEIGHT],...")
+
+
 def search(
     path: EnginePath,
     over: Annotated[
-        list[str],
-        optional(
-            "throws|firing_order|bank_angle|splay|NUMBER=FROM:TO",
-            "Variables: the sequence of the file's throw angles (or of those of its firing order), "
-            "the firing order, the angle of the vee, or of its split pins; or any number of the "
-            "file in a range, such as mount.left.loss=0.05:0.3. Several numbers and angles are "
-            "searched together.",
-            "--over",
-        ),
+        list[str], optional("throws|firing_order|bank_angle|splay|NUMBER=FROM:TO", OVER)
     ],
-    minimise: Annotated[
-        str | None,
-        optional(
-            "WHAT[=WEIGHT],...",
-            "Minimize this sum, such as moment.1.major=1,force.2.major=0.5 (different units need "
-            "weights), of any quantities of sweep, such as shaft.flywheel.torque.",
-            "--minimise",
-            "--minimize",
-        ),
-    ] = None,
-    maximise: Annotated[
-        str | None,
-        optional(
-            "WHAT[=WEIGHT],...",
-            "Maximize this sum instead.",
-            "--maximise",
-            "--maximize",
-        ),
-    ] = None,
-    limit: Annotated[
-        list[str] | None,
-        optional(
-            "WHAT<VALUE",
-            "Upper limit of a quantity (N, N·m, Hz, Pa, or with its unit), such as "
-            "'moment.2.major<100' or 'shaft.flywheel.stress<60 N/mm^2'.",
-            "--limit",
-        ),
-    ] = None,
-    require: Annotated[
-        str,
-        optional("even-firing", "even-firing: only arrangements with even intervals.", "--require"),
-    ] = "",
-    top: Annotated[
-        int, typer.Option("--top", min=1, max=MOST_FOUND, help="How many to show.")
-    ] = 10,
+    minimise: Annotated[str | None, goal(MINIMISE, "--minimise", "--minimize")] = None,
+    maximise: Annotated[str | None, goal(MAXIMISE, "--maximise", "--maximize")] = None,
+    limit: Annotated[list[str] | None, optional("WHAT<VALUE", LIMIT)] = None,
+    require: Annotated[str, optional("even-firing", REQUIRE)] = "",
+    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="How many to show.")] = 10,
     form: FormatOption = None,
     output: Output = None,
-    write: Annotated[
-        Path | None, optional("OUT.toml", "Write the engine file with the best one.", "--write")
-    ] = None,
+    write: Annotated[Path | None, optional("OUT.toml", WRITE)] = None,
 ) -> None:
     """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
     and rotations once.
@@ -211,7 +181,9 @@ def search(
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
     with naming_file(name):
-        _doubt(build.build(model).unlikely, over, name)
+        unlikely = build.build(model).unlikely
+    varied = [text.partition("=")[0] for text in over]
+    warn_each((doubt for doubt in unlikely if not any(one in doubt for one in varied)), name)
     if write is not None:
         refuse_leaving_files(text, path, write)
     with_gas = model.gas is not None
@@ -223,10 +195,3 @@ def search(
     if write is not None:
         write_file(designs.write_design(text, found.results[0].design, name), write)
     exit_if_cut_short(progress, "these are the best of them")
-
-
-def _doubt(doubts: Iterable[str], over: list[str], name: str) -> None:
-    """Warn of unlikely figures of the file, except those that are arranged or vary."""
-
-    varied = [text.partition("=")[0] for text in over]
-    warn_each((d for d in doubts if not any(one in d for one in varied)), name)

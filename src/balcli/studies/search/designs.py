@@ -1,7 +1,7 @@
 """Arrangements that a search finds, engine files with them, and the objective: a weighted sum of
 quantities to minimise or maximise, and limits.
 
-Candidates of a search: their figures, all together where they are sums, and their merits.
+Candidates of a search: their figures, all together where they are sums, and their costs.
 """
 
 from __future__ import annotations
@@ -10,8 +10,9 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
-from typing import Annotated, Any, NamedTuple, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +21,10 @@ from ...core.phases import TURN
 from ...core.phasors import Array, Figure
 from ...core.records import HIDDEN, INLINE
 from ...engine.build import build
-from ...engine.engine import Engine
+from ...engine.engine import Engine, take_model
 from ...engine.figures import ranked
 from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
+from ...engine.load import vary_engine
 from ...engine.parse import parse, parse_dict
 from ...errors import BalcliError, InputError
 from ...file.edit import set_keys
@@ -33,9 +35,8 @@ from ...forces.kinds import GAS_KINDS
 from ...forces.quantity import Quantity
 from ...limits import MOST_DESIGNS_ONE_BY_ONE
 from ...process import Tell
-from ..evaluator import Evaluator
 from ..parameters import tell_variant
-from ..quantities import AnyQuantity, parse_quantities
+from ..quantities import AnyQuantity, Evaluator, parse_quantities
 
 # One arrangement: what differs from the file, by key: a key of PATHS, or the dotted name of a
 # number. Throws (deg) and firing orders are lists.
@@ -125,55 +126,24 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
         raise BalcliError(
             f"--write takes throws, firing orders and angles; write {settings} by hand"
         )
-    new = text.decode("utf-8-sig")
-    for path, value in list_changes(design).items():
+    new, changes = text.decode("utf-8-sig"), list_changes(design)
+    try:
+        engine = vary_engine(build(parse(new, name)), changes)
+    except InputError:
+        raise BalcliError(
+            "--write: the firing order of the file does not fit what was found, and [gas] "
+            "needs one: look for it by --over firing_order, or leave [gas] out"
+        ) from None
+    if take_model(engine).layout.firing_order is None:
+        changes |= {"layout.firing_order": None, "layout.firing_intervals": None}
+    for path, value in changes.items():
         table, _, last = path.partition(".")
         new = set_keys(new, table, {last: value}, NOTE)
-    if not _is_engine(new, name):
-        new = set_keys(new, "layout", {"firing_order": None, "firing_intervals": None}, NOTE)
-        if not _is_engine(new, name):
-            raise BalcliError(
-                "--write: the firing order of the file does not fit what was found, and [gas] "
-                "needs one: look for it by --over firing_order, or leave [gas] out"
-            )
     return new
 
 
-def _is_engine(text: str, name: str) -> bool:
-    try:
-        build(parse(text, name))
-    except InputError:
-        return False
-    return True
-
-
+BROKEN = 1e200  # above all costs of candidates that keep the limits
 _SIGNED = ("torque.mean", "torque.min")
-
-
-class Merit(NamedTuple):
-    """Merits of candidates, shape (candidates,): the one with less excess is better, of equal ones
-    the one with less cost.
-
-    Attributes:
-        excess: 0 where all limits are kept, else the largest ratio of a quantity to its limit.
-        cost: weighted sum of the quantities; its negative where it is maximised.
-    """
-
-    excess: Array
-    cost: Array
-
-    def take(self, where: Any) -> Merit:
-        """Return the merits of some candidates, by an index as of numpy."""
-        return Merit(self.excess[where], self.cost[where])
-
-    def is_at_most(self, other: Merit) -> NDArray[np.bool_]:
-        """Return whether each candidate is as good as the other one, or better."""
-        cheaper = (self.excess == other.excess) & (self.cost <= other.cost)
-        return np.asarray((self.excess < other.excess) | cheaper)
-
-    def rank(self) -> NDArray[np.intp]:
-        """Return the indices of the candidates, best first, along the last axis."""
-        return np.lexsort((self.cost, self.excess), axis=-1)
 
 
 @dataclass(frozen=True)
@@ -198,14 +168,17 @@ class Objective:
         """Return the weighted sum; `value` gives each quantity."""
         return sum(weight * value(q) for q, weight in self.weights.items())
 
-    def judge(self, values: Mapping[AnyQuantity, Array]) -> Merit:
-        """Return the merits of candidates by their quantities, shape (candidates,) each."""
+    def judge(self, values: Mapping[AnyQuantity, Array]) -> Array:
+        """Return the costs of candidates by their quantities, shape (candidates,) each: the sum,
+        its negative where it is maximised, or BROKEN times the largest ratio of a quantity to its
+        limit where one is not kept.
+        """
         total = np.asarray(self.add_up(values.__getitem__), float)
         excess = np.zeros_like(total)
         for q, limit in self.limits.items():
             share = values[q] / limit
             excess = np.where(share < 1, excess, np.maximum(excess, share))
-        return Merit(excess, -total if self.maximise else total)
+        return np.where(excess > 0, BROKEN * excess, -total if self.maximise else total)
 
 
 def parse_objective(
@@ -252,20 +225,16 @@ def parse_objective(
     return Objective(weights, bounds, maximise is not None)
 
 
-_RATIOS = {("N", "N·m"): "1/m", ("N·m", "N"): "m"}  # of units, in short
-
-
 def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> None:
     """Raise BalcliError if quantities that are to be added up have different units."""
     units = {q.name: q.unit or "1" for q in quantities}
     first, *others = dict.fromkeys(units.values())
-    if not others:
-        return
-    ratios = {unit: f"=8 ({_RATIOS.get((first, unit), f'{first}/{unit}')})" for unit in others}
-    weights = ", ".join(name + ratios.get(unit, "=1") for name, unit in units.items())
-    raise BalcliError(
-        f"--{option} adds up {' and '.join([first, *others])}; give weights: {weights}"
-    )
+    if others:
+        weights = (f"{name}={1 if unit == first else 8}" for name, unit in units.items())
+        raise BalcliError(
+            f"--{option} adds up {' and '.join([first, *others])}; give weights, such as "
+            f"{','.join(weights)}"
+        )
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
@@ -304,62 +273,60 @@ AT_ONCE = 256  # candidates that are built as one engine
 _EVEN_DEG = 1e-9  # firings that are less uneven are even
 
 
+@dataclass
 class NumbersJudge:
-    """Merits of values of some numbers of an engine file.
+    """Costs of values of some numbers of an engine file.
 
-    Args:
+    Attributes:
         model: Engine file.
         paths: Dotted names of the numbers.
         objective: Objective of the search.
         even_firing: Whether the cylinders have to fire evenly.
         tell: Called with the number of candidates so far.
-
-    Attributes:
-        alone: Whether candidates are computed one by one.
         refused: Error of the first candidate that makes no engine, with its numbers as `file`;
             None if all do.
     """
 
-    def __init__(
-        self,
-        model: EngineFile,
-        paths: Sequence[str],
-        objective: Objective,
-        even_firing: bool,
-        tell: Tell,
-    ) -> None:
-        self._model, self._paths, self._objective = model, paths, objective
-        self._even_firing, self._tell, self._count = even_firing, tell, 0
-        self._evaluator = Evaluator(model, objective.quantities)
-        self.alone = not objective.is_sum_over_cylinders
-        self.refused: InputError | None = None
+    model: EngineFile
+    paths: Sequence[str]
+    objective: Objective
+    even_firing: bool
+    tell: Tell
+    refused: InputError | None = None
+    _count: int = 0
 
-    def __call__(self, points: Array) -> Merit:
-        """Return the merits of points, shape (points, numbers); infinite where no engine is."""
+    @property
+    def alone(self) -> bool:
+        """Whether candidates are computed one by one."""
+        return not self.objective.is_sum_over_cylinders
+
+    @cached_property
+    def _evaluator(self) -> Evaluator:
+        return Evaluator(self.model, self.objective.quantities)
+
+    def __call__(self, points: Array) -> Array:
+        """Return the costs of points, shape (points, numbers); infinite where no engine is."""
         size = 1 if self.alone else AT_ONCE
-        return _join([self._judge(points[k : k + size]) for k in range(0, len(points), size)])
+        parts = [self._judge(points[k : k + size]) for k in range(0, len(points), size)]
+        return np.concatenate([np.empty(0), *parts])
 
-    def _judge(self, points: Array) -> Merit:
+    def _judge(self, points: Array) -> Array:
+        columns = dict(zip(self.paths, points.T, strict=True))
         try:
-            merit = self._judge_engines(points)
+            costs = self.objective.judge(self.evaluate(points))
+            if self.even_firing:
+                uneven = find_unevenness(self._evaluator.build(columns, 1), self.model)
+                missed = np.where(uneven > _EVEN_DEG, BROKEN * (1 + uneven), -np.inf)
+                costs = np.maximum(costs, missed)
         except InputError as error:
             if len(points) > 1:
-                return _join([self._judge(half) for half in np.array_split(points, 2)])
-            figures = dict(zip(self._paths, points[0].tolist(), strict=True))
+                return np.concatenate([self._judge(half) for half in np.array_split(points, 2)])
+            figures = {path: column.item() for path, column in columns.items()}
             self.refused = self.refused or InputError(error.problems, tell_variant(figures))
-            merit = Merit(*np.full((2, 1), np.inf))
+            costs = np.array([np.inf])
         self._count += len(points)
-        self._tell(self._count)
-        return merit
-
-    def _judge_engines(self, points: Array) -> Merit:
-        merit = self._objective.judge(self.evaluate(points))
-        if not self._even_firing:
-            return merit
-        columns = dict(zip(self._paths, points.T, strict=True))
-        uneven = find_unevenness(self._evaluator.build(columns, 1), self._model)
-        missed = np.where(uneven > _EVEN_DEG, 1 + uneven, 0.0)
-        return Merit(np.maximum(merit.excess, missed), merit.cost)
+        self.tell(self._count)
+        return costs
 
     def evaluate(self, points: Array) -> dict[AnyQuantity, Array]:
         """Return each quantity, shape (points,).
@@ -367,14 +334,9 @@ class NumbersJudge:
         Raises:
             InputError: One of the points makes no engine.
         """
-        columns = dict(zip(self._paths, points.T, strict=True))
+        columns = dict(zip(self.paths, points.T, strict=True))
         values = self._evaluator.evaluate(columns, (len(points),))
-        return dict(zip(self._objective.quantities, values, strict=True))
-
-
-def _join(parts: Sequence[Merit]) -> Merit:
-    """Return the merits of all candidates together."""
-    return Merit(*np.concatenate([np.empty((2, 0)), *parts], axis=1))
+        return dict(zip(self.objective.quantities, values, strict=True))
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
@@ -430,11 +392,11 @@ def rank_designs(
         objective: Objective of the search.
         lines: For each design `Found.line`.
     """
-    merit = objective.judge(values)
-    for k in Merit(merit.excess, ranked(merit.cost)).rank():
-        if merit.excess[k] == 0 and np.isfinite(merit.cost[k]):
+    costs = objective.judge(values)
+    for k in np.argsort(ranked(costs), kind="stable"):
+        if costs[k] < BROKEN:
             figures = {q.name: float(value[k]) for q, value in values.items()}
-            total = -merit.cost[k] if objective.maximise else merit.cost[k]
+            total = -costs[k] if objective.maximise else costs[k]
             yield Found(designs[k], float(total), figures, lines[k] if lines else None)
 
 
@@ -453,11 +415,7 @@ def rank_one_by_one(
         BalcliError: More than MOST_DESIGNS_ONE_BY_ONE.
     """
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
-    if len(every) > MOST_DESIGNS_ONE_BY_ONE:
-        raise BalcliError(
-            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
-            "give crank.throws, or search by quantities of inertia such as moment.1.major"
-        )
+    refuse_many(len(every))
     rows: list[list[Array]] = []
     for k, design in enumerate(every, 1):
         changed = parse_dict(change_tables(model, list_changes(design)), model.folder)
@@ -468,3 +426,12 @@ def rank_one_by_one(
     return rank_designs(
         every[: len(rows)], dict(zip(objective.quantities, values, strict=True)), objective
     )
+
+
+def refuse_many(count: int) -> None:
+    """Raise BalcliError for more arrangements than can be computed one by one."""
+    if count > MOST_DESIGNS_ONE_BY_ONE:
+        raise BalcliError(
+            f"more than {MOST_DESIGNS_ONE_BY_ONE} arrangements, too many to compute one by one; "
+            "give crank.throws, or search by quantities of inertia such as moment.1.major"
+        )

@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
+from itertools import islice, permutations, product
 
 import numpy as np
 
@@ -23,7 +23,8 @@ from ...engine.numbering import find_fitting_splay
 from ...errors import BalcliError
 from ...file.model import EngineFile
 from ...limits import MOST_CYLINDERS_FIRED, MOST_EVEN_CRANKS
-from .designs import Found, Objective, drop_firing_order, rank_throws
+from ...process import Tell
+from .designs import Found, Objective, drop_firing_order, rank_one_by_one, rank_throws
 from .throws import count_from
 
 
@@ -88,24 +89,21 @@ class Slots:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
-        """Yield all even firing orders of a crank that begin with cylinder 1."""
-        start = throws[next(c.throw for c in self.cells if c.number == 1)]
-        slots = {c.number: self._find_slot(c, throws[c.throw] - start) for c in self.cells}
-        if Counter(slots.values()) == Counter(self._slots):
-            yield from self._continue_order((1,), slots)
-
-    def _continue_order(
-        self, order: tuple[int, ...], slots: Mapping[int, int]
-    ) -> Iterator[tuple[int, ...]]:
-        """Yield all firing orders with this beginning; `slots` has the position of the crank when
-        each cylinder is at top dead centre.
+        """Yield all even firing orders of a crank that begin with cylinder 1: cylinders that are
+        ready together take their slots in any sequence.
         """
-        if len(order) == len(self.cells):
-            yield order
-            return
-        for number, slot in slots.items():
-            if slot == self._slots[len(order)] and number not in order:
-                yield from self._continue_order((*order, number), slots)
+        start = throws[next(c.throw for c in self.cells if c.number == 1)]
+        ready: dict[int, list[int]] = {slot: [] for slot in self._slots}
+        for cell in self.cells:
+            ready.setdefault(self._find_slot(cell, throws[cell.throw] - start), []).append(
+                cell.number
+            )
+        if {slot: len(numbers) for slot, numbers in ready.items()} == Counter(self._slots):
+            for chosen in product(*map(permutations, ready.values())):
+                turns = dict(zip(ready, map(iter, chosen), strict=True))
+                order = tuple(next(turns[slot]) for slot in self._slots)
+                if order[0] == 1:
+                    yield order
 
     @cached_property
     def _slots(self) -> list[int]:
@@ -159,9 +157,17 @@ def _tell_that_none_is_even(model: EngineFile) -> str:
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
 
 
-def search_firing_order(model: EngineFile, objective: Objective) -> Iterator[Found]:
+def search_firing_order(model: EngineFile, objective: Objective, tell: Tell) -> Iterator[Found]:
     """Yield the even firing orders with their cranks, best first."""
     slots, cranks = find_slots(model)
-    for one in rank_throws(drop_firing_order(model), cranks, objective):
-        for order in slots.find_orders(one.design["throws"]):
-            yield replace(one, design={"firing_order": [*order], **one.design})
+    if objective.is_sum_over_cylinders:
+        for one in rank_throws(drop_firing_order(model), cranks, objective):
+            for order in slots.find_orders(one.design["throws"]):
+                yield replace(one, design={"firing_order": [*order], **one.design})
+        return
+    designs = (
+        {"firing_order": [*order], "throws": throws}
+        for throws in cranks.tolist()
+        for order in slots.find_orders(throws)
+    )
+    yield from rank_one_by_one(model, designs, objective, tell)

@@ -3,7 +3,7 @@
 Candidates are spread over the box: a grid of one number, a quasi-random sequence of several. From
 each candidate that is better than its neighbours a local search starts. It compares candidates and
 uses no derivatives, because sizes of vectors have kinks where they vanish, limits have edges, and
-some numbers make no engine: golden section for one number, the evolution strategy with covariance
+some numbers make no engine: halved steps for one number, the evolution strategy with covariance
 adaptation (Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772) for several.
 """
 
@@ -16,14 +16,12 @@ from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...core.phasors import Array
 from ...engine.figures import ranked
-from .designs import Merit
+from .designs import BROKEN
 
-Judge = Callable[[Array], Merit]  # of points, shape (points, numbers)
-_GOLDEN = (math.sqrt(5) - 1) / 2
+Judge = Callable[[Array], Array]  # the costs of points, shape (points, numbers)
 _DIGITS = 12  # of numbers
 _LEVEL, _ROUNDING = 1e-9, 1e-12  # relative difference of costs that are equal; of the largest
 
@@ -92,8 +90,8 @@ class Effort:
 
     def count_evaluations(self, numbers: int) -> int:
         """Return about how many candidates are evaluated."""
-        rounds = math.log(self.exact) / math.log(_GOLDEN)
-        return round(self.points + self.starts * rounds * (1 if numbers == 1 else 20 * numbers))
+        halvings = -math.log2(self.exact)
+        return round(self.points + self.starts * halvings * (2 if numbers == 1 else 30 * numbers))
 
 
 class LocalOptima(NamedTuple):
@@ -104,74 +102,65 @@ class LocalOptima(NamedTuple):
             roundest point that is as good.
         lines: for each, another end of a line of equally good points, or itself, shape (optima,
             numbers).
-        points, merits: the points that were spread over the box.
+        costs: costs of the points that were spread over the box.
     """
 
     places: Array
     lines: Array
-    points: Array
-    merits: Merit
+    costs: Array
 
 
 def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
     """Return every local optimum in a box that is found from `effort.starts` starts, once."""
     points = box.spread(effort.points)
-    merits = judge(points)
-    starts = _find_starts(points, merits, box)[: effort.starts]
+    costs = judge(points)
+    starts = points[_find_starts(points, costs, box)[: effort.starts]]
     step = effort.points ** (-1 / box.size)  # between neighbours, as a share of the box
     if box.size == 1:
-        found = _divide(judge, points[starts], step * box.span, effort.exact * box.span)
+        found = _descend(judge, box, starts, step * box.span, effort.exact * box.span)
     else:
-        found = _adapt(judge, box, points[starts], 0.5 * step, effort)
-    found = box.bring_inside(found)
-    ends = judge(found)
-    better = ends.is_at_most(merits.take(starts))[:, None]
-    found = np.where(better, found, points[starts])
-    found = found[judge(found).excess == 0]  # others would be rounded to wherever limits are kept
-    slack = effort.as_good * np.abs(judge(found).cost)
-    rounded = [_round_off(judge, box, x, each) for x, each in zip(found, slack, strict=True)]
-    found = np.array(rounded).reshape(-1, box.size)
-    costs = merits.cost[np.isfinite(merits.cost)]
-    noise = _ROUNDING * np.abs(costs).max(initial=0)
-    places, lines = _separate(judge, box, found, effort, noise)
-    return LocalOptima(places, lines, points, merits)
+        found = _adapt(judge, box, starts, 0.5 * step, effort)
+    rounded = [
+        _round_off(judge, box, point, cost + effort.as_good * abs(cost))
+        for point, cost in zip(found, judge(found), strict=True)
+        if cost < BROKEN
+    ]
+    noise = _ROUNDING * np.abs(costs[costs < BROKEN]).max(initial=0)
+    best, lines = _separate(judge, box, rounded, effort, noise)
+    order = np.argsort(ranked(judge(best)), kind="stable")
+    return LocalOptima(best[order], lines[order], costs)
 
 
 def _separate(
-    judge: Judge, box: Box, found: Array, effort: Effort, noise: float
+    judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float
 ) -> tuple[Array, Array]:
-    """Return the optima from which none of the others can be reached without going uphill, best
-    first; and the ends of lines of equally good points, as of `LocalOptima`.
+    """Return the optima from which none of the others can be reached without going uphill; and the
+    ends of lines of equally good points, as of `LocalOptima`.
 
     A search that stops on a line, such as one on which limits are kept, reaches a better point of
     the line without going uphill.
     """
     best: list[Array] = []
     lines: list[Array] = []
-    ends = judge(found)
-    for k in Merit(ends.excess, ranked(ends.cost)).rank():
-        if ends.excess[k] > 0 or not np.isfinite(ends.cost[k]):
-            continue
+    points = np.reshape(found, (-1, box.size))
+    for point in points[np.argsort(ranked(judge(points)), kind="stable")]:
         for n, other in enumerate(best):
-            way = box.subtract(found[k], other)
+            way = box.subtract(point, other)
             if np.abs(way).max() <= effort.same:
                 break
             line = other + np.linspace(0, 1, effort.steps + 2)[:, None] * way * box.span
             along = judge(box.bring_inside(line))
-            level = along.cost[-1] + _LEVEL * abs(along.cost[-1]) + noise
-            if not along.excess.any() and along.cost.max() <= level:
-                if along.cost[0] >= 2 * along.cost[-1] - level:
-                    lines[n] = found[k]
+            level = along[-1] + _LEVEL * abs(along[-1]) + noise
+            if along.max() <= level:
+                if along[0] >= 2 * along[-1] - level:
+                    lines[n] = point
                 else:
                     best[n] = lines[n] = _slide(judge, box, other, way, effort)
                 break
         else:
-            best.append(found[k])
-            lines.append(found[k])
-    places = np.array(best).reshape(-1, box.size)
-    ends = judge(places)
-    order = Merit(ends.excess, ranked(ends.cost)).rank()
-    return places[order], np.array(lines).reshape(-1, box.size)[order]
+            best.append(point)
+            lines.append(point)
+    return np.reshape(best, (-1, box.size)), np.reshape(lines, (-1, box.size))
 
 
 def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> Array:
@@ -187,53 +176,44 @@ def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> 
     return find(places[0]) if len(places) else point
 
 
-def _find_starts(points: Array, merits: Merit, box: Box) -> Array:
+def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
     """Return the indices of the points that are better than their neighbours, best first; of equal
     ones the first.
     """
-    merits = Merit(merits.excess, ranked(merits.cost))
-    place = np.empty(len(points), int)
-    place[merits.rank()] = np.arange(len(points))
+    order = np.argsort(ranked(costs), kind="stable")
+    place = np.argsort(order)
     starts = []
-    for k in np.flatnonzero(np.isfinite(merits.excess)):
+    for k in order[np.isfinite(costs[order])]:
         distance = (box.subtract(points, points[k]) ** 2).sum(axis=1)
         distance[k] = np.inf
         near = np.argsort(distance, kind="stable")[: 2 * box.size]
         if not any(place[near] < place[k]):
-            starts.append(k)
-    return np.array(sorted(starts, key=lambda k: int(place[k])), int)
+            starts.append(int(k))
+    return starts
 
 
-def _divide(judge: Judge, middle: Array, step: Array, exact: Array) -> Array:
-    """Return the minima in middle +- step by golden section, all at once, shape (minima, 1).
-
-    The best point so far stays between the ends of its bracket, so that the search never leaves
-    the region within the limits, however narrow.
+def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
+    """Return the minima near some starts, shape (starts, 1), all at once: each moves to a neighbour
+    that is better, at a distance `step`, or halves the distance where neither is.
     """
-    low, best, high = middle - step, middle, middle + step
-    reached = judge(best)
-    for _ in range(4 + math.ceil(math.log(float(exact[0] / (2 * step[0]))) / math.log(_GOLDEN))):
-        above = high - best > best - low
-        new = best + (1 - _GOLDEN) * np.where(above, high - best, low - best)
-        merit = judge(new)
-        better = merit.is_at_most(reached)
-        found = better[:, None]
-        low = np.where(above, np.where(found, best, low), np.where(found, low, new))
-        high = np.where(above, np.where(found, high, new), np.where(found, best, high))
-        best = np.where(found, new, best)
-        reached = _choose(better, merit, reached)
+    steps, reached = np.broadcast_to(step, best.shape).copy(), judge(best)
+    while np.any(steps > exact):
+        stays = np.full(len(best), True)
+        for side in (-1, 1):
+            points = box.bring_inside(best + side * steps)
+            costs = judge(points)
+            better = costs < reached
+            best = np.where(better[:, None], points, best)
+            reached = np.where(better, costs, reached)
+            stays &= ~better
+        steps[stays] /= 2
     return best
-
-
-def _choose(where: NDArray[np.bool_], one: Merit, other: Merit) -> Merit:
-    return Merit(*(np.where(where, a, b) for a, b in zip(one, other, strict=True)))
 
 
 def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> Array:
     """Return an optimum for each start (starts, numbers) by evolution strategies that run side by
     side: each draws candidates, moves to the mean of the better half, and adapts its step and its
-    covariance. Lengths are shares of the box. Starts that do not converge return their best; one
-    that comes near a better one, when both have narrowed down, stops there.
+    covariance. Lengths are shares of the box. Starts that do not converge return their best.
     """
     count, k = mean.shape
     drawn, most = 8 + 4 * k, 300 + 100 * k
@@ -246,13 +226,7 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
     for _ in range(most):
         squares, axes = np.linalg.eigh(covariance)
         widths = np.sqrt(np.maximum(squares, 1e-28))
-        wide = size * widths[:, -1]
-        for n in np.flatnonzero((wide > effort.exact) & (wide < effort.same / 10)):
-            near = np.abs(box.subtract(mean, mean[n])).max(axis=1) < effort.same
-            near &= (wide < effort.same / 10) & reached.is_at_most(reached.take(n)) & (size > 0)
-            if near.sum() > 1:  # another one than itself
-                size[n] = wide[n] = 0.0
-        live = np.flatnonzero(wide > effort.exact)
+        live = np.flatnonzero(size * widths[:, -1] > effort.exact)
         if not len(live):
             break
         sizes = size[live, None] * np.exp(
@@ -261,13 +235,12 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
         z = random.standard_normal((len(live), drawn, k))
         moves = np.einsum("sij,slj->sli", axes[live], z * widths[live, None])
         points = box.bring_inside(mean[live, None] + sizes[..., None] * moves * box.span)
-        merits = Merit(*(each.reshape(sizes.shape) for each in judge(points.reshape(-1, k))))
-        rows, order = np.arange(len(live))[:, None], merits.rank()[:, :half]
-        first = merits.take((rows[:, 0], order[:, 0]))
-        better = ~reached.take(live).is_at_most(first)
+        costs = judge(points.reshape(-1, k)).reshape(sizes.shape)
+        rows, order = np.arange(len(live))[:, None], np.argsort(costs, axis=1)[:, :half]
+        first = costs.min(axis=1)
+        better = first < reached[live]
         best[live[better]] = points[rows[:, 0], order[:, 0]][better]
-        for whole, part in zip(reached, first, strict=True):
-            whole[live[better]] = part[better]
+        reached[live[better]] = first[better]
         steps = box.subtract(points, mean[live, None])[rows, order]
         mean[live] = box.bring_inside(mean[live] + steps.mean(axis=1) * box.span)
         chosen = steps / sizes[rows, order][..., None]
@@ -277,19 +250,17 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
     return best
 
 
-def _round_off(judge: Judge, box: Box, point: Array, slack: float) -> Array:
-    """Return a point with each number as round as it can be and still as good but for the slack."""
+def _round_off(judge: Judge, box: Box, point: Array, enough: float) -> Array:
+    """Return a point with each number as round as it can be without a cost above `enough`."""
     for n, span in enumerate(box.span):
         coarsest = -math.floor(math.log10(span))
         x = float(point[n])
         rounded = [round(x, coarsest + more) + 0.0 for more in range(_DIGITS)]
         turns = 360.0 * float(Fraction(x / 360.0).limit_denominator(1000))  # 360/7 is round, too
         near = [y for y in [*rounded[:7], turns, *rounded[7:]] if box.low[n] <= y <= box.high[n]]
-        tried = np.tile(point, (len(near) + 1, 1))
-        tried[1:, n] = near
-        merits = judge(tried)
-        enough = Merit(merits.excess[:1], merits.cost[:1] + slack)
-        good = np.flatnonzero(merits.is_at_most(enough)[1:])
+        tried = np.tile(point, (len(near), 1))
+        tried[:, n] = near
+        good = np.flatnonzero(judge(tried) <= enough)
         if len(good):
-            point = tried[1 + good[0]]
+            point = tried[good[0]]
     return point

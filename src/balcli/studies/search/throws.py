@@ -8,11 +8,10 @@ known ones.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache, partial
-from itertools import permutations
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -31,13 +30,22 @@ from ...limits import MOST_ARRANGEMENTS
 from ...process import Tell, tell_nobody
 from ...show.sheet import count_name
 from ..quantities import AnyQuantity, choose_of_engine
-from .designs import Design, Found, Objective, fires_evenly, name_throws, rank_throws
+from .designs import (
+    BROKEN,
+    Found,
+    Objective,
+    drop_firing_order,
+    fires_evenly,
+    name_throws,
+    rank_one_by_one,
+    rank_throws,
+    refuse_many,
+)
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
 Allowed = Callable[[Array], NDArray[np.bool_]]
 IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
 BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
-ENDINGS = 256  # such sets of throws whose sums are kept
 _DECIMALS = 9  # of angles that are equal, deg
 _NEAR = 1e-11  # deg, from a short decimal
 ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
@@ -46,42 +54,51 @@ ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
 def search_throws(
     model: EngineFile, objective: Objective, wanted: int, even_firing: bool, tell: Tell
 ) -> Iterator[Found]:
-    """Yield at least `wanted` arrangements of the throws of a file, best first, if there are so
-    many; its quantities are sums over the cylinders.
+    """Return at least `wanted` arrangements of the throws of a file, best first, if there are so
+    many.
 
     Raises:
         BalcliError: There is nothing to arrange, or a peak is asked for.
     """
-    if peaks := [q.name for q in choose_of_engine(objective.quantities) if q.part == "peak"]:
-        raise BalcliError(
-            f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
-            "such as force.1.major"
-        )
+    model = drop_firing_order(give_throws(model))
 
     def can_fire(throws: Array) -> NDArray[np.bool_]:
         return fires_evenly(build(model, name_throws(throws)), model)
 
+    if not objective.is_sum_over_cylinders:
+        throws = list_throws(model)
+        throws = throws[can_fire(throws)] if even_firing else throws
+        designs = ({"throws": row} for row in throws.tolist())
+        return rank_one_by_one(model, designs, objective, tell)
+    if peaks := [q.name for q in objective.quantities if q.part == "peak"]:
+        raise BalcliError(
+            f"a search over throws adds up orders, which {peaks[0]} does not allow; name orders, "
+            "such as force.1.major"
+        )
     allowed = can_fire if even_firing else None
     throws = find_best_throws(model, objective, IMAGES * wanted, allowed, tell)
-    if len(throws):
-        throws = count_from(throws[:, :1], throws)
-    return rank_throws(model, throws, objective)
+    return rank_throws(model, count_from(throws[:, :1], throws), objective)
 
 
-def list_throws(model: EngineFile) -> Iterator[Design]:
-    """Yield all arrangements of the throw angles of a file, the first throw at 0, each once.
+def list_throws(model: EngineFile) -> Array:
+    """Return all arrangements of the throw angles of a file, shape (arrangements, throws), deg, the
+    first throw at 0, each once.
 
     Raises:
-        BalcliError: Gas in four strokes, which fires by an order of its own.
+        BalcliError: Gas in four strokes, which fires by an order of its own; too many arrangements
+            to compute one by one.
     """
     if model.gas is not None and model.layout.strokes == 4:
         raise BalcliError(
             "with [gas] in four strokes the result depends on the firing order as well; use "
             "--over firing_order (without crank.throws in the file it tries all cranks)"
         )
-    every = (np.asarray(row, float) for row in permutations(model.crank.throws or ()))
-    turned = (tuple(count_from(row[:1], row).tolist()) for row in every)
-    yield from ({"throws": list(throws)} for throws in dict.fromkeys(turned))
+    sets = _find_sets(model)
+    refuse_many(sum(_count_sequences(each.left) for each in sets))
+    fixed = _find_first_throw(model)
+    rows = [np.insert(each.levels[_list_sequences(each.left)], fixed, 0.0, axis=1) for each in sets]
+    throws = np.concatenate(rows)
+    return count_from(throws[:, :1], throws)
 
 
 def give_throws(model: EngineFile) -> EngineFile:
@@ -124,25 +141,25 @@ def _neaten(angle: float) -> float:
 
 # ------------------------------------------------------------------ contributions of throws
 class Contributions(NamedTuple):
-    """Forward and backward vectors of some kinds and orders, in their order.
+    """Forward and backward vectors of the kinds and orders of some quantities.
 
     Attributes:
-        keys: Kinds and orders.
-        throws: Vectors of every throw at every angle, shape (keys, 2, throws, angles).
-        devices: Vectors of the devices, shape (keys, 2).
-        reach: The most by which a throw can change a vector, shape (keys, throws).
+        rows: Row of the kind and order of each quantity.
+        throws: Vectors of every throw at every angle, shape (rows, 2, throws, angles).
+        devices: Vectors of the devices, shape (rows, 2).
+        reach: The most by which a throw can change a vector, shape (rows, throws).
     """
 
-    keys: list[tuple[str, float]]
+    rows: Mapping[AnyQuantity, int]
     throws: Complex
     devices: Complex
     reach: Array
 
     def read(self, quantity: Quantity, sums: Complex) -> Array:
-        """Return a quantity by the sums over all throws and the devices, shape (keys, 2,
+        """Return a quantity by the sums over all throws and the devices, shape (rows, 2,
         candidates).
         """
-        k = self.keys.index((quantity.kind, quantity.order))
+        k = self.rows[quantity]
         noise = np.full((1, 1), ROUNDING * self.reach[k].sum())
         order = np.array([float(quantity.order)])
         return quantity.read_from(Phasors.of(order, sums[k, :1], sums[k, 1:], noise).drop_noise())
@@ -163,56 +180,52 @@ def tabulate_contributions(
     parts.append(replace(with_only(engine, own_throw < 0), devices=engine.devices))
     keys = list(dict.fromkeys((q.kind, q.order) for q in quantities))
     orders, kinds = sorted({order for _, order in keys}), {kind for kind, _ in keys}
-    spectra = [compute_spectra(part, orders, kinds) for part in parts]
     table = np.empty((len(keys), 2, len(parts), len(angles)), complex)
-    for k, (kind, order) in enumerate(keys):
-        for part, spectrum in enumerate(spectra):
-            phasors = spectrum[kind].select_row(orders.index(order))
-            table[k, 0, part], table[k, 1, part] = phasors.forward[0], phasors.backward[0]
+    for part, each in enumerate(parts):
+        spectra = compute_spectra(each, orders, kinds)
+        for k, (kind, order) in enumerate(keys):
+            table[k, :, part] = spectra[kind].vectors[:, orders.index(order)]
     throws = table[:, :, :-1]
-    return Contributions(keys, throws, table[:, :, -1, 0], np.abs(throws).max(axis=(1, 3)))
+    rows: dict[AnyQuantity, int] = {q: keys.index((q.kind, q.order)) for q in quantities}
+    return Contributions(rows, throws, table[:, :, -1, 0], np.abs(throws).max(axis=(1, 3)))
 
 
-# ------------------------------------------------------------------ branch and bound
-def find_best_throws(
-    model: EngineFile,
-    objective: Objective,
-    count: int,
-    allowed: Allowed | None = None,
-    tell: Tell = tell_nobody,
-) -> Array:
-    """Return the best arrangements of the file's throw angles, shape (at most count, throws),
-    cylinder 1's throw at 0, best first, deg.
+# ------------------------------------------------------------------ sequences of angles
+class AngleSet(NamedTuple):
+    """Angles of the throws, counted from cylinder 1's.
 
-    Args:
-        model: Engine file with throws.
-        objective: Sums over the cylinders.
-        count: Most arrangements to return.
-        allowed: Function that tells which arrangements (candidates, throws) are allowed; None: all.
-        tell: Called with the share of all arrangements that has been decided; returns whether to
-            stop with the best of those.
+    Attributes:
+        levels: Different angles, deg, ascending from 0.
+        left: How often each is still to be given, cylinder 1's throw having the first.
+    """
+
+    levels: Array
+    left: Left
+
+
+def _find_sets(model: EngineFile) -> list[AngleSet]:
+    """Return the angles of a file's throws as counted from each that can be cylinder 1's, once.
 
     Raises:
         BalcliError: More than MOST_ARRANGEMENTS.
     """
-    given = np.mod(np.asarray(model.crank.throws, float), 360.0)
+    given = np.mod(np.asarray(model.crank.throws, float), TURN)
     if _count_sequences(np.unique(given, return_counts=True)[1]) > MOST_ARRANGEMENTS:
         raise BalcliError(
             f"crank.throws: {len(given)} throws have more than {count_name(MOST_ARRANGEMENTS)} "
             "arrangements, too many to search"
         )
-    turned: dict[bytes, Array] = {}  # counted from each angle that can be cylinder 1's, once
+    turned: dict[bytes, AngleSet] = {}
     for row in np.sort(count_from(given[:, None], given)):
-        turned.setdefault(np.round(row, _DECIMALS).tobytes(), row)
-    trees = [_Tree(model, objective, angles, allowed) for angles in turned.values()]
-    best = _BestSoFar(count, np.empty((0, len(given))), np.empty(0))
-    total, done = sum(_count_sequences(tree.left) for tree in trees), 0
-    for tree in trees:
-        for decided in tree.grow(best):
-            done += decided
-            if tell(done / total) and len(best.rows):
-                return best.rows
-    return best.rows
+        levels, times = np.unique(row, return_counts=True)
+        left = (int(times[0]) - 1, *map(int, times[1:]))
+        turned.setdefault(np.round(row, _DECIMALS).tobytes(), AngleSet(levels, left))
+    return [*turned.values()]
+
+
+def _find_first_throw(model: EngineFile) -> int:
+    """Return the throw of cylinder 1."""
+    return next(cell.throw for cell in plan_cylinders(model).cells if cell.number == 1)
 
 
 def _count_sequences(left: Iterable[int]) -> int:
@@ -239,110 +252,118 @@ def _take_one(left: Left) -> Iterator[tuple[int, Left]]:
             yield level, (*left[:level], times - 1, *left[level + 1 :])
 
 
-class _BestSoFar:
-    """The best candidates so far, at most `count`.
+# ------------------------------------------------------------------ branch and bound
+def find_best_throws(
+    model: EngineFile,
+    objective: Objective,
+    count: int,
+    allowed: Allowed | None = None,
+    tell: Tell = tell_nobody,
+) -> Array:
+    """Return the best arrangements of the file's throw angles, shape (at most count, throws),
+    cylinder 1's throw at 0, best first, deg.
+
+    Args:
+        model: Engine file with throws.
+        objective: Sums over the cylinders.
+        count: Most arrangements to return.
+        allowed: Function that tells which arrangements (candidates, throws) are allowed; None: all.
+        tell: Called with the share of all arrangements that has been decided; returns whether to
+            stop with the best of those.
+
+    Raises:
+        BalcliError: More than MOST_ARRANGEMENTS.
+    """
+    sets, search = _find_sets(model), _BranchAndBound(model, objective, count, allowed)
+    total, done = sum(_count_sequences(each.left) for each in sets), 0
+    for each in sets:
+        for decided in search.grow(each):
+            done += decided
+            if tell(done / total) and len(search.best):
+                return search.best
+    return search.best
+
+
+class _BranchAndBound:
+    """Search for the best arrangements; the throws of a branch are given in their order, without
+    cylinder 1's, which is fixed.
 
     Attributes:
-        rows: Angles of all throws, deg, shape (candidates, throws), best first.
-        values: Their costs.
-        worst: Cost above which a candidate is not one of them.
+        best: Angles of all throws of the best so far, deg, shape (at most count, throws).
     """
 
-    def __init__(self, count: int, rows: Array, values: Array) -> None:
-        self.count, self.rows, self.values, self.worst = count, rows, values, np.inf
-
-    def take(self, rows: Array, values: Array) -> None:
-        """Keep those of further candidates that belong to them; of equal ones the first stay."""
-        together = np.concatenate([self.values, values])
-        order = np.argsort(together, kind="stable")[: self.count]
-        self.rows, self.values = np.concatenate([self.rows, rows])[order], together[order]
-        self.worst = self.values[-1] if len(order) == self.count else np.inf
-
-
-class _Tree:
-    """All arrangements of one set of angles, deg, ascending; cylinder 1's throw has the first."""
-
     def __init__(
-        self, model: EngineFile, objective: Objective, angles: Array, allowed: Allowed | None
+        self, model: EngineFile, objective: Objective, count: int, allowed: Allowed | None
     ) -> None:
-        self._model, self._objective, self._allowed = model, objective, allowed
-        self._levels, times = np.unique(angles, return_counts=True)
-        self.left: Left = (int(times[0]) - 1, *map(int, times[1:]))
-        cells = plan_cylinders(model).cells
-        self._fixed = next(cell.throw for cell in cells if cell.number == 1)
-        self._free = [t for t in range(len(angles)) if t != self._fixed]
-        # The last throws add the same whatever the crank begins with: other orders of the same
-        # beginning, which soon follow, leave the same throws.
-        self._add_endings = lru_cache(ENDINGS)(self._sum_endings)
+        self._model, self._objective, self._count, self._allowed = model, objective, count, allowed
+        self._quantities = choose_of_engine(objective.quantities)
+        throws = len(model.crank.throws or ())
+        self._fixed = _find_first_throw(model)
+        self._free = [throw for throw in range(throws) if throw != self._fixed]
+        self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
 
-    def grow(self, best: _BestSoFar) -> Iterator[int]:
-        """Try all arrangements, and yield how many more have been decided."""
-        quantities = choose_of_engine(self._objective.quantities)
-        self._table = tabulate_contributions(self._model, self._levels, self._fixed, quantities)
-        start = self._table.throws[:, :, self._fixed, 0] + self._table.devices
-        yield from self._grow(best, (), self.left, start)
-
-    def _grow(
-        self, best: _BestSoFar, prefix: tuple[int, ...], left: Left, sums: Complex
-    ) -> Iterator[int]:
-        """Try all cranks with this beginning; `sums`: its vectors, shape (keys, 2)."""
-        if self._find_bound(self._free[len(prefix) :], sums) >= best.worst:
+    def grow(self, angles: AngleSet) -> Iterator[int]:
+        """Try all arrangements of some angles, and yield how many more have been decided."""
+        self._levels = angles.levels
+        self._table = tabulate_contributions(
+            self._model, angles.levels, self._fixed, self._quantities
+        )
+        vectors = self._table.throws
+        start = vectors[:, :, self._fixed, 0] + self._table.devices
+        branches: list[tuple[tuple[int, ...], Left, Complex]] = [((), angles.left, start)]
+        while branches:
+            prefix, left, sums = branches.pop()
+            if self._find_bound(self._free[len(prefix) :], sums) < self._worst:
+                if sum(left) > BLOCK:
+                    throw = self._free[len(prefix)]
+                    further = [
+                        ((*prefix, level), fewer, sums + vectors[:, :, throw, level])
+                        for level, fewer in _take_one(left)
+                    ]
+                    branches += further[::-1]
+                    continue
+                self._try(prefix, left, sums)
             yield _count_sequences(left)
-        elif sum(left) <= BLOCK:
-            self._try(best, prefix, left, sums)
-            yield _count_sequences(left)
-        else:
-            throw = self._free[len(prefix)]
-            for level, fewer in _take_one(left):
-                more = sums + self._table.throws[:, :, throw, level]
-                yield from self._grow(best, (*prefix, level), fewer, more)
 
     def _find_bound(self, to_come: list[int], sums: Complex) -> float:
         """Return the least possible cost: remaining throws may cancel or add their whole size."""
         reach = self._table.reach[:, to_come].sum(axis=1)[:, None]
-        least, most = np.maximum(np.abs(sums) - reach, 0.0), np.abs(sums) + reach
-
-        rows: dict[AnyQuantity, int] = {
-            q: self._table.keys.index((q.kind, q.order))
-            for q in choose_of_engine(self._objective.quantities)
-        }
-
-        def bound(q: AnyQuantity, ends: Array) -> float:
-            _, _, part = q.name.rpartition(".")
-            ahead, astern = ends[rows[q]].tolist()
-            if part in ("forward", "backward"):
-                return float(ahead if part == "forward" else astern)
-            known = part in ("major", "amplitude") or ends is most
-            return float(ahead + astern if known else 0.0)
-
-        if any(bound(q, least) >= limit for q, limit in self._objective.limits.items()):
+        sizes = np.abs(sums)
+        least, most = np.maximum(sizes - reach, 0.0), sizes + reach
+        objective, at_least = self._objective, partial(self._read_bound, least, False)
+        if any(at_least(q) >= limit for q, limit in objective.limits.items()):
             return math.inf
-        if self._objective.maximise:
-            return -float(self._objective.add_up(partial(bound, ends=most)))
-        return float(self._objective.add_up(partial(bound, ends=least)))
+        if objective.maximise:
+            return -float(objective.add_up(partial(self._read_bound, most, True)))
+        return float(objective.add_up(at_least))
 
-    def _sum_endings(self, left: Left) -> Complex:
-        """Return the vectors of all sequences of the remaining angles as the last free throws,
-        shape (keys, 2, sequences).
+    def _read_bound(self, sizes: Array, at_most: bool, q: AnyQuantity) -> float:
+        """Return the least or largest value of a quantity by the sizes of both vectors of each key,
+        shape (keys, 2).
         """
-        rows = _list_sequences(left)
-        columns = zip(self._free[len(self._free) - sum(left) :], rows.T, strict=True)
-        nothing = np.zeros((*self._table.devices.shape, len(rows)), complex)
-        return sum((self._table.throws[:, :, t, levels] for t, levels in columns), nothing)
+        ahead, astern = sizes[self._table.rows[q]].tolist()
+        both = ahead + astern
+        known = {"forward": ahead, "backward": astern, "major": both, "amplitude": both}
+        return float(known.get(q.part, both if at_most else 0.0))
 
-    def _try(self, best: _BestSoFar, prefix: tuple[int, ...], left: Left, sums: Complex) -> None:
+    def _try(self, prefix: tuple[int, ...], left: Left, sums: Complex) -> None:
         """Keep the best of all cranks with this beginning and the remaining angles."""
-        whole = sums[..., None] + self._add_endings(left)
-        quantities = choose_of_engine(self._objective.quantities)
-        merit = self._objective.judge({q: self._table.read(q, whole) for q in quantities})
-        values = np.where(merit.excess > 0, np.inf, ranked(merit.cost))  # of equal ones the first
-        good = np.flatnonzero(values < best.worst)
-        if not len(good):
-            return
-        ends, begin = _list_sequences(left)[good], np.tile(prefix, (len(good), 1))
-        rows = np.concatenate([begin, ends], axis=1).astype(int)
-        angles, values = np.insert(self._levels[rows], self._fixed, 0.0, axis=1), values[good]
-        if self._allowed is not None:
+        ends = _list_sequences(left)
+        whole = np.repeat(sums[..., None], len(ends), axis=2)
+        for throw, levels in zip(self._free[len(prefix) :], ends.T, strict=True):
+            whole += self._table.throws[:, :, throw, levels]
+        figures: dict[AnyQuantity, Array] = {
+            q: self._table.read(q, whole) for q in self._quantities
+        }
+        costs = ranked(self._objective.judge(figures))
+        good = np.flatnonzero(costs < self._worst)
+        rows = np.concatenate([np.tile(prefix, (len(good), 1)), ends[good]], axis=1).astype(int)
+        angles, costs = np.insert(self._levels[rows], self._fixed, 0.0, axis=1), costs[good]
+        if self._allowed is not None and len(good):
             may = self._allowed(angles)
-            angles, values = angles[may], values[may]
-        best.take(angles, values)
+            angles, costs = angles[may], costs[may]
+        costs = np.concatenate([self._costs, costs])
+        order = np.argsort(costs, kind="stable")[: self._count]  # of equal ones the first stay
+        self.best, self._costs = np.concatenate([self.best, angles])[order], costs[order]
+        if len(order) == self._count:
+            self._worst = float(self._costs[-1])

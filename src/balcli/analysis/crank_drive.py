@@ -1,0 +1,270 @@
+"""Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
+`--only masses`).
+
+The crankshaft is rigid, turns at the steady mean speed and gives its torque off at the flywheel
+end. With T_i the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque
+of all throws before it, `M_j = sum T_i, i < j`, and the pin of throw i `M_i + T_i/2`: the bearing
+before the throw takes half of the tangential force, at the arm r from the pin. The nominal shear
+stress of a hollow journal is `16 T D/(pi (D^4 - d^4))`.
+
+With l the length of the rod, a the distance of its centre of mass from the piston pin and b from
+the crank pin, its two masses are m b/l at the small and m a/l at the big end. They have the moment
+of inertia m a b about the centre of mass, the rod has J; H = m a b - J. A rod that swings about the
+piston pin has the reduced length (J + m a^2)/(m a), which is l if H = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ..core.cylinder_pressure import crank_torque
+from ..core.peaks import find_swing
+from ..core.phasors import Array, Complex
+from ..core.piecewise import resolved
+from ..core.records import list_figures, to_document
+from ..engine.engine import Engine
+from ..engine.gas import EngineGas
+from ..errors import BalcliError
+from ..file.fields import join_words
+from ..forces.crankshaft import place_bearings
+from ..forces.spectrum import compute_spectra, find_relevant_orders
+from ..show.figures import FigureRow
+from ..show.sheet import UNKNOWN, Grid, degrees, number
+from ..show.units import System
+from .records import Journal, JournalTorque, Masses, ShearStress
+
+_NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
+_ROUNDING = 1e-12  # of the sum of all cylinders' amplitudes: less is no torque
+
+
+def find_journals(engine: Engine) -> tuple[Journal, ...]:
+    """Return the torque in every main journal and crank pin, from the free end.
+
+    Args:
+        engine: Engine without trailing axes.
+
+    Raises:
+        BalcliError: The crank of a rotary engine stands still.
+    """
+    if engine.rotary:
+        raise BalcliError("--only journals: the crank of a rotary engine stands still")
+    throws = np.array(engine.joined_throw_of_rows)
+    count, places = int(throws.max()) + 1, engine.joined_throws_m
+    bearings = place_bearings(places) if engine.places_known else None
+    waves = _Waves.of(engine)
+    found = []
+    for k in range(2 * count + 1):
+        throw = (k - 1) // 2 if k % 2 else k // 2  # of the pin, or behind the main journal
+        weights = np.where(throws < throw, 1.0, 0.5 * (throws == throw) * (k % 2))
+        at = (places if k % 2 else bearings) if engine.places_known else None
+        inertia = waves.measure(weights)
+        total = None if engine.gas is None else _measure_total(engine.gas, waves, weights)
+        found.append(
+            Journal(
+                place=f"pin {throw + 1}" if k % 2 else f"main {throw + 1}",
+                position_mm=None if at is None else 1e3 * float(at[throw]),
+                inertia=inertia,
+                total=total,
+                stress=_find_stress(engine, total or inertia, "pin" if k % 2 else "main"),
+            )
+        )
+    return tuple(found)
+
+
+class _Waves(NamedTuple):
+    """Inertia torque of each cylinder: orders, shape (orders,), and phasors, N m, shape (orders,
+    cylinders).
+    """
+
+    orders: Array
+    each: Complex
+
+    @classmethod
+    def of(cls, engine: Engine) -> _Waves:
+        """Return the inertia torques of an engine at steady speed."""
+        steady = replace(engine, ripple=())
+        orders = find_relevant_orders(steady)
+        orders = orders[orders > 0]
+        return cls(orders, compute_spectra(steady, orders, ("torque",), each=True)["torque"].x)
+
+    def measure(self, weights: Array) -> JournalTorque:
+        """Return the inertia torque of the cylinders, each with its weight, shape (cylinders,)."""
+        series = self.each @ weights
+        if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
+            return _NONE
+        high, low = find_swing(self.orders, series)
+        highest, at_high = float(high.value), float(high.angle)
+        return _write(highest, at_high, float(low.value), float(low.angle), 0.0)
+
+    def at(self, angle: Array, weights: Array) -> Array:
+        """Return the sum of the weighted torques at crank angles, rad, in their shape."""
+        turned = np.exp(1j * np.multiply.outer(angle, self.orders))
+        return np.asarray((turned @ (self.each @ weights)).real)
+
+
+def _measure_total(gas: EngineGas, waves: _Waves, weights: Array) -> JournalTorque:
+    """Return the torque of gas and inertia of the cylinders, each with its weight."""
+    pairs = zip(gas.cylinders, weights.tolist(), strict=True)
+    cylinders = [(c.torque, c.fires, c.share * weight) for c, weight in pairs if weight]
+    if not cylinders:
+        return _NONE
+    once = crank_torque(cylinders, gas.cycle)
+    curve = resolved(lambda angle: once.at(angle) + waves.at(angle, weights), once.breaks)
+    low, high = curve.extremes()
+    return _write(high.value, high.angle, low.value, low.angle, curve.mean)
+
+
+def _write(
+    highest: float, at_high: float, lowest: float, at_low: float, mean: float
+) -> JournalTorque:
+    return JournalTorque(
+        max_Nm=highest,
+        max_deg=math.degrees(at_high),
+        min_Nm=lowest,
+        min_deg=math.degrees(at_low),
+        range_Nm=highest - lowest,
+        mean_Nm=mean,
+    )
+
+
+def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStress | None:
+    """Return the stress of a journal of a kind, pin or main; None without its diameter."""
+    table = None if engine.model is None else engine.model.bearing
+    diameter = None if table is None else getattr(table, f"{kind}_diameter")
+    if diameter is None:
+        return None
+    outer, inner = diameter / 1e3, getattr(table, f"{kind}_bore") / 1e3
+    per_torque = 16 * outer / (math.pi * (outer**4 - inner**4))
+    return ShearStress(
+        mean_Pa=per_torque * (torque.max_Nm + torque.min_Nm) / 2,
+        amplitude_Pa=per_torque * torque.range_Nm / 2,
+    )
+
+
+# ------------------------------------------------------------------ how it is shown
+def lay_out_journals(journals: Sequence[Journal], system: System) -> Iterator[Grid]:
+    """Yield a table of the torques in journals and pins, and with gas one of inertia alone.
+
+    Args:
+        journals: Journals, from the free end.
+        system: System of units.
+    """
+    with_gas = journals[0].total is not None
+    title = "Torque along the crankshaft"
+    if with_gas:
+        yield _grid(journals, [each.total or _NONE for each in journals], title, system, True)
+        title = "Torque along the crankshaft, inertia alone"
+    yield _grid(journals, [each.inertia for each in journals], title, system, not with_gas)
+
+
+def _grid(
+    journals: Sequence[Journal],
+    torques: Sequence[JournalTorque],
+    title: str,
+    system: System,
+    with_stress: bool,
+) -> Grid:
+    unit = system.moment.fit(max(each.range_Nm for each in torques))
+    stress = with_stress and any(each.stress for each in journals)
+    heads = ["place", f"z, {system.length.name}", f"largest, {unit.name}", "deg", "smallest", "deg"]
+    heads += ["range", "mean", *([f"±{system.stress.fit(1e9).name}"] if stress else [])]
+    rows = []
+    for each, torque in zip(journals, torques, strict=True):
+        at = each.position_mm
+        cells = [each.place, UNKNOWN if at is None else number(system.length.of(at / 1e3))]
+        for value, angle in ((torque.max_Nm, torque.max_deg), (torque.min_Nm, torque.min_deg)):
+            cells += [number(unit.of(value)), "" if angle is None else degrees(angle, 1e9)]
+        cells += [number(unit.of(torque.range_Nm)), number(unit.of(torque.mean_Nm))]
+        if stress:
+            shear = None if each.stress is None else each.stress.amplitude_Pa
+            cells.append(UNKNOWN if shear is None else number(system.stress.fit(1e9).of(shear)))
+        rows.append(tuple(cells))
+    widest = max(zip(torques, journals, strict=True), key=lambda pair: pair[0].range_Nm)[1]
+    return Grid(title, tuple(heads), tuple(rows), f"The range is largest in {widest.place}.")
+
+
+def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
+    """Yield every figure of the journals, SI."""
+    for each in journals:
+        for name, value, unit in list_figures(to_document(each), ("place",)):
+            yield FigureRow(0, each.place, None, name, value, unit)
+
+
+# ------------------------------------------------------------------ masses
+def list_masses(engine: Engine) -> tuple[Masses, ...]:
+    """Return the masses of each distinct set of parts, in the order of the lowest cylinder.
+
+    Args:
+        engine: Engine without trailing axes.
+    """
+    c, count = engine.cylinders, len(engine.numbers)
+    lengths = np.broadcast_to(np.ravel(c.radius / c.lam), count)
+    couples = np.broadcast_to(np.ravel(c.couple), count)
+    found: dict[Masses, list[int]] = {}
+    for number_, weighed, length, couple in sorted(
+        zip(engine.numbers, engine.weighed, lengths.tolist(), couples.tolist(), strict=True),
+        key=lambda row: row[0],
+    ):
+        small, big = float(weighed.small_end), float(weighed.big_end)
+        one = Masses(
+            cylinders=(),
+            piston_kg=float(weighed.piston),
+            crosshead_kg=float(weighed.crosshead),
+            reciprocating_kg=float(weighed.reciprocating),
+            rotating_kg=float(weighed.rotating),
+            throw_kg=float(weighed.share),
+        )
+        if (mass := small + big) > 0:
+            a, b = length * big / mass, length * small / mass
+            inertia = mass * a * b - couple
+            one = one._replace(
+                rod_kg=mass,
+                rod_small_end_kg=small,
+                rod_big_end_kg=big,
+                rod_inertia_kg_m2=inertia,
+                radius_of_gyration_m=math.sqrt(max(inertia, 0.0) / mass),
+                couple_constant_kg_m2=couple,
+                reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
+            )
+        found.setdefault(one, []).append(number_)
+    return tuple(one._replace(cylinders=tuple(numbers)) for one, numbers in found.items())
+
+
+_LABELS = {
+    "piston_kg": ("piston, g", 1e3),
+    "crosshead_kg": ("crosshead, g", 1e3),
+    "rod_kg": ("rod, g", 1e3),
+    "rod_small_end_kg": ("rod at the small end, g", 1e3),
+    "rod_big_end_kg": ("rod at the big end, g", 1e3),
+    "reciprocating_kg": ("reciprocating, g", 1e3),
+    "rotating_kg": ("rotating without throw, g", 1e3),
+    "throw_kg": ("share of the throw, g", 1e3),
+    "rod_inertia_kg_m2": ("inertia of the rod, kg·mm²", 1e6),
+    "radius_of_gyration_m": ("its radius of gyration, mm", 1e3),
+    "couple_constant_kg_m2": ("H, kg·mm²", 1e6),
+    "reduced_length_m": ("reduced length, mm", 1e3),
+}
+
+
+def lay_out_masses(masses: Sequence[Masses]) -> Grid:
+    """Return a table: a figure a row, cylinders with equal parts a column."""
+    heads = ["", *(f"cylinder {join_words([str(n) for n in one.cylinders])}" for one in masses)]
+    rows = []
+    for key, (label, factor) in _LABELS.items():
+        values = [getattr(one, key) for one in masses]
+        if any(values):
+            cells = ("–" if value is None else number(factor * value) for value in values)
+            rows.append((label, *cells))
+    return Grid("Masses", tuple(heads), tuple(rows))
+
+
+def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
+    """Yield every figure of the masses, SI, by the lowest cylinder of each set."""
+    for one in masses:
+        for name, value, unit in list_figures(to_document(one), ("cylinders",)):
+            yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)

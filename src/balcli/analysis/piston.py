@@ -1,0 +1,347 @@
+"""Motion of the pistons: strokes, dead centres, mean and largest speed, accelerations; exact, and
+by the two terms that textbooks use.
+
+A cylinder's own crank angle is 0 when its pin points along its axis. The acceleration towards the
+crank is a series of cosines (`core.mechanisms.closed_form`), of which the velocity is the integral;
+their extremes are found on these series.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Annotated, Literal
+
+import numpy as np
+
+from ..core.cylinders import find_travel
+from ..core.mechanisms.linkage import Articulated
+from ..core.mechanisms.slidercrank import fastest_two_term
+from ..core.peaks import Swing, find_swing
+from ..core.phasors import Array, Complex
+from ..core.records import HIDDEN, list_figures, remove_unit, to_document
+from ..engine.engine import Engine, check_engine, find_row
+from ..file.fields import join_words
+from ..show.csv import Rows
+from ..show.engine_facts import tell_speed
+from ..show.formats import Renderer
+from ..show.result import Result
+from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
+from ..show.units import System
+
+# Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
+TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
+_TWO_TERM_LIMIT = 1 / 4
+_SAMPLES = 32  # of each period of the highest order, to count minima
+
+
+@dataclass(frozen=True, kw_only=True)
+class Velocity:
+    """Largest speeds of a piston, positive towards the crank.
+
+    Attributes:
+        max_m_per_s: Highest velocity.
+        max_own_deg: Its crank angle.
+        min_m_per_s: Lowest velocity.
+        min_own_deg: Its crank angle.
+    """
+
+    max_m_per_s: float
+    max_own_deg: float
+    min_m_per_s: float
+    min_own_deg: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Acceleration:
+    """Accelerations of a piston, positive towards the crank.
+
+    Attributes:
+        max_m_per_s2: Highest acceleration.
+        max_own_deg: Its crank angle.
+        min_m_per_s2: Lowest acceleration.
+        min_own_deg: Its crank angle.
+        type: Number of local minima in a revolution.
+    """
+
+    max_m_per_s2: float
+    max_own_deg: float
+    min_m_per_s2: float
+    min_own_deg: float
+    type: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class TwoTerm:
+    """The same by the first two terms: v = r w (sin psi + lam/2 sin 2 psi).
+
+    Attributes:
+        velocity_max_m_per_s: Highest velocity.
+        velocity_max_own_deg: Its crank angle.
+        acceleration_max_m_per_s2: Highest acceleration.
+        acceleration_min_m_per_s2: Lowest acceleration.
+        acceleration_min_own_deg: Its crank angle.
+        type: Number of local minima of the acceleration in a revolution.
+    """
+
+    velocity_max_m_per_s: float
+    velocity_max_own_deg: float
+    acceleration_max_m_per_s2: float
+    acceleration_min_m_per_s2: float
+    acceleration_min_own_deg: float
+    type: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class PistonMotion:
+    """Motion of the pistons of equal mechanisms.
+
+    Attributes:
+        cylinders: Numbers of the cylinders.
+        rod_ratio: Crank radius over rod length; left out for articulated rods.
+        stroke_m: True stroke.
+        swept_volume_m3: Swept volume of one cylinder; left out without a bore.
+        outer_dead_center_own_deg: Crank angle at which the piston is farthest from the crank.
+        inner_dead_center_own_deg: Crank angle at which it is nearest.
+        inward_stroke_deg: Crank angle from the outer to the inner dead center.
+        outward_stroke_deg: The rest of a revolution.
+        mean_speed_m_per_s: Mean piston speed.
+        velocity: Largest velocities.
+        acceleration: Largest accelerations.
+        two_term: The same by two terms; left out for all but centred slider-cranks.
+    """
+
+    cylinders: tuple[int, ...]
+    rod_ratio: float | None = None
+    stroke_m: float
+    swept_volume_m3: float | None = None
+    outer_dead_center_own_deg: float
+    inner_dead_center_own_deg: float
+    inward_stroke_deg: float
+    outward_stroke_deg: float
+    mean_speed_m_per_s: float
+    velocity: Velocity
+    acceleration: Acceleration
+    two_term: TwoTerm | None = None
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Pistons(Result):
+    """Motion of all pistons of an engine.
+
+    Attributes:
+        format: Name and version of the document.
+        speed_rpm: Crank speed, taken as steady.
+        type_limit_rod_ratio: Rod ratio above which the acceleration of a centred piston has two
+            minima.
+        swept_volume_m3: Swept volume of the engine; left out without a bore.
+        assumed: Values taken because the engine file leaves them out.
+        mechanisms: Motion of each distinct mechanism.
+        engine: The engine.
+    """
+
+    format: Literal["balcli.piston/1"] = "balcli.piston/1"
+    speed_rpm: float
+    type_limit_rod_ratio: float = TYPE_LIMIT
+    swept_volume_m3: float | None = None
+    assumed: tuple[str, ...] | None = None
+    mechanisms: tuple[PistonMotion, ...]
+    engine: Annotated[Engine, HIDDEN]
+
+    @property
+    def summary(self) -> str:
+        """Name of the engine, in words."""
+        return f"of {self.engine.name or 'an engine'}"
+
+
+def analyze_pistons(engine: Engine) -> Pistons:
+    """Return the motion of the pistons of an engine at its mean speed.
+
+    Args:
+        engine: Engine from `load`.
+
+    Raises:
+        TypeError: `engine` is not an Engine.
+
+    Example:
+        >>> analyze_pistons(load("i4.toml")).mechanisms[0].velocity.max_m_per_s
+    """
+    engine = check_engine("analyze_pistons", engine)
+    c, numbers = engine.cylinders, np.array(engine.numbers)
+    orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
+    harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
+    which = np.broadcast_to(which, len(numbers))
+    omega, radius = float(engine.omega), float(c.radius)
+    travel, bore = find_travel(c), float(engine.bore_m)
+    mechanisms = []
+    for kind in dict.fromkeys(which[np.argsort(numbers)].tolist()):
+        rows = np.flatnonzero(which == kind)
+        first = rows[0]
+        stroke, top, bottom = (float(v[first]) for v in travel)
+        inward = (bottom + 180 - top) % 360
+        hung = isinstance(c.linkage, Articulated) and bool(c.linkage.master[first] != first)
+        lam = float(np.broadcast_to(c.lam, len(numbers))[first])
+        centred = c.linkage is None and not np.broadcast_to(c.eps, len(numbers))[first]
+        series = np.asarray(harmonics["piston"].c[:, kind], complex)
+        mechanisms.append(
+            PistonMotion(
+                cylinders=tuple(sorted(numbers[rows].tolist())),
+                rod_ratio=None if hung else lam,
+                stroke_m=stroke,
+                swept_volume_m3=math.pi / 4 * bore**2 * stroke if bore > 0 else None,
+                outer_dead_center_own_deg=(top + 180) % 360 - 180,
+                inner_dead_center_own_deg=(bottom + 180) % 360,
+                inward_stroke_deg=inward,
+                outward_stroke_deg=360 - inward,
+                mean_speed_m_per_s=stroke * omega / math.pi,
+                velocity=_find_velocity(orders, series, radius * omega),
+                acceleration=_find_acceleration(orders, series, radius * omega**2),
+                two_term=_use_two_terms(lam, radius, omega) if centred else None,
+            )
+        )
+    volumes = [len(each.cylinders) * (each.swept_volume_m3 or 0.0) for each in mechanisms]
+    return Pistons(
+        speed_rpm=float(engine.speed_rpm),
+        swept_volume_m3=sum(volumes) if bore > 0 else None,
+        assumed=engine.list_assumed(),
+        mechanisms=tuple(mechanisms),
+        engine=engine,
+    )
+
+
+def choose_cylinder(result: Pistons, number: int) -> Pistons:
+    """Return the motion of one cylinder.
+
+    Args:
+        result: Motion of all pistons.
+        number: Number of the cylinder.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    find_row(result.engine, number, "--cylinder")
+    chosen = [each for each in result.mechanisms if number in each.cylinders]
+    return replace(result, mechanisms=tuple(replace(each, cylinders=(number,)) for each in chosen))
+
+
+def _find_velocity(orders: Array, series: Complex, scale: float) -> Velocity:
+    """Return the largest velocities, of the phasors of the acceleration by order."""
+    swing = find_swing(orders, series / (1j * orders))
+    high, low = _read(swing, scale)
+    return Velocity(
+        max_m_per_s=high[0], max_own_deg=high[1], min_m_per_s=low[0], min_own_deg=low[1]
+    )
+
+
+def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
+    """Return the largest accelerations, of the phasors of the acceleration by order."""
+    (highest, at_high), (lowest, at_low) = _read(find_swing(orders, series), scale)
+    angles = np.linspace(0, 2 * np.pi, _SAMPLES * len(orders), endpoint=False)
+    jerk = (np.exp(1j * np.outer(angles, orders)) @ (1j * orders * series)).real
+    turns = (jerk <= 0) & (np.roll(jerk, -1) > 0)
+    return Acceleration(
+        max_m_per_s2=highest,
+        max_own_deg=at_high,
+        min_m_per_s2=lowest,
+        min_own_deg=at_low,
+        type=int(np.count_nonzero(turns)),
+    )
+
+
+def _read(swing: Swing, scale: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return value and crank angle (deg, 0 to 360) of the highest and of the lowest place."""
+    high, low = (
+        (scale * float(peak.value), math.degrees(float(peak.angle)) % 360) for peak in swing
+    )
+    return high, low
+
+
+def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
+    """Return the figures of the first two terms of a centred slider-crank.
+
+    The lowest acceleration of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` where that is
+    an angle, at 180 deg otherwise.
+    """
+    (psi, value), scale = fastest_two_term(lam), radius * omega**2
+    two = lam > _TWO_TERM_LIMIT
+    return TwoTerm(
+        velocity_max_m_per_s=radius * omega * float(value),
+        velocity_max_own_deg=math.degrees(float(psi)),
+        acceleration_max_m_per_s2=scale * (1 + lam),
+        acceleration_min_m_per_s2=-scale * (lam + 1 / (8 * lam) if two else 1 - lam),
+        acceleration_min_own_deg=math.degrees(math.acos(-1 / (4 * lam))) if two else 180.0,
+        type=2 if two else 1,
+    )
+
+
+# ------------------------------------------------------------------ how it is shown
+_TWO_TERM = {  # figures of the two terms, by those of the exact motion
+    "velocity.max_m_per_s": "velocity_max_m_per_s",
+    "velocity.max_own_deg": "velocity_max_own_deg",
+    "acceleration.max_m_per_s2": "acceleration_max_m_per_s2",
+    "acceleration.min_m_per_s2": "acceleration_min_m_per_s2",
+    "acceleration.min_own_deg": "acceleration_min_own_deg",
+    "acceleration.type": "type",
+}
+
+
+def sheet(result: Pistons, system: System) -> Sheet:
+    """Return a table: a figure a row, a mechanism a column, and next to it the two terms."""
+    del system
+    columns: list[tuple[str, dict[str, str]]] = []
+    notes = []
+    for each in result.mechanisms:
+        numbers = join_words([str(n) for n in each.cylinders])
+        columns.append((f"cylinder{'s' * (len(each.cylinders) > 1)} {numbers}", _write(each)))
+        if each.two_term is not None:
+            terms = to_document(each.two_term)
+            columns.append(("two-term", {k: number(terms[v]) for k, v in _TWO_TERM.items()}))
+            if each.two_term.type != each.acceleration.type:
+                notes.append(
+                    f"Two terms place the limit of type 2 at a rod ratio of {_TWO_TERM_LIMIT}; it "
+                    f"is {TYPE_LIMIT:.4f}."
+                )
+    rows = tuple(
+        (label, *(cells.get(name, "") for _, cells in columns))
+        for name, label in _list_labels(columns)
+    )
+    if result.engine.ripple:
+        notes.append("At the steady mean speed, though the file has an uneven one.")
+    heads = ("", *(head for head, _ in columns))
+    facts = Facts((("speed", tell_speed(result.engine)),))
+    grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))
+    return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
+
+
+def _write(each: PistonMotion) -> dict[str, str]:
+    """Return the figures of a mechanism as text, by path."""
+    found = {}
+    for name, value, _ in list_figures(to_document(each), ("cylinders", "two_term")):
+        factor = 1e3 if name == "stroke_m" else 1e6 if name.endswith("_m3") else 1.0
+        found[name] = UNKNOWN if value is None else number(float(value) * factor)
+    return found
+
+
+def _list_labels(columns: list[tuple[str, dict[str, str]]]) -> Iterator[tuple[str, str]]:
+    """Yield path and label, with unit, of every figure of a table."""
+    for name in dict.fromkeys(name for _, cells in columns for name in cells):
+        unit = {"stroke_m": "mm", "swept_volume_m3": "cm³"}.get(name, "")
+        plain = name.replace(".", " ").replace("_own", "").replace("_m_per_s2", ", m/s²")
+        plain = plain.replace("_m_per_s", ", m/s").replace("_deg", ", deg")
+        plain = remove_unit(plain) if unit else plain
+        yield name, f"{plain.replace('_', ' ')}{', ' * bool(unit)}{unit}"
+
+
+def rows(result: Pistons, system: System) -> Rows:
+    """Return CSV, SI: a figure a line, the numbers of the cylinders in the first column."""
+    del system
+    lines = [
+        (" ".join(map(str, each.cylinders)), name, value, unit)
+        for each in result.mechanisms
+        for name, value, unit in list_figures(to_document(each), ("cylinders",))
+    ]
+    return Rows(("cylinders", "figure", "value", "unit"), lines)
+
+
+RENDERER = Renderer(sheet=sheet, rows=rows)

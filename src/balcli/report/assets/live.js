@@ -1,0 +1,421 @@
+"use strict";
+// The panel "Change the engine": numbers to drag, the state in the address, and files to take away.
+(() => {
+  const byId = (id) => document.getElementById(id);
+  const book = JSON.parse(byId("live").textContent);          // engines by name, units, new devices
+  const TITLES = { crank: "Crank", rod: "Rods", piston: "Pistons", layout: "Layout", operation: "Speed" };
+  const DEVICE = /^(counterweight|shaft|slider)\.([1-9]\d*)(?:\.(.+))?$/;
+  const GEOMETRY = /^(crank\.(throws|splay)|layout\.(bank_angle|banks))|\.(bank|throw)$/;   // what a firing order depends on
+  let data, original, numbers, engine, ladder, drawn, before, past = [], future = [];
+
+  const make = (tag, attributes = {}, ...children) => {
+    const made = document.createElement(tag);
+    Object.assign(made, attributes);
+    made.append(...children);
+    return made;
+  };
+  const button = (text, act, id = "") => {
+    const made = make("button", { type: "button", id }, text);
+    made.addEventListener("click", act);
+    return made;
+  };
+  const own = (object, key) => Object.hasOwn(object, key) ? object[key] : undefined;
+  const tableOf = (name) => name.match(/^(?:counterweight|shaft|slider|cylinder)\.\d+/)?.[0] ?? name.split(".")[0];
+  const shown = (value, digits = 4) => {
+    const text = Number(value.toPrecision(digits));
+    return Math.abs(value) >= 1000 && Math.abs(value) < 1e9 ? text.toFixed(0) : String(text);
+  };
+
+  // ------------------------------------------------------------------ numbers and their values
+  // Unit and limits of a number; undefined: there is none of this name.
+  function find(name) {
+    const [, kind, , key] = name.match(DEVICE) || [];
+    return data.numbers.find((each) => each.name === name) || (key && own(own(book.devices, kind) || {}, key));
+  }
+
+  // A number in the unit of the file, as people write it; an Error says what would be right.
+  function readValue(name, text) {
+    const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
+    const plain = text.trim().replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
+    if (/^[-+]?\d{1,3},\d{3}(?!\d)/.test(plain)) throw new Error(`${name}: "${text}" can mean two numbers; write it without a comma`);
+    const [, sign, figure, top, bottom, word] =
+      plain.replace(",", ".").match(/^([-+]?)(\d*\.?\d*(?:e[-+]?\d+)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
+    const value = (sign === "-" ? -1 : 1) * (Number(figure || 0) + (top ? top / bottom : 0));
+    if (!/\d/.test(figure + (top || "")) || !Number.isFinite(value)) {
+      throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
+    }
+    const factors = own(book.units, unit) || {}, factor = word === "" || word === unit ? 1 : own(factors, word);
+    if (factor === undefined) {
+      const known = Object.keys(factors).join(", ");
+      throw new Error(`${name}: the unit "${word.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
+    }
+    const found = value * factor;
+    if (whole && (!Number.isInteger(found) || !found)) throw new Error(`${name}: give a whole number other than 0`);
+    if (above !== undefined && found <= above) throw new Error(`${name}: ${found} is not above ${above}`);
+    if (least !== undefined && found < least) throw new Error(`${name}: ${found} is below ${least}`);
+    if (most !== undefined && found > most) throw new Error(`${name}: ${found} is above ${most}`);
+    return found;
+  }
+
+  // Ends of a slider, which contain both the file's value and the present one.
+  function rangeOf(name) {
+    const { unit, above, least } = find(name), value = original[name] ?? numbers[name];
+    let ends = [Math.min(value / 2, 2 * value), Math.max(value / 2, 2 * value)];
+    if (name === "layout.bank_angle") ends = [0, 180];
+    else if (unit === "deg") ends = [0, 360];
+    else if (/\.(at\.[12]|position|offset|positions\.\d+|piston_offset)$|stagger$/.test(name)) {
+      const far = Math.max(2 * Math.abs(value), /offset|stagger/.test(name) ? 50 : 4 * (numbers["crank.stroke"] || 100));
+      ends = [-far, far];
+    } else if (!value) ends = [0, { mm: 100, kg: 5, "g mm": 100000 }[unit] || 1];
+    ends = [Math.min(ends[0], numbers[name]), Math.max(ends[1], numbers[name])];
+    return above !== undefined || least !== undefined ? [Math.max(ends[0], above ?? least), ends[1]] : ends;
+  }
+
+  // ------------------------------------------------------------------ state and address
+  // Names and values that differ from the file; "none" for a device or key that is gone.
+  function listChanges() {
+    const there = new Set(Object.keys(numbers).map(tableOf));
+    const gone = Object.keys(original).filter((name) => !(name in numbers)).map((name) => there.has(tableOf(name)) ? name : tableOf(name));
+    const changed = Object.entries(numbers).filter(([name, value]) => value !== original[name]);
+    return [...[...new Set(gone)].map((name) => [name, "none"]), ...changed.map(([name, value]) => [name, String(value)])];
+  }
+  function writeAddress() {
+    const parts = listChanges().map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
+    if (book.choice) parts.unshift(`engine=${data.key}`);
+    return parts.length ? `#${parts.join("&")}` : "";
+  }
+  let due;
+  function keepAddress() {                                    // browsers refuse more than a few a second
+    clearTimeout(due);
+    due = setTimeout(() => {
+      try { history.replaceState(null, "", writeAddress() || location.pathname + location.search); } catch { /* a frame of a notebook */ }
+    }, 150);
+  }
+  // Numbers of an address; what is wrong in it is named, the rest applies.
+  function readAddress(hash) {
+    const wrong = [];
+    let next = { ...original, ...(hash.includes("=") ? {} : data.start) };
+    for (const part of hash.slice(1).split("&").filter((each) => each.includes("="))) {
+      const [name, ...rest] = part.split("=");
+      let text = rest.join("=");
+      try { text = decodeURIComponent(text); } catch { /* as it stands */ }
+      if (name === "engine" && book.choice) {
+        if (!own(book.engines, text)) wrong.push(`engine: there is no example ${text.slice(0, 40)}`);
+        continue;
+      }
+      try {
+        const changed = text === "none" ? without(next, name) : withValue(next, name, text);
+        Kernel.assemble(data, changed);
+        next = changed;
+      } catch (error) { wrong.push(error.message); }
+    }
+    return { next, wrong };
+  }
+  function without(state, name) {
+    const next = Object.fromEntries(Object.entries(state).filter(([key]) => key !== name && tableOf(key) !== name));
+    if (Object.keys(next).length === Object.keys(state).length) throw new Error(`${name.slice(0, 60)}: is not there`);
+    return next;
+  }
+  // The state with a number; a new device has all its keys, and one size.
+  function withValue(state, name, text) {
+    const [, kind, , key] = name.match(DEVICE) || [];
+    if (!find(name)) throw new Error(`${name.slice(0, 60)}: there is no such number to change`);
+    const next = { ...state }, table = tableOf(name);
+    if (kind && !Object.keys(state).some((each) => tableOf(each) === table)) {
+      for (const [each, { usual }] of Object.entries(book.devices[kind])) next[`${table}.${each}`] = usual;
+    }
+    if (key === "unbalance") for (const each of ["mass", "radius"]) delete next[`${table}.${each}`];
+    next[name] = readValue(name, text);
+    return next;
+  }
+
+  // ------------------------------------------------------------------ change, undo, redo
+  // Shows these numbers if they make an engine; otherwise the last good ones stay.
+  function apply(next, { remember = true, wrong = [], rebuild = false } = {}) {
+    let made, steps;
+    try {
+      made = Kernel.assemble(data, next);
+      steps = Kernel.findLadder(made, book.small);
+    } catch (error) {
+      complain([error.message, ...wrong]);
+      return false;
+    }
+    const tables = (state) => [...new Set(Object.keys(state).map(tableOf))].join();
+    rebuild ||= tables(next) !== tables(numbers);
+    if (remember) { past.push(numbers); future = []; }
+    [numbers, engine, ladder] = [next, made, steps];
+    keepAddress();
+    complain(wrong);
+    if (rebuild) buildControls();
+    show();
+    return true;
+  }
+  const change = (name, value, how) => apply({ ...numbers, [name]: value }, how);
+  function travel(from, to) {
+    if (!from.length) return;
+    to.push(numbers);
+    apply(from.pop(), { remember: false, rebuild: true });
+  }
+  const complain = (messages) => { byId("live-wrong").textContent = messages.join(" · "); };
+
+  // ------------------------------------------------------------------ what the page shows
+  let waiting = false;
+  function show() {
+    const figures = Kernel.describe(engine, ladder), changed = listChanges().length > 0;
+    byId("figures").textContent = JSON.stringify(figures);
+    byId("live-changed").hidden = !changed;
+    byId("live-verdict").textContent = writeVerdict(figures);
+    showOrders(figures);
+    showLadder(figures);
+    byId("live-undo").disabled = !past.length;
+    byId("live-redo").disabled = !future.length;
+    byId("live-reset").disabled = !changed;
+    for (const input of byId("live-numbers").querySelectorAll("input")) {
+      const [least, most] = rangeOf(input.name);
+      if (input.type === "range") Object.assign(input, { min: least, max: most, value: numbers[input.name] });
+      else if (input !== document.activeElement) input.value = String(numbers[input.name]);
+    }
+    if (waiting || (!changed && !drawn && byId("scene"))) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      drawn = listChanges().length > 0;
+      Page.draw(drawn || !byId("scene") ? makeScene() : JSON.parse(byId("scene").textContent));
+    });
+  }
+  const quantity = (kind, value) => value / book.show[kind].size;
+  const unitName = (kind) => book.show[kind].name;
+  const NAMES = ["Mean", "First", "Second", "Third", "Fourth"];
+  function writeVerdict({ orders, ladder: { scale } }) {
+    const large = (kind, value, most) => value && value >= book.small * most ? [`${kind} of ${shown(quantity(kind, value))} ${unitName(kind)}`] : [];
+    const sentences = orders.flatMap(({ order, force_N: f, moment_Nm: m }) => {
+      const parts = [...large("force", f.major, scale.force_N), ...(data.known ? large("moment", m.major, scale.moment_Nm) : [])];
+      return parts.length ? [`${NAMES[order] || `${order}th`} order: ${parts.join(" and ")}.`] : [];
+    });
+    return sentences.join(" ") || "No order is large compared with one cylinder.";
+  }
+  function fill(id, heads, rows) {
+    const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
+    const body = rows.map(([first, ...rest]) => make("tr", {}, make("th", { scope: "row" }, first), ...rest.map((cell) => make("td", {}, cell))));
+    byId(id).replaceChildren(make("thead", {}, head), make("tbody", {}, ...body));
+  }
+  const cell = (kind, value, least = 0) => value <= least ? "balanced" : shown(quantity(kind, value));
+  function showOrders({ orders, peak, ladder: { scale } }) {
+    const [least, small] = [1e-6 * scale.force_N, 1e-6 * (scale.moment_Nm || 0)], size = (v) => Math.hypot(...v);
+    const seen = orders.filter(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) =>
+      order === 1 || order === 2 || f.major > least || m.major > small || roll.amplitude > small);
+    const rows = seen.map(({ order, force_N: f, moment_Nm: m, roll_Nm: roll }) => [
+      String(order), cell("force", f.major, least), cell("force", size(f.forward), least), cell("force", size(f.backward), least),
+      ...[m.major, size(m.forward), size(m.backward)].map((v) => data.known ? cell("moment", v, small) : "–"),
+      cell("moment", roll.amplitude, small),
+    ]);
+    const [f, m] = ["force", "moment"].map(unitName);
+    rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", ""]);
+    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `roll, ${m}`], rows);
+  }
+  function showLadder({ ladder: { steps, scale } }) {
+    const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
+    const rows = steps.map((each, k) => [
+      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
+      String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
+      k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
+    ]);
+    fill("live-ladder", ["step", `force, ${unitName("force")}`, `moment, ${unitName("moment")}`, "weights", "shafts", "kg", ""], rows);
+  }
+  // Adds the devices of a step of the ladder to the numbers.
+  function fit(k) {
+    const next = { ...numbers }, degrees = (angle) => (angle * 180 / Math.PI % 360 + 360) % 360;
+    for (const d of ladder.steps[k].devices) {
+      const table = freeTable(next, d.kind), start = d.kind === "counterweight" ? engine.firstAxis : 0;
+      Object.assign(next, { [`${table}.unbalance`]: d.U * 1e6, [`${table}.angle`]: degrees(d.angle - start), [`${table}.position`]: d.z * 1e3 });
+      if (d.kind === "shaft") Object.assign(next, { [`${table}.ratio`]: d.ratio, [`${table}.at.1`]: 0, [`${table}.at.2`]: 0 });
+    }
+    apply(next, { rebuild: true });
+    byId("live-undo").focus();
+  }
+  function freeTable(state, kind) {                           // above those of the file, gone ones included
+    const taken = [...Object.keys(state), ...Object.keys(original)].map((name) => name.match(DEVICE)).filter((match) => match?.[1] === kind);
+    return `${kind}.${Math.max(0, ...taken.map((match) => Number(match[2]))) + 1}`;
+  }
+
+  // ------------------------------------------------------------------ pictures
+  const ASSUMED_BORE = 0.95, boreOf = (made) => made.bore || ASSUMED_BORE * 2 * made.r, rad = (deg) => deg * Math.PI / 180;
+  function describeVariant(label, made, { kinds }) {
+    const [c, s] = [Math.cos(rad(made.up || 0)), -Math.sin(rad(made.up || 0))], levels = {};
+    const turned = ([x, y]) => [x * c - y * s, x * s + y * c];
+    const rows = (kind) => kinds[kind].slice(0, 13).map((pair, n) => [n, ...pair.flatMap(turned).map((v) => quantity(kind, v))]);
+    return {
+      label, force: rows("force"), moment: made.known ? rows("moment") : [],
+      devices: made.devices.map((d) => {
+        const hidden = d.kind === "shaft" && Math.hypot(...d.at) < made.r, side = Math.sign(d.ratio);
+        const level = levels[side] ??= new Map();
+        if (hidden && !level.has(d.order)) level.set(d.order, level.size);
+        const place = hidden ? [-1.6 * made.r * level.get(d.order), side * (widthOf(made) + made.r)] : turned(d.at);
+        return {
+          order: d.order, forward: turned(d.forward).map((v) => v * 1e6), backward: turned(d.backward).map((v) => v * 1e6),
+          at: place.map((v) => v * 1e3), z: d.z * 1e3, beside: hidden,
+        };
+      }),
+    };
+  }
+  function widthOf(made) {                                    // of the engine, to one side of the crank axis
+    return Math.max(1.5 * made.r, ...made.cylinders.map((c) => {
+      const across = Math.abs(Math.sin(c.axis - rad(made.up || 0)));
+      return across * (c.r + c.l + boreOf(made)) + (1 - across) * boreOf(made);
+    }));
+  }
+  function makeScene() {
+    const now = ladder.steps[0], deg = (angle) => angle * 180 / Math.PI;
+    const variants = [describeVariant("before", before.made, before)];
+    if (listChanges().length) variants.push(describeVariant("now", engine, now));
+    const unit = (kind) => ({ ...book.show[kind], least: quantity(kind, 1e-3 * (ladder.scale[kind] || 1)) });
+    const counts = (n) => [now, before].some(({ kinds }) => ["force", "moment"].some((kind) => kinds[kind][n].some((v) => Math.hypot(...v))));
+    return {
+      stroke: 2e3 * engine.r, bore: 1e3 * boreOf(engine), rotary: false, axes: data.axes,
+      cylinders: engine.cylinders.map((c) => ({
+        number: c.number, axis: deg(c.axis) - (engine.up || 0), phase: deg(c.psi), z: 1e3 * c.z, rod: 1e3 * c.l, offset: 1e3 * c.e,
+      })),
+      variants, shown: variants.length - 1, units: { force: unit("force"), moment: unit("moment") },
+      orders: Array.from({ length: 13 }, (_, n) => n).filter(counts),
+    };
+  }
+
+  // ------------------------------------------------------------------ the panel
+  function buildControls() {
+    const groups = new Map();
+    for (const name of Object.keys(numbers)) groups.set(tableOf(name), [...(groups.get(tableOf(name)) || []), name]);
+    const sets = [...groups].map(([table, names]) => {
+      const title = TITLES[table] || table.replace(".", " ").replace(/^./, (c) => c.toUpperCase());
+      const rows = names.map((name) => makeControl(name, table));
+      if (DEVICE.test(table)) rows.push(button(`Remove ${title.toLowerCase()}`, () => removeDevice(table)));
+      return make("fieldset", { className: "numbers" }, make("legend", {}, title), ...rows);
+    });
+    byId("live-numbers").replaceChildren(...sets);
+  }
+  function makeControl(name, table) {
+    const [least, most] = rangeOf(name), { unit, whole } = find(name), label = name.slice(table.length + 1);
+    const slider = make("input", { type: "range", name, min: least, max: most, step: "any", value: numbers[name] });
+    const field = make("input", { type: "text", name, value: String(numbers[name]), inputMode: "decimal", id: `n-${name}` });
+    slider.setAttribute("aria-label", `${name}${unit ? `, ${unit}` : ""}`);
+    let started = false;                                      // one undo for one drag
+    slider.addEventListener("input", () => {
+      if (change(name, Number(Number(slider.value).toPrecision(5)), { remember: !started })) started = true;
+      else slider.value = numbers[name];
+    });
+    slider.addEventListener("change", () => { started = false; });
+    field.addEventListener("change", () => {
+      try { apply(withValue(numbers, name, field.value)); } catch (error) { complain([error.message]); }
+      field.value = String(numbers[name]);
+    });
+    const head = make("label", { htmlFor: field.id }, label.replace(/^throws\./, "throw ").replaceAll("_", " "));
+    return make("div", { className: "number" }, head, field, make("span", {}, unit || ""), whole ? "" : slider);
+  }
+  function removeDevice(table) {
+    apply(without(numbers, table), { rebuild: true });
+    byId("live-add").focus();
+  }
+  function addDevice(kind) {
+    const table = freeTable(numbers, kind);
+    apply(withValue(numbers, `${table}.unbalance`, "10000"), { rebuild: true });
+    byId(`n-${table}.unbalance`).focus();
+  }
+
+  // ------------------------------------------------------------------ files
+  // The text of the file with the numbers of the page: a line changes its number and keeps its comment.
+  function writeFile() {
+    const lines = data.text.split(/\r?\n/), sections = [], lists = {}, added = [], fresh = {};
+    lines.forEach((line, k) => {
+      const [, open, name] = line.match(/^\s*(\[{1,2})\s*([\w.-]+)\s*\]{1,2}/) || [];
+      if (name) sections.push({ name: open === "[[" ? `${name}.${lists[name] = (lists[name] || 0) + 1}` : name, from: k });
+    });
+    const sectionOf = (table) => {
+      const at = sections.findIndex(({ name }) => name === table);
+      return at < 0 ? null : { from: sections[at].from, to: sections[at + 1]?.from ?? lines.length };
+    };
+    const rowOf = ({ from, to }, key) => lines.findIndex((line, k) => k > from && k < to && line !== null && new RegExp(`^\\s*${key}\\s*=`).test(line));
+    const put = (table, key, value) => {
+      const section = sectionOf(table), row = section ? rowOf(section, key) : -1;
+      if (value === "none" && row < 0) return;
+      if (!section) (fresh[table] ??= []).push(`${key} = ${value}`);
+      else if (row < 0) added.push({ after: section.from, text: `${key} = ${value}` });
+      else if (value === "none") lines[row] = null;
+      else lines[row] = lines[row].replace(/^(\s*\w+\s*=\s*)(?:"[^"]*"|'[^']*'|\[[^\]]*\]|[^\s#]+)/, (_, start) => start + value);
+    };
+    const changes = listChanges();
+    for (const [name, value] of changes) {
+      const table = tableOf(name), [key, member] = name.slice(table.length + 1).split("."), section = sectionOf(table);
+      if (name === table) {                                   // a device that is gone
+        for (let k = section.from + 1, ended = false; k < section.to; k++) {
+          ended ||= /^\s*(#|$)/.test(lines[k]) && !lines.slice(k, section.to).some((line) => /^\s*\w/.test(line || ""));
+          if (!ended) lines[k] = null;                        // comments before the next table stay
+        }
+        lines[section.from] = null;
+      } else put(table, key, member ? listOf(`${table}.${key}`) : value);
+    }
+    if (changes.some(([name]) => GEOMETRY.test(name)) && data.frees) {
+      for (const [key, value] of Object.entries(data.frees)) put("layout", key, value);
+    }
+    for (const { after, text } of added.sort((a, b) => b.after - a.after)) lines.splice(after + 1, 0, text);
+    const blocks = Object.entries(fresh).map(([table, rows]) => {
+      const head = DEVICE.test(table) ? `[[${table.split(".")[0]}]]` : `[${table}]`;
+      return ["", head, ...new Set(rows)].join("\n");
+    });
+    const text = [...lines.filter((line) => line !== null), ...blocks].join("\n").replace(/\n*$/, "\n");
+    return data.text.includes("\r\n") ? text.replaceAll("\n", "\r\n") : text;
+  }
+  const listOf = (path) => `[${Object.keys(numbers).filter((name) => name.startsWith(`${path}.`)).map((name) => numbers[name]).join(", ")}]`;
+  const fileName = () => `${(data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine"}.toml`;
+  function download() {
+    const link = make("a", { href: URL.createObjectURL(new Blob([writeFile()], { type: "application/toml" })), download: fileName() });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+  async function copy(text) {
+    try { await navigator.clipboard.writeText(text); } catch {
+      const area = make("textarea", { value: text });
+      document.body.append(area);
+      area.select();
+      document.execCommand("copy");
+      area.remove();
+    }
+    byId("live-done").textContent = `Copied: ${text.slice(0, 80)}`;
+  }
+
+  // ------------------------------------------------------------------ start
+  function open(hash) {
+    const asked = hash.match(/[#&]engine=([^&]+)/)?.[1], keys = Object.keys(book.engines);
+    const key = book.choice ? (keys.includes(asked) ? asked : book.choice) : keys[0];
+    data = { ...book.engines[key], key: book.choice ? key : book.file };
+    original = Object.fromEntries(data.numbers.map(({ name, value }) => [name, value]));
+    [numbers, past, future] = [original, [], []];
+    const made = Kernel.assemble(data, original);
+    before = { made, ...Kernel.compute(made) };
+    if (book.choice) byId("live-engine").value = key;
+    const { next, wrong } = readAddress(hash);
+    apply(next, { remember: false, wrong, rebuild: true });
+  }
+  function start() {
+    byId("live-actions").append(
+      button("Undo", () => travel(past, future), "live-undo"), button("Redo", () => travel(future, past), "live-redo"),
+      button("Reset", () => apply(original, { rebuild: true }), "live-reset"),
+      button("Add a counterweight", () => addDevice("counterweight"), "live-add"),
+      button("Add a shaft", () => addDevice("shaft")),
+      ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
+      button("Download TOML", download), button("Copy command", () => copy(`balcli analyze ${fileName()}`)),
+    );
+    if (book.choice) {
+      const select = byId("live-engine");
+      select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
+      select.addEventListener("change", () => open(`#engine=${select.value}`));
+    }
+    window.addEventListener("hashchange", () => { if (location.hash.includes("=")) open(location.hash); });
+    window.Live = { change, apply, writeFile, writeAddress, get numbers() { return numbers; } };
+    document.body.classList.add("changing");
+    open(location.hash);
+  }
+  const panel = byId("change");
+  if (book.choice || location.hash.includes("=")) { panel.open = true; start(); } else {
+    panel.addEventListener("toggle", start, { once: true });
+  }
+  panel.addEventListener("toggle", () => document.body.classList.toggle("changing", panel.open));
+})();

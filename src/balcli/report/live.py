@@ -1,0 +1,421 @@
+"""An engine for the live page: its numbers, and how cylinders and devices follow from them.
+
+The page computes an engine itself (`assets/engine.js`). Axes, crank pins and positions of the
+cylinders are linear in the numbers of the file (throws, splay, bank angle, spacing, stagger), so
+that the page needs no plan of the engine: it gets a constant and coefficients for each, which are
+found by adding 1 to one number after the other. All other figures of a cylinder are numbers of the
+file by their dotted names.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from ..core.mechanisms.linkage import Rotary
+from ..core.records import Node
+from ..engine.build import build
+from ..engine.engine import Engine
+from ..engine.figures import RodFigures
+from ..engine.layout import Cell
+from ..engine.load import SPEED
+from ..engine.parse import parse
+from ..engine.parts import Parts
+from ..file import examples
+from ..file.fields import Number
+from ..file.model import EngineFile
+from ..file.units import (
+    ANGLE,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    SPEED as SPEED_OF_ROTATION,
+    UNBALANCE,
+    Dimension,
+    convert,
+)
+from ..forces.kinds import FORCE
+from ..limits import SMALL
+from ..show.figures import clean
+from ..show.units import SI, System
+from ..studies.parameters import find_numbers
+
+_TABLES = (
+    "crank",
+    "rod",
+    "piston",
+    "crosshead",
+    "layout",
+    "operation",
+    "cylinder",
+)  # with numbers to change
+_DEVICES = ("counterweight", "shaft", "slider")
+_UNUSED = ("crank.inertia", "operation.speed_ripple")
+_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
+_UNITS = {  # spellings that the page reads, by dimension
+    LENGTH: ("cm", "m", "in", "inch", "ft"),
+    MASS: ("g", "lb", "oz"),
+    UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
+    ANGLE: ("rad", "turn"),
+    SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
+    INERTIA: ("kg m^2", "lb in^2"),
+}
+_NEW = {  # keys of a new device with their dimensions and usual values
+    "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
+    "shaft": {
+        "ratio": (PLAIN, -1),
+        "unbalance": (UNBALANCE, 1e4),
+        "angle": (ANGLE, 0),
+        "at.1": (LENGTH, 0),
+        "at.2": (LENGTH, 0),
+        "position": (LENGTH, 0),
+    },
+}
+_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # ratios and orders
+_OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
+
+
+def explain_still(engine: Engine) -> str:
+    """Return why the page cannot compute an engine itself; empty if it can."""
+    if isinstance(engine.cylinders.linkage, Rotary):
+        return "its cylinders turn"
+    if engine.cylinders.linkage is not None:
+        return "it has articulated rods"
+    return "its speed is uneven" if engine.ripple else ""
+
+
+def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
+    """Return the engine as `assets/engine.js` takes it: plain slider-cranks at steady speed.
+
+    Args:
+        model: Engine file.
+        engine: Engine of the file.
+        text: Text of the file, to be written anew with other numbers.
+    """
+    parts = Parts(model)
+    numbers = list(_list_numbers(model))
+    speed = float(engine.speed_rpm)
+    throws: dict[int, int] = {}  # cylinder by whose firing a throw stands
+    if not parts.throws_given and parts.order is not None:
+        fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
+        throws = {cell.throw: cell.number for cell in fired}
+    forms = _find_forms(model, parts, throws, [each["name"] for each in numbers])
+    reference = model.frame.reference
+    return {
+        "name": model.name,
+        "text": text if _is_plain(text) else _write_plainly(text),
+        "start": {} if speed == model.operation.speed else {SPEED: speed},
+        "frees": _free_throws(model, parts),
+        "known": engine.places_known,
+        "up": engine.up_deg,
+        "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
+        "bore": clean(engine.bore_m * 1e3),
+        "reference": None if reference is None else list(reference),
+        "numbers": numbers,
+        "throws": forms["throws"],
+        "cylinders": [
+            {
+                "number": cell.number,
+                **{key: forms[key][k] for key in ("axis", "lead", "z")},
+                "by": _find_leader(parts, cell, throws),
+                **_list_masses(model, parts, cell),
+            }
+            for k, cell in enumerate(parts.plan.cells)
+        ],
+    }
+
+
+def describe_one(
+    model: EngineFile,
+    engine: Engine,
+    system: System,
+    text: str,
+    name: str = "",
+    small: float = SMALL,
+) -> Node | None:
+    """Return what the panel of an engine's page needs; None if the page cannot compute it.
+
+    Args:
+        model: Engine file.
+        engine: Engine of the file.
+        system: Units of the drawings.
+        text: Text of the file.
+        name: Name of the file; empty: not known.
+        small: Share of one cylinder's first order below which a part is small.
+    """
+    if explain_still(engine):
+        return None
+    engines = {"": describe_engine(model, engine, text)}
+    return make_book(engines, system, Path(name).name, small=small)
+
+
+def make_book(
+    engines: Mapping[str, Node],
+    system: System,
+    file: str = "",
+    *,
+    choice: str = "",
+    small: float = SMALL,
+) -> Node:
+    """Return all that the panel of the page needs.
+
+    Args:
+        engines: Engines as of `describe_engine`, by key.
+        system: Units of the drawings.
+        file: Name of the file; empty: not known.
+        choice: Engine to begin with, where the reader chooses; empty: there is one engine.
+        small: Share of one cylinder's first order below which a part is small.
+    """
+    units = {"force": system.force, "moment": system.moment}
+    return {
+        "engines": engines,
+        "file": file.removesuffix(".toml"),
+        "choice": choice,
+        "small": small,
+        "devices": {
+            kind: {key: _describe_new(*each) for key, each in keys.items()}
+            for kind, keys in _NEW.items()
+        },
+        "units": {
+            dimension.unit: {unit: convert(f"1 {unit}", dimension) for unit in others}
+            for dimension, others in _UNITS.items()
+        },
+        "show": {
+            kind: {
+                "name": unit.name,
+                "thousand": f"k{unit.name}" if unit.size == 1 else "",
+                "size": unit.size,
+            }
+            for kind, unit in units.items()
+        },
+    }
+
+
+def make_examples() -> Node:
+    """Return what the panel needs for the choice among all example engines."""
+    engines = {}
+    for name in examples.names():
+        written = examples.text(name)
+        model = parse(written, name)
+        engine = build(model)
+        if not explain_still(engine):
+            engines[name] = describe_engine(model, engine, written)
+    return make_book(engines, SI, choice="vtwin45")
+
+
+def _describe_new(dimension: Dimension, usual: float) -> Node:
+    """Return unit, limits and usual value of a key of a new device."""
+    if dimension is PLAIN:
+        return {**_WHOLE, "usual": usual}
+    least = {"least": 0} if dimension is UNBALANCE else {}
+    return {"unit": dimension.unit, "usual": usual, **least}
+
+
+def _list_numbers(model: EngineFile) -> Iterator[Node]:
+    """Yield the numbers of the file that the page may change, with values, units and limits."""
+    tables = dict(model.tables())
+    for name, number in find_numbers(model).items():
+        value = _find_value(tables, name)
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
+            continue
+        yield {"name": name, "value": value, **_describe_limits(number)}
+    for path, table in tables.items():
+        for key in ("ratio", "order"):
+            if path.startswith(_DEVICES) and hasattr(table, key):
+                yield {"name": f"{path}.{key}", "value": getattr(table, key), **_WHOLE}
+
+
+def _describe_limits(number: Number) -> Node:
+    """Return unit and limits of a number, as far as it has some."""
+    limits = {"above": number.above, "least": number.least, "most": number.most}
+    given = {key: value for key, value in limits.items() if value is not None}
+    return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
+
+
+def _find_value(tables: Mapping[str, object], name: str) -> float | None:
+    """Return the value of a number by its dotted name, in the unit of the file; None: not given."""
+    path, _, key = name.rpartition(".")
+    if path not in tables and key.isdigit():  # a member of a list
+        path, _, outer = path.rpartition(".")
+        value = getattr(tables[path], outer)[int(key) - 1] if path in tables else None
+    else:
+        value = getattr(tables[path], key) if path in tables else None
+    return float(value) if isinstance(value, (int, float)) else None
+
+
+# ------------------------------------------------------------------ the text of the file
+def _is_plain(text: str) -> bool:
+    """Return whether each table has a header and each of its keys a line, so that the page can
+    change them line by line.
+    """
+    data, lines = tomllib.loads(text), text.splitlines()
+    starts = [k for k, line in enumerate(lines) if _HEADER.match(line)]
+    ends = [*starts[1:], len(lines)]
+    for name, table, place in _list_tables(data):
+        named = [k for k in starts if _HEADER.match(lines[k])[1] == name]  # type: ignore[index]
+        if len(named) <= place:
+            return False
+        section = lines[named[place] + 1 : ends[starts.index(named[place])]]
+        for key, value in table.items():
+            rows = [line for line in section if re.match(rf"\s*{re.escape(key)}\s*=", line)]
+            if len(rows) != 1 or not _says(rows[0], {key: value}):
+                return False
+    return True
+
+
+_HEADER = re.compile(r"\s*\[{1,2}\s*([\w.-]+)\s*\]{1,2}\s*(?:#.*)?$")
+
+
+def _says(line: str, wanted: Node) -> bool:
+    try:
+        return tomllib.loads(line) == wanted
+    except tomllib.TOMLDecodeError:
+        return False
+
+
+def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node, int]]:
+    """Yield the tables of a file that the page may change: name, content, and place in a list."""
+    for name in (*_TABLES, *_DEVICES):
+        found = data.get(name, {})
+        if name == "cylinder":
+            yield from ((f"cylinder.{number}", own, 0) for number, own in found.items())
+        elif isinstance(found, list):
+            yield from ((name, table, k) for k, table in enumerate(found))
+        elif found:
+            yield name, found, 0
+
+
+def _write_plainly(text: str) -> str:
+    """Return the text of a file with a line for each key, without comments."""
+    data = tomllib.loads(text)
+    blocks = [("", {k: v for k, v in data.items() if not isinstance(v, (dict, list))})]
+    blocks += [
+        (f"[[{name}]]" if isinstance(data.get(name), list) else f"[{name}]", table)
+        for name, table, _ in _list_tables(data)
+    ]
+    others = {k: v for k, v in data.items() if k not in (*_TABLES, *_DEVICES)}
+    blocks += [(f"[{k}]", v) for k, v in others.items() if isinstance(v, dict)]
+    blocks += [
+        (f"[[{k}]]", v) for k, each in others.items() if isinstance(each, list) for v in each
+    ]
+    written = (
+        "\n".join(filter(None, (head, *(f"{k} = {_format(v)}" for k, v in table.items()))))
+        for head, table in blocks
+    )
+    return "\n\n".join(filter(None, written)) + "\n"
+
+
+def _format(value: object) -> str:
+    """Return a value as TOML has it in one line."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{key} = {_format(part)}' for key, part in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_format, value))}]"
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool)) else repr(value)
+
+
+def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
+    """Return what has to be written into [layout] with other throws, banks or splay: a firing order
+    that fits the given throws alone is left out, and the numbering that it implied is given.
+    """
+    layout = model.layout
+    if model.crank.throws is None or layout.firing_order is None or model.gas is not None:
+        return None
+    banks = sorted({cell.bank for cell in parts.plan.cells})
+    rows = [[cell.number for cell in parts.plan.cells if cell.bank == bank] for bank in banks]
+    keys: Node = {"firing_order": "none", "firing_intervals": "none"}
+    return keys | ({} if layout.numbering is not None else {"numbering": _format(rows)})
+
+
+# ------------------------------------------------------------------ axes, pins and places
+def _find_forms(
+    model: EngineFile, parts: Parts, throws: Mapping[int, int], names: list[str]
+) -> dict[str, list[Node]]:
+    """Return the linear forms of axes, crank pins (deg) and positions (mm) of the cylinders, and of
+    the positions of the throws: a constant, and coefficients by the name of a number.
+
+    Pins are without the angles of top dead centre that an offset adds where a throw stands as a
+    cylinder fires.
+    """
+    start = _measure(parts, throws)
+    moving = [
+        name
+        for name in names
+        if name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))
+    ]
+    forms: dict[str, list[Node]] = {
+        key: [{"value": value, "by": {}} for value in values] for key, values in start.items()
+    }
+    for name in moving:
+        value = _find_value(dict(model.tables()), name) or 0.0
+        moved = _measure(Parts(model, {name: value + 1.0}), throws)
+        for key, values in moved.items():
+            for form, new, old in zip(forms[key], values, start[key], strict=True):
+                if coefficient := round(new - old, 9):
+                    form["by"][name] = coefficient
+                    form["value"] -= coefficient * value
+    return forms
+
+
+def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
+    """Return axes, leads of the crank pins (deg), positions of cylinders and throws (mm)."""
+    cells, pins, places = parts.plan.cells, parts.pins, parts.places
+    tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
+    first = next(cell for cell in cells if cell.number == 1)
+
+    def find_lead(cell: Cell) -> float:
+        ends = (_find_leader(parts, each, throws) for each in (cell, first))
+        own, of_first = (0.0 if end is None else tops[end] for end in ends)
+        return float(pins.leads_deg[cell.number]) - own + of_first
+
+    return {
+        "axis": [float(pins.axes_deg[cell.number]) for cell in cells],
+        "lead": [find_lead(cell) for cell in cells],
+        "z": [1e3 * float(places.z[cell.number]) for cell in cells],
+        "throws": [1e3 * float(z) for z in places.throws.ravel()],
+    }
+
+
+def _find_leader(parts: Parts, cell: Cell, throws: Mapping[int, int]) -> int | None:
+    """Return the cylinder at whose top dead centre the crank pin of a cylinder stands; None where
+    the file gives its angle.
+    """
+    return None if parts.override(cell.number, "throw") is not None else throws.get(cell.throw)
+
+
+# ------------------------------------------------------------------ masses
+def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
+    """Return the figures of piston, rod and throw of a cylinder: names of numbers, or plain values
+    in the units of the file.
+    """
+    number, own = cell.number, model.cylinder.get(cell.number)
+    weighed = parts.weighed[number]
+
+    def name(key: str, usual: str) -> str:
+        given = own is not None and getattr(own, key) is not None
+        return f"cylinder.{number}.{key}" if given else usual
+
+    pistons = [f"piston.{key}" for key in parts.find_piston_masses()]
+    if own is not None and own.piston_mass is not None:
+        pistons = [f"cylinder.{number}.piston_mass"]
+    place = parts.find_rod(number)
+    return {
+        "piston": [*pistons, name("crosshead_mass", "crosshead.mass")],
+        "offset": name("piston_offset", "piston.offset"),
+        "share": 1 / parts.plan.rods_on_throw,
+        "extra": float(weighed.rod_bearing + weighed.oil),
+        "rod": _describe_rod(place.rod, lambda key: name(f"rod_{key}", f"rod.{key}")),
+    }
+
+
+def _describe_rod(rod: RodFigures, name: Callable[[str], str]) -> Node:
+    found: Node = {key: name(key) for key in _OF_ROD if getattr(rod, key) is not None}
+    if rod.pendulum is not None:
+        found |= {"period": float(rod.pendulum.period), "pivot": rod.pendulum.pivot}
+    return found

@@ -1,0 +1,110 @@
+"""Torque along the crankshaft against the sum of single cylinders; masses against a uniform rod."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from support.commands import ask, ask_json, refusal
+from support.engines import GOOD, build_text, changed
+
+from balcli import analyze, analyze_torque, curves, load_example
+from balcli.analysis.crank_drive import find_journals, list_masses
+
+BEARING = "[bearing]\nmain_diameter = 60\nmain_width = 20\npin_diameter = 50\npin_width = 20\npin_bore = 30\n"
+
+
+@pytest.mark.parametrize("name", ["i4_wiebe", "v8_wiebe"])
+def test_journals_carry_the_torque_of_the_throws_before_them(name):
+    engine = load_example(name)
+    each = {n: curves(engine, 0.5, cylinder=n).curves["torque_Nm"] for n in engine.numbers}
+    throws = np.array(engine.joined_throw_of_rows)
+    by_throw = [
+        sum(each[n] for n, throw in zip(engine.numbers, throws, strict=True) if throw == k)
+        for k in range(max(throws) + 1)
+    ]
+    before = np.zeros_like(by_throw[0])
+    found = {journal.place: journal.total for journal in find_journals(engine)}
+    for k, own in enumerate(by_throw, 1):
+        for place, curve in ((f"main {k}", before), (f"pin {k}", before + own / 2)):
+            torque = found[place]
+            assert torque.max_Nm >= curve.max() - 1e-9
+            assert (torque.max_Nm, torque.min_Nm) == pytest.approx(
+                (curve.max(), curve.min()), abs=2e-3 * np.ptp(curve) + 1e-9
+            )
+            assert torque.mean_Nm == pytest.approx(curve.mean(), abs=1e-3 * np.ptp(curve) + 1e-9)
+        before = before + own
+    last, whole = found[f"main {len(by_throw) + 1}"], analyze_torque(engine)
+    assert last.mean_Nm == pytest.approx(whole.mean_torque_Nm, rel=1e-9)
+    assert (last.max_Nm, last.min_Nm) == pytest.approx((whole.torque.max_Nm, whole.torque.min_Nm), rel=1e-7)
+    assert found["main 1"].range_Nm == 0
+    assert found["main 1"].max_deg is None
+
+
+def test_the_stress_of_a_hollow_pin():
+    engine = build_text(GOOD + BEARING)
+    journals = {journal.place: journal for journal in find_journals(engine)}
+    pin = journals["pin 2"]
+    section = math.pi / 32 * (0.05**4 - 0.03**4)  # polar second moment of area
+    assert pin.stress.amplitude_Pa == pytest.approx(pin.inertia.range_Nm / 2 * 0.025 / section)
+    assert pin.position_mm == pytest.approx(-50)
+    assert journals["main 5"].position_mm == pytest.approx(200)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (BEARING.replace("pin_bore = 30", "pin_bore = 50"), "pin_bore = 50 mm: has to be below pin_diameter = 50 mm"),
+        ("[bearing]\nmain_bore = 10\n", "main_bore = 10 mm: has to be below main_diameter"),
+    ],
+)
+def test_a_bore_is_smaller_than_its_journal(tmp_path, table, message):
+    (tmp_path / "four.toml").write_text(GOOD + table)
+    assert message in refusal("analyze", tmp_path / "four.toml")
+
+
+def test_the_crank_of_a_rotary_engine_stands_still():
+    rotary = build_text(
+        "[crank]\nstroke = 120\n[rod]\nlength = 240\n[piston]\nmass = 1\n[layout]\nradial = 7\nrotary = true\n"
+    )
+    with pytest.raises(Exception, match="stands still"):
+        find_journals(rotary)
+
+
+def test_a_uniform_rod():
+    """J = m L^2/12 about its middle; as a pendulum from its end it has the reduced length 2/3 L."""
+    mass, length = 0.6, 160.0
+    text = changed(("cg = 45", f"cg = {length / 2}\ninertia = {mass * length**2 / 12}"))
+    (one,) = list_masses(build_text(text))
+    assert one.cylinders == (1, 2, 3, 4)
+    assert (one.rod_small_end_kg, one.rod_big_end_kg) == pytest.approx((0.3, 0.3))
+    assert one.reduced_length_m == pytest.approx(2 / 3 * 0.16)
+    assert one.radius_of_gyration_m == pytest.approx(0.16 / math.sqrt(12))
+    assert one.couple_constant_kg_m2 == pytest.approx(mass * 0.08**2 - mass * 0.16**2 / 12)
+    assert one.throw_kg == pytest.approx(0.8)
+
+
+def test_a_crosshead_moves_with_the_piston(tmp_path):
+    crosshead = GOOD + "[crosshead]\nmass = 2\n[cylinder.3]\ncrosshead_mass = 3\n"
+    first, third = list_masses(build_text(crosshead))
+    assert (first.crosshead_kg, third.crosshead_kg, third.cylinders) == (2, 3, (3,))
+    assert third.reciprocating_kg - first.reciprocating_kg == pytest.approx(1)
+    heavier = build_text(GOOD.replace("mass = 0.5", "mass = 2.5"))
+    same = build_text(GOOD + "[crosshead]\nmass = 2\n")
+    np.testing.assert_allclose(analyze(same).spectra.force.vectors, analyze(heavier).spectra.force.vectors, rtol=1e-14)
+    (tmp_path / "four.toml").write_text(crosshead)
+    card = ask_json("balance", tmp_path / "four.toml", "--factor", "50%")["details"]["card"]
+    assert card[0]["reciprocating_g"] == pytest.approx(1e3 * (0.5 + 2 + 0.6 * 45 / 160))
+
+
+def test_words_of_only(tmp_path):
+    (tmp_path / "four.toml").write_text(GOOD)
+    found = ask_json("analyze", tmp_path / "four.toml", "--only", "journals,masses")
+    assert [journal["place"] for journal in found["journals"]][:3] == ["main 1", "pin 1", "main 2"]
+    assert found["masses"][0]["piston_kg"] == 0.5
+    table = ask("analyze", tmp_path / "four.toml", "--only", "journals")
+    assert "Torque along the crankshaft" in table
+    assert "Masses" not in table
+    rows = ask("analyze", tmp_path / "four.toml", "--only", "masses", "-f", "csv")
+    assert "masses,,piston_kg,0.5,kg" in rows

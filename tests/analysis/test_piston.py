@@ -1,0 +1,109 @@
+"""Motion of pistons against the formula differentiated by Fourier; printed values of a textbook."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from support.commands import ask, ask_csv, refusal
+from support.engines import GOOD, RADIAL, build_text, changed
+
+from balcli import BalcliError, analyze_pistons, load_example
+from balcli.analysis.piston import TYPE_LIMIT, choose_cylinder
+
+N = 1 << 14
+
+
+def differentiate(place: np.ndarray) -> np.ndarray:
+    orders = np.fft.rfftfreq(N, 1 / N)
+    spectrum = np.fft.rfft(place) * 1j * orders
+    return np.fft.irfft(np.where(orders < 400, spectrum, 0), N)
+
+
+def place_of(radius: float, length: float, offset: float = 0.0) -> np.ndarray:
+    psi = 2 * np.pi * np.arange(N) / N
+    return radius * np.cos(psi) + np.sqrt(length**2 - (radius * np.sin(psi) - offset) ** 2)
+
+
+@pytest.mark.parametrize(("ratio", "offset"), [(0.2, 0), (0.3, 0), (0.28, 12), (0.45, -9), (0.7, 6)])
+def test_extremes_are_those_of_the_curve(ratio, offset):
+    text = changed(("length = 160", f"ratio = {ratio}"), ("mass = 0.5", f"mass = 0.5\noffset = {offset}"))
+    found = analyze_pistons(build_text(text)).mechanisms[0]
+    omega, radius = 3000 * math.pi / 30, 0.045
+    place = place_of(radius, radius / ratio, offset / 1e3)
+    speed, rate = -omega * differentiate(place), -(omega**2) * differentiate(differentiate(place))
+    top, bottom = place.argmax() * 360 / N, place.argmin() * 360 / N
+    assert found.stroke_m == pytest.approx(np.ptp(place), rel=1e-6)
+    assert found.mean_speed_m_per_s == pytest.approx(2 * found.stroke_m * 50)
+    assert abs((found.outer_dead_center_own_deg - top + 180) % 360 - 180) < 0.05
+    assert abs((found.inner_dead_center_own_deg - bottom + 180) % 360 - 180) < 0.05
+    assert found.inward_stroke_deg + found.outward_stroke_deg == pytest.approx(360)
+    for each, curve, highest, lowest in (
+        (found.velocity, speed, found.velocity.max_m_per_s, found.velocity.min_m_per_s),
+        (found.acceleration, rate, found.acceleration.max_m_per_s2, found.acceleration.min_m_per_s2),
+    ):
+        assert (highest, lowest) == pytest.approx((curve.max(), curve.min()), rel=1e-6)
+        at = np.array([each.max_own_deg, each.min_own_deg]) * N / 360
+        assert curve[np.rint(at).astype(int) % N] == pytest.approx([highest, lowest], rel=1e-5)
+    minima = (rate < np.roll(rate, 1)) & (rate <= np.roll(rate, -1))
+    assert found.acceleration.type == np.count_nonzero(minima)
+    assert (found.two_term is None) == bool(offset)
+
+
+@pytest.mark.parametrize(("share", "type_"), [(0.999, 1), (1.001, 2)])
+def test_the_acceleration_has_two_minima_above_the_limit(share, type_):
+    """At the limit the fourth derivative of the path at 180 deg is 0."""
+    lam = TYPE_LIMIT
+    assert 3 * lam**3 - 4 * lam + 1 == pytest.approx(0, abs=1e-15)
+    found = analyze_pistons(build_text(changed(("length = 160", f"ratio = {share * lam!r}")))).mechanisms[0]
+    assert found.acceleration.type == type_
+    assert found.two_term.type == 2
+
+
+def test_two_terms():
+    """v = r w (sin psi + lam/2 sin 2 psi), a = r w^2 (cos psi + lam cos 2 psi), by a fine grid."""
+    two = analyze_pistons(load_example("i4")).mechanisms[0].two_term
+    lam, scale = 43 / 139, 0.043 * (7000 * math.pi / 30)
+    psi = np.radians(np.arange(0, 360, 0.001))
+    speed = scale * (np.sin(psi) + lam / 2 * np.sin(2 * psi))
+    rate = scale * (7000 * math.pi / 30) * (np.cos(psi) + lam * np.cos(2 * psi))
+    assert two.velocity_max_m_per_s == pytest.approx(speed.max(), rel=1e-9)
+    assert two.velocity_max_own_deg == pytest.approx(speed.argmax() / 1000, abs=2e-3)
+    assert two.acceleration_max_m_per_s2 == pytest.approx(rate.max(), rel=1e-12)
+    assert two.acceleration_min_m_per_s2 == pytest.approx(rate.min(), rel=1e-9)
+    assert two.acceleration_min_own_deg == pytest.approx(rate.argmin() / 1000, abs=2e-3)
+
+
+def test_an_offset_of_ten_millimetres():
+    """Tsinghua, section 1.1.2: stroke 90.22 mm, dead centres at 2.94 and 185.47 degrees."""
+    text = "[crank]\nstroke = 90\n[rod]\nlength = 150\n[piston]\nmass = 0.5\nbore = 90\noffset = 10\n"
+    found = analyze_pistons(build_text(text))
+    one = found.mechanisms[0]
+    assert round(1e3 * one.stroke_m, 2) == 90.22
+    assert (round(one.outer_dead_center_own_deg, 2), round(one.inner_dead_center_own_deg, 2)) == (2.94, 185.47)
+    assert found.swept_volume_m3 == pytest.approx(math.pi / 4 * 0.09**2 * one.stroke_m)
+
+
+def test_articulated_pistons_have_strokes_of_their_own():
+    found = analyze_pistons(build_text(RADIAL)).mechanisms
+    assert [each.cylinders for each in found] == [(n,) for n in range(1, 8)]
+    assert [each.rod_ratio is None for each in found] == [False] + [True] * 6
+    assert len({round(each.stroke_m, 9) for each in found}) == 4  # mirrored in pairs
+
+
+def test_the_command_in_all_formats(tmp_path):
+    (tmp_path / "four.toml").write_text(GOOD)
+    table = ask("piston", tmp_path / "four.toml")
+    assert "mean speed, m/s" in table
+    assert "two-term" in table
+    one = json.loads(ask("piston", tmp_path / "four.toml", "--cylinder", "3", "-f", "json"))
+    assert one["format"] == "balcli.piston/1"
+    assert [each["cylinders"] for each in one["mechanisms"]] == [[3]]
+    rows = ask_csv("piston", tmp_path / "four.toml")
+    stroke = next(row for row in rows if row["figure"] == "stroke_m")
+    assert (stroke["cylinders"], stroke["unit"]) == ("1 2 3 4", "m")
+    assert "cylinder 7" in refusal("piston", tmp_path / "four.toml", "--cylinder", "7")
+    with pytest.raises(BalcliError):
+        choose_cylinder(analyze_pistons(build_text(GOOD)), 9)
