@@ -229,6 +229,20 @@ def test_differences_as_json_and_for_continuous_integration(check, file, tmp_pat
     assert [len(case) for case in suite] == [1, 0]
 
 
+def test_a_broken_file_is_in_both_reports(check, file, tmp_path):
+    check("--update", tmp_path)
+    write(tmp_path / "broken.toml", "x =")
+    status, out, err = check(tmp_path, "-f", "json")
+    first = json.loads(out)["engines"][0]
+    assert status == 2
+    assert first["error"] in err
+    assert "not valid TOML" in first["error"]
+    suite = ElementTree.fromstring(check(tmp_path, "-f", "junit")[1])
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("2", "0", "1")
+    assert suite[0].get("name").endswith("broken.toml")
+    assert "not valid TOML" in suite[0][0].get("message")
+
+
 def _list_paths(value, path=()):
     if isinstance(value, dict | list):
         for key, part in value.items() if isinstance(value, dict) else enumerate(value):

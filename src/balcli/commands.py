@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from enum import StrEnum
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,7 +14,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 import typer
 
 from .core.records import Node, describe_record
-from .errors import BalcliError, Exit, legible
+from .errors import BalcliError, Exit, OtherKindError, legible
 from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
@@ -250,7 +251,7 @@ def check(
     """Recompute engines and compare them with their recorded results; exit status 1 if anything
     moved.
 
-    A record holds the result of `analyze` (orders, peaks, displacement, dead centers) and, if the
+    A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
     file has these chapters, torque, mounts and torsion. A record whose engine file is missing is a
     difference as well. Files of runs and chain files in a folder are passed over.
 
@@ -260,36 +261,21 @@ def check(
       balcli check v8.toml
       balcli check v8.toml --tolerance 1e-6 --format junit
     """
-    from .regression import (
-        CheckedEngine,
-        check_target,
-        describe_checks,
-        find_abandoned,
-        find_differences,
-        find_record,
-        record_result,
-    )
-
-    def compare_or_record(path: Path) -> CheckedEngine:
-        engine = read_engine(str(path)).engine
-        differences: list[Difference] = []
-        if update:
-            write_file(record_result(engine), make_folder_of(check_target(path)))
-        else:
-            differences = find_differences(engine, find_record(path), tolerance)
-        return CheckedEngine(engine=str(path), differences=tuple(differences))
+    from .regression import describe_checks, find_abandoned
 
     files, expected = find_engine_files(paths), find_expected(paths)
+    found, work = {*files} - {*paths}, partial(_check_engine, update=update, tolerance=tolerance)
     with reporting_until_stopped("engines", len(files)) as progress:
-        each, found = each_until_stopped(files, progress), {*files} - {*paths}
-        results, errors = try_each(each, compare_or_record, found)
+        results, others = try_each(each_until_stopped(files, progress), work, found)
     checked = [*results, *find_abandoned(expected)]
+    errors = [*(each.error for each in results if each.error), *others]
+    compared = sum(each.error is None for each in results)
     moved = sum(len(each.differences) for each in checked)
     match form:
         case CheckFormat.TABLE:
             done = " recorded" if update else f", {counted(moved, 'difference')}"
             lines = [line for each in checked for line in _list_lines(each)]
-            emit(legible("\n".join([*lines, counted(len(results), "engine") + done])))
+            emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
         case CheckFormat.JSON:
             emit(json_text(describe_checks(checked)))
         case CheckFormat.JUNIT:
@@ -300,6 +286,30 @@ def check(
         raise BalcliError(f"{paths[0]}: has no engine files (*.toml)")
     if moved:
         raise typer.Exit(Exit.DIFFERENCE)
+
+
+def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngine:
+    """Return the differences of an engine file from its record, or record it."""
+    from .regression import (
+        CheckedEngine,
+        check_target,
+        find_differences,
+        find_record,
+        record_result,
+    )
+
+    differences: list[Difference] = []
+    try:
+        engine = read_engine(str(path)).engine
+        if update:
+            write_file(record_result(engine), make_folder_of(check_target(path)))
+        else:
+            differences = find_differences(engine, find_record(path), tolerance)
+    except OtherKindError:
+        raise
+    except BalcliError as error:
+        return CheckedEngine(engine=str(path), differences=(), error=str(error))
+    return CheckedEngine(engine=str(path), differences=tuple(differences))
 
 
 def _list_lines(checked: CheckedEngine) -> Iterator[str]:
@@ -317,10 +327,14 @@ def _list_lines(checked: CheckedEngine) -> Iterator[str]:
 
 def _write_junit(checked: Sequence[CheckedEngine]) -> str:
     """Return an XML report in the form of JUnit: a test case for each engine."""
-    failures = str(sum(bool(each.differences) for each in checked))
-    suite = Element("testsuite", name="balcli check", tests=str(len(checked)), failures=failures)
+    suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
+    suite.set("failures", str(sum(bool(each.differences) for each in checked)))
+    suite.set("errors", str(sum(each.error is not None for each in checked)))
     for each in checked:
         case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
+        if each.error:
+            first = legible(each.error.partition("\n")[0])
+            SubElement(case, "error", message=first).text = legible(each.error)
         if each.differences:
             message = counted(len(each.differences), "difference")
             failure = SubElement(case, "failure", message=message)

@@ -1,6 +1,6 @@
 """Compare recorded results of engines with what balcli computes now.
 
-A record is the JSON document of `analyze` (orders, peaks, displacement, dead centers) with the
+A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the
 main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
 Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
 the largest figure of their group. Axes, phases and peak angles of an order, and whether it is
@@ -89,10 +89,12 @@ class CheckedEngine:
     Attributes:
         engine: Path of the engine file.
         differences: Every figure that moved.
+        error: Why the file could not be compared; None: it was.
     """
 
     engine: str
     differences: tuple[Difference, ...]
+    error: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +102,7 @@ class Check:
     """Engines compared with their recorded results.
 
     Attributes:
-        engines: All that were compared.
+        engines: All that were compared or could not be.
     """
 
     format: Literal["balcli.check/1"] = "balcli.check/1"
@@ -303,7 +305,8 @@ def _compare(
             value or 0.0 for value in (before, after) if isinstance(value, (float, NoneType))
         ]
         if is_angle and isinstance(before, float) and isinstance(after, float):
-            allowed = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
+            least = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
+            allowed = max(least, tolerance * 360)
         if len(figures) == 2 and (None not in (before, after) or not shared):
             same = abs(figures[1] - figures[0]) <= allowed
         else:  # an order that only one of them has is judged by its figures

@@ -42,7 +42,7 @@ def test_a_table_a_kind_a_row_a_speed():
     assert "speed      3000 to 6000 rpm, 2 speeds" in out
     moment = analyze(load(FIVE), [1, 2], ["moment"]).spectra.moment.major * (6000 / 5700) ** 2
     row = next(line for line in out.splitlines() if line.startswith("6000"))
-    assert [float(cell) for cell in row.split()[1:3]] == pytest.approx(moment.tolist(), rel=1e-4)
+    assert [float(cell) for cell in row.split()[1:3]] == pytest.approx(moment.tolist(), rel=5e-4)
     assert "Negligible: free force (at most 0.006 N)." in out
     assert "Sizing" not in out
     assert max(map(len, out.splitlines())) <= 80

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
 
 import numpy as np
@@ -169,3 +170,15 @@ def test_what_does_not_go_together(tmp_path):
         fit(THREE.replace("spacing = 82", "") + device("shaft", ratio=-1), "moment")
     remedy, _ = fit(THREE.replace("spacing = 82", "") + device("shaft", ratio=-1))
     assert remedy.details["target"] == ["force"]
+
+
+def test_an_engine_in_which_nothing_reciprocates(tmp_path):
+    """There is no cylinder to compare with, and a pair of shafts has nothing left to take."""
+    still = THREE.replace("mass = 0.32", "mass = 0").replace("cg = 36\ninertia = 1200", "cg = 0")
+    (file := tmp_path / "still.toml").write_text(still + device("counterweight", position=0))
+    status, _, err = run_here("balance", file)
+    assert (status, "nothing reciprocates" in err) == (2, True)
+    file.write_text(still.replace("[0, 240, 120]", "[0]").replace("spacing = 82", ""))
+    status, out, _ = run_here("balance", file, "--scheme", "two-shaft", "--order", "1", "-f", "json")
+    fitted = json.loads(out)
+    assert (status, len(fitted["counterweights"]), fitted["shafts"]) == (0, 1, [])

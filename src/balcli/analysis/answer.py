@@ -72,7 +72,7 @@ class Analysis(Result):
         inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
             bearings and in the block as well.
         guide: H- and X-type guide-force moments.
-        travel: Strokes and dead centers of articulated cylinders and of the masters; left out where
+        travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
             all cylinders are plain slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
@@ -303,7 +303,7 @@ def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collectio
 
 
 def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
-    """Return strokes and dead centers by the numbers of the cylinders, in rising order."""
+    """Return strokes and dead centres by the numbers of the cylinders, in rising order."""
     columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
     return tuple(sorted(map(Stroke, engine.numbers, *columns)))
 

@@ -409,7 +409,7 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None =
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
     """Return sizes, and ratios to the first engine's unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
-    ratios = (UNKNOWN if line.negligible[0] else number(ratio, 4) for ratio in line.ratios[1:])
+    ratios = (UNKNOWN if line.negligible[0] else number(ratio) for ratio in line.ratios[1:])
     return (
         "peak" if line.order is None else f"order {order_name(line.order)}",
         first,

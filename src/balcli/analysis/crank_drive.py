@@ -172,7 +172,7 @@ def _grid(
     unit = system.moment.fit(max(each.range_Nm for each in torques))
     stress = with_stress and any(each.stress for each in journals)
     heads = ["place", f"z, {system.length.name}", f"largest, {unit.name}", "deg", "smallest", "deg"]
-    heads += ["range", "mean", *([f"±{system.stress.fit(1e9).name}"] if stress else [])]
+    heads += ["range", "mean", *([f"stress, ±{system.stress.fit(1e9).name}"] if stress else [])]
     rows = []
     for each, torque in zip(journals, torques, strict=True):
         at = each.position_mm

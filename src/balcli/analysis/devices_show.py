@@ -109,7 +109,7 @@ def ladder_grid(
             if scale.moment_Nm is not None:
                 first += f", {size_text(scale.moment_Nm, system.moment)}"
             least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
-            notes.append(f"No part of a later step reaches {least}.")
+            notes.append(f"Each later step would cancel less than {least}.")
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
     heads, cells = zip(*columns, strict=True)
     at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
@@ -177,7 +177,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         disc = [_length(size, length, 3) for size in (p.disc_radius_mm, p.disc_thickness_mm)]
         disc = [UNKNOWN, UNKNOWN] if isinstance(device, Slider) else disc  # it is no disc
-        at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg), 4))
+        at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg)))
         rows.append((f"{k} {name_kind(device)}", *at_speed, *disc))
     units = (f"force, {force.name}", f"mass, {mass.name}")
     sizes = (f"disc r, {length.name}", f"thick, {length.name}")
@@ -196,7 +196,7 @@ def holes_grid(
         system: System of units.
     """
     unit = system.length
-    drill = f"{number(unit.of(tools.drill or 0.0), 4)} {unit.name}"
+    drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
     rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
 
     rows = tuple(

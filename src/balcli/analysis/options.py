@@ -98,7 +98,8 @@ class Request(NamedTuple):
         if self.marine:
             given |= {"--only": bool(self.parts), "--why": self.why}
         elif self.over_speed:
-            given |= dict.fromkeys((f"--only {word}" for word in PARTS if word in self.parts), True)
+            of_one = (*PARTS, "journals", "masses")
+            given |= {f"--only {word}": word in self.parts for word in of_one}
         for option in (option for option, is_given in given.items() if is_given):
             if self.marine:
                 raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")

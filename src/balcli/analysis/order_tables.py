@@ -136,7 +136,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         )
         yield _textbook_table(FORCE, book, note, every)
     if built.moment is not None and not math.isnan(units.arm):
-        arm = f"{number(system.length.of(units.arm), 4)} {system.length.name}"
+        arm = f"{number(system.length.of(units.arm))} {system.length.name}"
         note = f"a = {arm}, the smallest distance of neighbouring throws."
         note += f" {_AS_BUILT}" * (built.force is None)
         yield _textbook_table(MOMENT, book, note, every)
@@ -161,7 +161,7 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
 
 def _tell_vector(v: complex, unit: ShownUnit) -> str:
     angle = degrees(math.degrees(cmath.phase(v)))
-    return f"{number(unit.of(abs(v)), 4)} ∠ {angle}" if v else NOTHING
+    return f"{number(unit.of(abs(v)))} ∠ {angle}" if v else NOTHING
 
 
 def peak_facts(
@@ -259,7 +259,7 @@ def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
     def cells(k: int) -> Iterator[str]:
         size = book.units.size(kind, order_number(built.orders[k]))
         for value in (float(column[k]) for column in columns):
-            yield number(value / size, 4) if value else NOTHING
+            yield number(value / size) if value else NOTHING
 
     heads = (f"largest, {book.units.name(kind)}", "with crank", "against", "as built")
     title = f"{capitalized(kind.label)} in textbook units"

@@ -142,9 +142,7 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
         nothing = small_text(largest, system.moment)
         return f"{nothing} in the orders shown" if every_order else nothing
     unit = system.moment.fit(largest)
-    sizes = (
-        f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])), 4)}" for k in rows
-    )
+    sizes = (f"{order_name(roll.orders[k])}: {number(unit.of(float(roll.major[k])))}" for k in rows)
     return f"order {', '.join(sizes)} {unit.name}"
 
 

@@ -299,8 +299,8 @@ def sheet(result: Pistons, system: System) -> Sheet:
             columns.append(("two-term", {k: number(terms[v]) for k, v in _TWO_TERM.items()}))
             if each.two_term.type != each.acceleration.type:
                 notes.append(
-                    f"Two terms place the limit of type 2 at a rod ratio of {_TWO_TERM_LIMIT}; it "
-                    f"is {TYPE_LIMIT:.4f}."
+                    f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; "
+                    f"by two terms above {_TWO_TERM_LIMIT}."
                 )
     rows = tuple(
         (label, *(cells.get(name, "") for _, cells in columns))
@@ -330,6 +330,7 @@ def _list_labels(columns: list[tuple[str, dict[str, str]]]) -> Iterator[tuple[st
         plain = name.replace(".", " ").replace("_own", "").replace("_m_per_s2", ", m/s²")
         plain = plain.replace("_m_per_s", ", m/s").replace("_deg", ", deg")
         plain = remove_unit(plain) if unit else plain
+        plain = plain.replace("center", "centre").replace("type", "minima")
         yield name, f"{plain.replace('_', ' ')}{', ' * bool(unit)}{unit}"
 
 

@@ -228,13 +228,13 @@ def name_included(with_gas: bool) -> Includes:
 
 
 class Stroke(NamedTuple):
-    """Stroke and dead centers of one piston.
+    """Stroke and dead centres of one piston.
 
     Attributes:
         cylinder: Number of the cylinder.
         stroke_m: Stroke.
-        top_deg: Crank angle of the top dead center, from where the pin lies along the axis.
-        bottom_deg: Crank angle of the bottom dead center, from half a turn later.
+        top_deg: Crank angle of the top dead centre, from where the pin lies along the axis.
+        bottom_deg: Crank angle of the bottom dead centre, from half a turn later.
     """
 
     cylinder: int

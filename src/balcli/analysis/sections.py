@@ -134,7 +134,7 @@ def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, not
             number(length.of(float(z))),
             size_cell(peak.value, unit, digits=None),
             degrees(float(np.degrees(peak.theta))) if peak.value else "",
-            *(number(unit.of(float(size)), 4) for size in along.at(k).major[:ORDERS_SHOWN]),
+            *(number(unit.of(float(size))) for size in along.at(k).major[:ORDERS_SHOWN]),
         )
         for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True))
     )
@@ -210,7 +210,7 @@ def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
     """Return a table, a row for each cylinder.
 
     Args:
-        travel: Strokes and dead centers of the cylinders.
+        travel: Strokes and dead centres of the cylinders.
         system: System of units.
     """
     length = system.length
@@ -235,7 +235,7 @@ def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow
     """Yield three figures for each cylinder.
 
     Args:
-        travel: Strokes and dead centers of the cylinders.
+        travel: Strokes and dead centres of the cylinders.
         system: System of units.
     """
     length = system.length

@@ -1,5 +1,5 @@
 """Engine -> Balance: the devices of a scheme, and the analyses without and with them; knuckle
-angles that make strokes or dead centers of articulated rods even; a remedy written into an engine
+angles that make strokes or dead centres of articulated rods even; a remedy written into an engine
 file.
 """
 

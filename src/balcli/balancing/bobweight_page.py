@@ -57,7 +57,7 @@ def multiply(line: CardLine) -> str:
 
 def percent(share: float) -> str:
     """Return a balance factor as shops write it."""
-    return f"{number(100 * share, 4)} %"
+    return f"{number(100 * share)} %"
 
 
 def write_page(result: Balance) -> str:

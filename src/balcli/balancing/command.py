@@ -97,7 +97,7 @@ Schemes = Annotated[
 ]
 Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: of the crank.")]
 Thickness = Annotated[str | None, optional("MM", "Thickness of the half discs; default: 20.")]
-Disc = Annotated[str | None, optional("MM", "Their radius instead of the thickness.")]
+Disc = Annotated[str | None, optional("MM", "Radius of the half discs; instead of --thickness.")]
 Drill = Annotated[str | None, optional("MM", "List holes to drill, from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the axis.")]
 Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]

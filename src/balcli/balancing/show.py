@@ -143,7 +143,7 @@ def _tell_bearings(result: Balance, system: System) -> str:
     unit = system.unit(FORCE).fit(before)
     return (
         "At every throw (--planes throws) they lower the largest main bearing load from "
-        f"{number(unit.of(before), 4)} to {number(unit.of(after), 4)} {unit.name}."
+        f"{number(unit.of(before))} to {number(unit.of(after))} {unit.name}."
     )
 
 
@@ -194,7 +194,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
         tuple(
-            (name, number(unit.of(size)), number(unit.of(each), 4), judge(size))
+            (name, number(unit.of(size)), number(unit.of(each)), judge(size))
             for name, size in found
         ),
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "

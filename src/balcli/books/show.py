@@ -197,7 +197,7 @@ def lay_out_layouts(table: Table, _system: System) -> Sheet:
 
     def cells(row: Row) -> tuple[str, ...]:
         name, title, *_ = map(str, row)
-        multiples = (number(float(row[k] or 0.0), 4) for k in places)
+        multiples = (number(float(row[k] or 0.0)) for k in places)
         gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # 90/150: it fires unevenly
         return title.partition(" (")[0], *multiples, gaps or UNKNOWN
 

@@ -102,7 +102,7 @@ def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
 
 
 def _acceleration(omega: float = OMEGA) -> float:
-    """Return the acceleration of the piston at top dead center, ft/s^2."""
+    """Return the acceleration of the piston at top dead centre, ft/s^2."""
     return CRANK * omega**2 * (1 + CRANK / ROD)
 
 

@@ -95,7 +95,7 @@ def _list_polar(head: str, values: Iterable[complex], digits: int = 4) -> list[C
 
 
 def _tell_weight(result: FieldBalance, value: complex) -> str:
-    return f"{number(abs(value), 4)} {result.weight_unit} at {degrees(angle_deg(value))} deg"
+    return f"{number(abs(value))} {result.weight_unit} at {degrees(angle_deg(value))} deg"
 
 
 def _show_corrections(result: FieldBalance, system: System) -> Grid:
@@ -106,7 +106,7 @@ def _show_corrections(result: FieldBalance, system: System) -> Grid:
         columns += _list_polar(f"add now, {unit}", [each.step for each in every])
     if file.radius is not None:
         radii = dict(zip(file.planes, file.radius, strict=True))
-        lengths = [number(system.length.of(radii[each.plane] / 1e3), 4) for each in every]
+        lengths = [number(system.length.of(radii[each.plane] / 1e3)) for each in every]
         columns.append((f"radius, {system.length.name}", lengths))
         unbalances = [_show_g_mm(each.unbalance_g_mm, system) for each in every]
         columns.append((f"unbalance, {system.unbalance.name}", unbalances))
@@ -119,7 +119,7 @@ def _show_corrections(result: FieldBalance, system: System) -> Grid:
 
 
 def _show_g_mm(value: float | None, system: System) -> str:
-    return UNKNOWN if value is None else number(system.unbalance.of(value / 1e6), 4)
+    return UNKNOWN if value is None else number(system.unbalance.of(value / 1e6))
 
 
 def _explain_corrections(result: FieldBalance) -> Iterator[str]:
@@ -149,7 +149,7 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
         for piece in each.pieces:
             count = len(file.places[k]) if file.places else 0
             place = UNKNOWN if piece.place is None else f"{piece.place} of {count}"
-            cells = [each.plane, place, degrees(piece.angle_deg), number(piece.weight, 4)]
+            cells = [each.plane, place, degrees(piece.angle_deg), number(piece.weight)]
             if file.drill is not None and piece.depth_mm is not None:
                 cells.append(number(length.of(file.drill[k] / 1e3), 6))
                 cells.append(number(length.of(piece.depth_mm / 1e3), 3))
@@ -193,7 +193,7 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
         [plane, *columns, verdict, after],
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
-        f"{number(1e3 * found.specific_mm, 4)} µm. There now: {state}, by its readings; after: "
+        f"{number(1e3 * found.specific_mm)} µm. There now: {state}, by its readings; after: "
         f"what the corrections leave of it. Scatter: {spread}.",
     )._replace(
         marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached), words=(0, 4)
@@ -217,12 +217,12 @@ def _show_readings(result: FieldBalance) -> Grid:
         columns += _list_polar(f"{result.runs.state}{unit}", result.before)
     columns += _list_polar(f"after{unit}", result.residual)
     weighted = " weighted" if result.file.reading_weights else ""
-    note = f"Largest{weighted} after: {number(result.largest, 4)}, rms {number(result.rms, 4)}. "
+    note = f"Largest{weighted} after: {number(result.largest)}, rms {number(result.rms)}. "
     if not result.residual.any():
         note = "All readings are cancelled."
     elif result.bound is not None:
         which = "No weights that fit" if result.limited else "No weights"
-        note += f"{which} leave less than {number(result.bound, 4)} as the largest."
+        note += f"{which} leave less than {number(result.bound)} as the largest."
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of their squares is the least {which}."

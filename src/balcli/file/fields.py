@@ -324,7 +324,8 @@ class Choice(NamedTuple):
         """Yield the mistakes in the given keys, in words that follow the name of the table."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         keys = [key for group in begun for key in group if key in given]
-        wanted = f"give either {' or '.join(map(join_words, self.groups))}"
+        choices = " or ".join(map(join_words, self.groups))
+        wanted = f"give {'either' if len(self.groups) > 1 else 'both'} {choices}"
         if len(begun) > 1:
             yield f"has {join_words(keys)}; {wanted}"
         elif not begun and self.required:

@@ -164,7 +164,7 @@ class BodyMode(NamedTuple):
     Attributes:
         frequency_Hz: Natural frequency without damping, with dynamic stiffness.
         energy_percent: Shares of the kinetic energy in the motions x, y, z, rx, ry, rz.
-        shape: Motion of the center of gravity, m and rad, shape (6,), of unit modal mass.
+        shape: Motion of the centre of gravity, m and rad, shape (6,), of unit modal mass.
         motion: The mode in words.
         loss_factor: Loss factor; at resonance the mode is magnified by its inverse.
         meets: Orders that meet the mode within the range of speeds.
@@ -179,7 +179,7 @@ class BodyMode(NamedTuple):
 
 
 class BodyModes(NamedTuple):
-    """Equations `(K + i w C - w^2 M) q = f` about the center of gravity, and their natural modes.
+    """Equations `(K + i w C - w^2 M) q = f` about the centre of gravity, and their natural modes.
 
     Attributes:
         stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).

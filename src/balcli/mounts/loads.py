@@ -82,7 +82,7 @@ class BodyLoads:
 
     Attributes:
         orders: Orders, all above 0, shape (orders,).
-        inertia: Force (N) and moment about the center of gravity (N m) at `omega`, shape
+        inertia: Force (N) and moment about the centre of gravity (N m) at `omega`, shape
             (orders, 6); they grow with the square of the speed.
         omega: Speed of `inertia`, rad/s, mean over the time, as all speeds here are.
         gas: Roll that the gas torque leaves, the same at every speed, shape (orders, 6).

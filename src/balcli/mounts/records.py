@@ -160,7 +160,7 @@ class PointMotion(NamedTuple):
 
 class Passed(NamedTuple):
     """Load on the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and of the
-    moment about the center of gravity (`moment_x_Nm` ...), as far as there are any.
+    moment about the centre of gravity (`moment_x_Nm` ...), as far as there are any.
 
     Attributes:
         order: Order.
@@ -186,7 +186,7 @@ class BodyResponse:
         points: Motion of each point.
         passed: Load on the frame, by order.
         loads: Load of the engine on the body.
-        body: Motion of the center of gravity, m and rad, shape (orders, speeds, 6).
+        body: Motion of the centre of gravity, m and rad, shape (orders, speeds, 6).
     """
 
     no_gas_in: tuple[int, ...] | None = None
@@ -235,11 +235,11 @@ class MountReport(Result):
         name: Name of the engine, or of the body.
         assumed: Values taken because the file leaves them out.
         modes: The six natural modes, lowest first.
-        roll_axis: Torque roll axis: unit vector through the center of gravity about which a torque
+        roll_axis: Torque roll axis: unit vector through the centre of gravity about which a torque
             about the crankshaft turns the body where nothing holds it.
         elastic_centre_mm: Point x, y, z at which forces move the body with the least turning.
         static: The body at rest.
-        stiffness_N_per_m: Dynamic stiffness about the center of gravity, N/m, N, N·m.
+        stiffness_N_per_m: Dynamic stiffness about the centre of gravity, N/m, N, N·m.
         response: Response to the engine; left out without an engine.
         fitted: Response with a balance scheme, if one was asked for.
         others: Responses to other engines.

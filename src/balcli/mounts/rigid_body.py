@@ -104,7 +104,7 @@ def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
 
     Returns:
         Unit vector along the axis, its largest component positive, and the point of the axis that
-        is closest to the center of gravity, m. Where nothing turns, the direction of the
+        is closest to the centre of gravity, m. Where nothing turns, the direction of the
         displacement and None.
     """
     shift, turn = motion[:3], motion[3:]

@@ -107,7 +107,7 @@ OnlyParts = Annotated[
 ]
 Small = Annotated[
     str | None,
-    optional("5%", "What is small against one cylinder's order 1."),
+    optional("5%", "Leave parts below this share of one cylinder's order 1."),
 ]
 Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")

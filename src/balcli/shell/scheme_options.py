@@ -32,7 +32,7 @@ Scheme = Annotated[
 Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Place of a shaft, mm; of two, -N first."),
+    optional("X,Y", "Place of a shaft, mm; for two, the one at -N first."),
 ]
 Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
 Planes = Annotated[

@@ -137,7 +137,7 @@ def _bore(engine: Engine, system: System) -> str:
     first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
     stroke = number(system.length.of(float(first)))
     volume = system.volume.fit(float(engine.displacement_m3))
-    size = f"{number(volume.of(float(engine.displacement_m3)), 4)} {volume.name}"
+    size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
 
 
@@ -159,7 +159,7 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
     weighed = engine.weighed[row]
 
     def shown(kg: Figure) -> str:
-        return number(unit.of(float(kg)), 4)
+        return number(unit.of(float(kg)))
 
     text = f"reciprocating {shown(weighed.reciprocating)} {unit.name} per cylinder"
     text += " (piston, rod's small end)" * whole

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .units import ShownUnit
 
 
-USUAL_DIGITS = 5
+USUAL_DIGITS = 4
 
 _digits: int | None = None  # significant ones, that were asked for
 
@@ -113,7 +113,7 @@ def number(value: float, digits: int | None = None) -> str:
 
     Args:
         value: Figure.
-        digits: Significant digits unless `--digits` asks for others; None: 5.
+        digits: Significant digits unless `--digits` asks for others; None: the usual ones.
     """
     return _write(value, get_digits(digits or USUAL_DIGITS))
 

@@ -132,6 +132,8 @@ def _set_up(
     angle is held, else two.
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
+    if not scales.force:
+        raise BalcliError('nothing reciprocates, so that "fit" has no cylinder to compare with')
     parts, there, weights = [], [], []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)

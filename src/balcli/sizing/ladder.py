@@ -152,7 +152,7 @@ class Ladder:
         for out in self.left_out:
             if out.step == name:
                 raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
-        raise BalcliError(f'step "{step[:60]}": choose from {rows}')
+        raise BalcliError(f'step "{step[:60]}": choose from {rows}; 0 is the engine as drawn')
 
     def _explain(self, out: LeftOut) -> str:
         """Return the effect of an omitted step, and the option that lists it, if there is one."""

@@ -115,6 +115,8 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
+        if not residual.has("force", (1, -1)):  # nothing reciprocates: the counterweights do it
+            return fitting.remedy
     return _add_pair(fitting, residual, options).remedy
 
 

@@ -163,9 +163,9 @@ def _list_flywheel(
         parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
     if (share := wheel.fluctuation) is not None:
-        small = number(100 * (wheel.fluctuation_small or 0.0), 4)
-        one_in = f"1/{number(1 / share, 4)}" if share else "0"
-        exact = number(100 * share, 4)
+        small = number(100 * (wheel.fluctuation_small or 0.0))
+        one_in = f"1/{number(1 / share)}" if share else "0"
+        exact = number(100 * share)
         yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small ones"
         low, high = wheel.speed_min_rpm or 0.0, wheel.speed_max_rpm or 0.0
         ends = ((low, wheel.speed_min_deg), (high, wheel.speed_max_deg))
@@ -204,7 +204,7 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
         pressures = [load.pressure_Pa for load in each if load.pressure_Pa is not None]
         if len(pressures) == len(each):
             stress = system.stress.fit(max(pressures, default=0.0))
-            columns.append((stress.name, [number(stress.of(one), 4) for one in pressures]))
+            columns.append((stress.name, [number(stress.of(one)) for one in pressures]))
         if each:
             yield Grid.of_columns(title, columns, note)
     if loads.obstacle:

@@ -110,7 +110,7 @@ def _draw_modes(ax: Axes, result: TorsionAnalysis) -> None:
             style = (0, (1, 2)) if np.isinf(stiffness) else line
             ends = [start, end]
             ax.plot(ends, mode.shape[ends], color=colour, linestyle=style, linewidth=1.4)
-        label = f"{mode.number}: {number(mode.frequency_Hz, 4)} Hz"
+        label = f"{mode.number}: {number(mode.frequency_Hz)} Hz"
         ax.plot(range(len(names)), mode.shape, "o", color=colour, markersize=3, zorder=3)
         ax.plot([], [], line, color=colour, linewidth=1.4, marker="o", markersize=3, label=label)
     ax.axhline(0, color=SOFT, linewidth=0.8)
@@ -142,7 +142,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     for mode in result.modes:
         if mode.frequency_Hz < ceiling:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
-            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz, 4)} Hz"
+            height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz)} Hz"
             ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
     orders = sorted({c.order for c in drawn}) or result.orders or ()
     named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))

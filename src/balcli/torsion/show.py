@@ -235,7 +235,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
             str(each.mode),
             order_name(each.order),
             number(each.speed_rpm),
-            number(each.phase_sum, 4),
+            number(each.phase_sum),
             f"{each.work_share:.1%}",
         )
         for each in shown
@@ -282,7 +282,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
             number(unit.of(_settle(row.torque_Nm, torques))),
             number(unit.of(_settle(row.sum_Nm, torques))),
             number(stiffness.of(row.stiffness_Nm_per_rad or math.nan)).replace("inf", "rigid"),
-            number(row.twist if row.stiffness_Nm_per_rad else math.nan, 4),
+            number(row.twist if row.stiffness_Nm_per_rad else math.nan),
         )
         for row in table.rows
     )
@@ -322,7 +322,7 @@ def _show_response(
             number(unit.of(most.half_peak_to_peak_Nm)),
             number(most.speed_rpm),
             number(unit.of(total)),
-            *[number(stress.of(known), 4)] * stressed,
+            *[number(stress.of(known))] * stressed,
         ]
         rows.append((*cells, _name_orders(shaft, unit)))
     heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
@@ -353,7 +353,7 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
     """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
     swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
     swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
-    parts = [(f"{what} by ±{number(w.half_swing_deg, 4)} deg", w.speed_rpm) for what, w in swings]
+    parts = [(f"{what} by ±{number(w.half_swing_deg)} deg", w.speed_rpm) for what, w in swings]
     for each in response.dampers or ():
         heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
         parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))

@@ -340,7 +340,7 @@ class NumbersJudge:
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
-    """Return the largest deviation of top dead centers from even intervals, deg, (candidates,)."""
+    """Return the largest deviation of top dead centres from even intervals, deg, (candidates,)."""
     c = engine.cylinders
     # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
