@@ -41,7 +41,7 @@ def test_digits_of_tables_and_json_that_nothing_changes(monkeypatch):
         assert f" {largest:.{digits}g} " in run_here(*ASKED, *options).out
         assert f" {largest:.{digits}g} " in run_here(*options, *ASKED).out
     monkeypatch.delenv("BALCLI_DIGITS")
-    assert f" {largest:.5g} " in run_here(*ASKED).out
+    assert f" {largest:.4g} " in run_here(*ASKED).out
 
 
 @pytest.mark.parametrize("digits", [3, 7, 15])

@@ -82,7 +82,7 @@ def test_the_table_of_a_search_fits_a_terminal_and_one_quantity_is_its_own_objec
     throws = ("search", ENGINES / "i5.toml", "--over", "throws", "--minimise")
     one = balcli(*throws, "moment.1.major").out.splitlines()
     assert one[3].split() == ["throws", "moment.1.major,", "kN·m"]
-    assert re.fullmatch(r"0-144-216-288-72 +0[.]97312", one[5])
+    assert re.fullmatch(r"0-144-216-288-72 +0[.]9731", one[5])
     two = balcli(*throws, "moment.1.major,moment.2.major").out.splitlines()
     assert two[3].split()[:2] == ["throws", "objective"]
     assert max(map(len, two[:-2])) <= 80
