@@ -356,7 +356,7 @@ def test_pictures_leave_out_orders_that_are_small(what):
 
     def look(result):
         (axes,) = make_torsion(result, what).axes
-        rays = [line for line in axes.lines if list(line.get_xdata())[0] == 0 and line.get_ydata()[0] == 0]
+        rays = [line for line in axes.lines if (line.get_xdata()[0], line.get_ydata()[0]) == (0, 0)]
         return axes.get_title("left"), len(axes.collections if what == "waterfall" else rays)
 
     title, count = look(crowded)
