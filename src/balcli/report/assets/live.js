@@ -216,7 +216,7 @@
   function showLadder({ ladder: { steps, scale } }) {
     const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
     const rows = steps.map((each, k) => [
-      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
+      each.step, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
       String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
       k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
     ]);
