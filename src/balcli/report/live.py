@@ -116,6 +116,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
+        "gas": engine.gas is not None,
         "reference": None if reference is None else list(reference),
         "numbers": numbers,
         "throws": forms["throws"],

@@ -211,7 +211,7 @@
     ]);
     const [f, m] = ["force", "moment"].map(unitName);
     rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", ""]);
-    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `roll, ${m}`], rows);
+    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `${data.gas ? "roll of inertia" : "roll"}, ${m}`], rows);
   }
   function showLadder({ ladder: { steps, scale } }) {
     const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
