@@ -180,6 +180,7 @@ def make_book(
         "choice": choice,
         "small": small,
         "devices": {
+        "source": file if file.endswith(".toml") else "",
             kind: {key: _describe_new(*each) for key, each in keys.items()}
             for kind, keys in _NEW.items()
         },

@@ -364,7 +364,11 @@
     return data.text.includes("\r\n") ? text.replaceAll("\n", "\r\n") : text;
   }
   const listOf = (path) => `[${Object.keys(numbers).filter((name) => name.startsWith(`${path}.`)).map((name) => numbers[name]).join(", ")}]`;
-  const fileName = () => `${(data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine"}.toml`;
+  // A changed engine has another name than its file, so that a command never means the unchanged one.
+  function fileName() {
+    const name = (data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine";
+    return `${name}${listChanges().length ? "_changed" : ""}.toml`;
+  }
   function download() {
     const link = make("a", { href: URL.createObjectURL(new Blob([writeFile()], { type: "application/toml" })), download: fileName() });
     link.click();
@@ -378,7 +382,7 @@
       document.execCommand("copy");
       area.remove();
     }
-    byId("live-done").textContent = `Copied: ${text.slice(0, 80)}`;
+    byId("live-done").textContent = [`Copied: ${text.slice(0, 80)}`, hint].filter(Boolean).join(". ");
   }
 
   // ------------------------------------------------------------------ start
@@ -401,8 +405,15 @@
       button("Add a counterweight", () => addDevice("counterweight"), "live-add"),
       button("Add a shaft", () => addDevice("shaft")),
       ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
-      button("Download TOML", download), button("Copy command", () => copy(`balcli analyze ${fileName()}`)),
+      button("Download TOML", download), button("Copy command", copyCommand),
     );
+    byId("live-done").textContent = `Downloaded: ${link.download}`;
+  }
+  const quote = (name) => /^[\w.+-]+$/.test(name) ? name : /^[\w.+(), -]+$/.test(name) ? `"${name}"` : `'${name.replaceAll("'", "'\\''")}'`;
+  function copyCommand() {
+    const there = !listChanges().length && book.source;       // the file of an unchanged engine
+    const hint = there ? "" : "Download TOML saves this engine under that name; do that first.";
+    return copy(`balcli analyze ${quote(there || fileName())}`, hint);
     if (book.choice) {
       const select = byId("live-engine");
       select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
