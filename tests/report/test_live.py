@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import random
+import re
 import tomllib
 
 import numpy as np
@@ -17,12 +18,14 @@ from support.paths import write
 
 from balcli import load_example
 from balcli.analysis.answer import analyze
+from balcli.analysis.show import sheet
 from balcli.engine.build import build
 from balcli.errors import InputError
 from balcli.file import examples
 from balcli.report.live import describe_engine, explain_still, make_book
 from balcli.report.page import FOLDER, make_play_page
 from balcli.show.units import SI
+from balcli.sizing.ladder import WEIGHTS_AT_THROWS, find_ladder
 
 pytestmark = pytest.mark.slow
 VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
@@ -244,6 +247,97 @@ def test_the_page_fits_its_window(show, width):
     assert page.run("document.documentElement.scrollWidth <= window.innerWidth")
     labelled = "[...document.querySelectorAll('#live-numbers input')].every(i => i.labels.length || i.ariaLabel)"
     assert page.run(labelled)
+
+
+PRESS = "[...document.querySelectorAll('button')].find(b => b.textContent === '{}').click()"
+STEPS = "[...document.querySelectorAll('#live-ladder tbody th')].map(cell => cell.textContent)"
+SIZES = re.compile(r"(?:force|moment|couple) of \S+ \S+?(?=[ .,;])")
+
+
+@live
+def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
+    """The command lists one step more, so that its numbers differ from those of a row here."""
+    browser.open(play)
+    for name in examples.names():
+        engine = build(load_example(name).model)
+        if not explain_still(engine):
+            go(browser, f"#engine={name}")
+            listed = [one.step for one in find_ladder(engine).steps if one.step != WEIGHTS_AT_THROWS]
+            assert browser.run(STEPS) == listed, name
+    file = write(tmp_path / "i3.toml", examples.text("i3"))
+    go(browser, "#engine=i3")
+    for step in browser.run(STEPS)[1:]:
+        assert ask_json("-q", "balance", file, "--step", step)["step"] == step
+
+
+@live
+def test_the_verdict_judges_as_the_command_does(browser, play):
+    """Sizes of each order, and the sentence on small and balanced ones, without directions and
+    cures.
+    """
+    browser.open(play)
+    for name in examples.names():
+        engine = build(load_example(name).model)
+        if explain_still(engine):
+            continue
+        go(browser, f"#engine={name}")
+        wanted = next(each.paragraphs for each in sheet(analyze(engine), SI).parts if each.title == "Verdict")
+        found = browser.run("document.getElementById('live-verdict').textContent")
+        for one in wanted:
+            head, is_order, _ = one.partition(" order: ")
+            if "rocks the engine" in one:  # gas
+                continue
+            if not is_order:
+                assert one in found, name
+                continue
+            mine = re.search(rf"{head} order: (.*?)\.(?: |$)", found)
+            assert mine, (name, one)
+            sizes = [SIZES.findall(f"{text.partition(';')[0]} ") for text in (f"{mine[1]}.", one)]
+            assert sizes[0] == sizes[1], name
+        assert found.count(" order: ") == sum(" order: " in one for one in wanted), name
+
+
+@live
+def test_roll_with_gas_is_headed_as_of_inertia(browser, play):
+    browser.open(play)
+    head = "document.querySelector('#live-orders thead th:last-child').textContent"
+    go(browser, "#engine=i4_wiebe")
+    assert browser.run(head) == "roll of inertia, N·m"
+    go(browser, "#engine=vtwin45")
+    assert browser.run(head) == "roll, N·m"
+
+
+@live
+def test_the_command_for_a_changed_engine_names_the_changed_file(show):
+    page = show()
+    done = "document.getElementById('live-done').textContent"
+    press = f"{PRESS.format('Copy command')}, new Promise(done => setTimeout(done, 100))"
+    page.run(press)
+    assert page.run(done) == "Copied: balcli analyze engine.toml"
+    go(page, "#crank.stroke=80")
+    page.run(press)
+    assert page.run(done).startswith("Copied: balcli analyze engine_changed.toml. Download TOML")
+    page.run("window.saved = '', HTMLAnchorElement.prototype.click = function () { saved = this.download; }")
+    page.run(PRESS.format("Download TOML"))
+    assert page.run("saved") == "engine_changed.toml"
+    page.run(PRESS.format("Reset"))
+    page.run(press)
+    assert page.run(done) == "Copied: balcli analyze engine.toml"
+
+
+@live
+def test_the_command_quotes_the_name_of_the_file_and_says_where_there_is_none(browser, play, tmp_path):
+    done = "document.getElementById('live-done').textContent"
+    press = f"{PRESS.format('Copy command')}, new Promise(done => setTimeout(done, 100))"
+    file = write(tmp_path / "my $HOME engine.toml", GOOD)
+    ask("-q", "report", file, "-o", tmp_path / "page.html")
+    browser.open(tmp_path / "page.html")
+    browser.run("change.open = true, new Promise(done => setTimeout(done, 100))")
+    browser.run(press)
+    assert browser.run(done) == "Copied: balcli analyze 'my $HOME engine.toml'"
+    browser.open(play)
+    browser.run(press)
+    assert browser.run(done).startswith("Copied: balcli analyze vtwin45.toml. Download TOML")
 
 
 @live

@@ -69,6 +69,16 @@ def printed_report(name: str) -> str:
         return ask("report", ENGINES / f"{name}.toml", "-o", "-")
 
 
+@pytest.mark.parametrize("after", ["", "-after"])
+def test_a_moving_curve_has_no_second_picture(after):
+    """The locus turns with the crank, of the engine as it is and with its devices."""
+    balanced = balance(engine := build_text(GOOD), "two-shaft")
+    text = page(Answers(analyze(engine), balanced), SI)
+    assert f'id="spectrum-force{after}-figure_1"' in text
+    assert f'id="polar-force{after}-figure_1"' not in text
+    assert 'id="curves-force-figure_1"' in text
+
+
 def test_a_hostile_name_stays_text():
     tame, wild = report(GOOD), report(changed(('"in-line four"', json.dumps(HOSTILE))))
     assert Outline(wild).tags == Outline(tame).tags

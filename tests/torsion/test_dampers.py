@@ -310,7 +310,7 @@ def test_pictures_of_large_torques_are_in_kilonewton_metres():
     waterfall, response = (make_torsion(result, what).axes[0] for what in ("waterfall", "response"))
     largest = max(max(shaft.half_peak_to_peak_Nm) for shaft in result.response.shafts) / 1e3
     assert largest > 10
-    assert waterfall.get_title("left").endswith(" kN·m")
+    assert waterfall.get_title("left").splitlines()[0].endswith(" kN·m")
     assert response.get_ylabel() == "± kN·m"
     assert max(line.get_ydata().max() for line in response.lines) == pytest.approx(largest)
 
@@ -333,7 +333,7 @@ def test_pictures_show_a_resonance_between_the_speeds():
     assert total == pytest.approx(fine.free_end_deg.max(), rel=1e-3)
     assert max(orders) == pytest.approx(np.degrees(by_order[-1]), rel=1e-3)
     (waterfall,) = make_torsion(result, "waterfall").axes
-    told = float(waterfall.get_title("left").split()[-2])
+    told = float(waterfall.get_title("left").splitlines()[0].split()[-2])
     shaft = np.argmax([each.worst.half_peak_to_peak_Nm for each in result.response.shafts])
     assert told == pytest.approx(by_order[shaft] / 1e3, rel=5e-3)
 
@@ -346,6 +346,25 @@ def test_orders_of_a_waterfall_do_not_cover_one_another():
     assert len(streams) == 6
     for left, right in itertools.pairwise(streams):
         assert left.max() < right.min()
+
+
+@pytest.mark.parametrize("what", ["campbell", "waterfall"])
+def test_pictures_leave_out_orders_that_are_small(what):
+    """At most 15 orders are drawn, and the title counts the others; of few large orders all are."""
+    speeds = [1000, 2000, 3000]
+    crowded, few = (analyze_torsion(ENGINES / "i6_diesel.toml", speeds, orders=n) for n in (None, [4.5, 6]))
+
+    def look(result):
+        (axes,) = make_torsion(result, what).axes
+        rays = [line for line in axes.lines if (line.get_xdata()[0], line.get_ydata()[0]) == (0, 0)]
+        return axes.get_title("left"), len(axes.collections if what == "waterfall" else rays)
+
+    title, count = look(crowded)
+    assert 5 < count <= 15
+    left_out = int(re.search(r"\n\((\d+) smaller orders left out\)$", title)[1])
+    assert 55 < left_out + count <= len(crowded.orders)
+    title, count = look(few)
+    assert (count, "left out" in title) == (2, False)
 
 
 def test_pictures_over_speed_need_a_range(tmp_path):

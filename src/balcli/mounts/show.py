@@ -139,7 +139,7 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"That is the {end} speed of the range; most of the force is {named}."
-    return f"Most of it is {named}, which is not near the {number(hertz, 3)} Hz of that order."
+    return f"Most of it is {named}; that order shakes at {number(hertz, 3)} Hz."
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:

@@ -26,6 +26,7 @@ from ..engine.layout import Cell
 from ..engine.load import SPEED
 from ..engine.parse import parse
 from ..engine.parts import Parts
+from ..errors import MOMENTS_UNKNOWN
 from ..file import examples
 from ..file.fields import Number
 from ..file.model import EngineFile
@@ -41,8 +42,10 @@ from ..file.units import (
     convert,
 )
 from ..forces.kinds import FORCE
+from ..forces.spectrum import SHOWN
 from ..limits import SMALL
 from ..show.figures import clean
+from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
@@ -113,6 +116,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
         "start": {} if speed == model.operation.speed else {SPEED: speed},
         "frees": _free_throws(model, parts),
         "known": engine.places_known,
+        "gas": engine.gas is not None,
         "up": engine.up_deg,
         "axes": ("x", "y") if engine.up_deg is None else FORCE.upright,
         "bore": clean(engine.bore_m * 1e3),
@@ -176,8 +180,12 @@ def make_book(
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
+        "source": file if file.endswith(".toml") else "",
         "choice": choice,
         "small": small,
+        "negligible": NEGLIGIBLE,
+        "shown": SHOWN,
+        "unknown": sentence(MOMENTS_UNKNOWN),
         "devices": {
             kind: {key: _describe_new(*each) for key, each in keys.items()}
             for kind, keys in _NEW.items()

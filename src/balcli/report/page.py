@@ -183,11 +183,8 @@ def _shakes(result: Analysis, order: float) -> bool:
 
 
 FOLDER = Path(__file__).with_name("assets")
-_PICTURES = (
-    *product(("polar", "spectrum", "curves"), ("force", "moment")),
-    *product(("spectrum", "curves"), ("about",)),
-)
-_COMPARED = tuple(product(("polar", "spectrum"), ("force", "moment")))
+_PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
+_COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
 
 
 class Answers(NamedTuple):
@@ -356,13 +353,13 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
 def _choose_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
 ) -> list[tuple[PageSubject, str, str]]:
-    """Return the panels of the shown quantities; of one without a picture, the first panel."""
-    chosen: list[tuple[PageSubject, str, str]] = []
-    for what, quantity in panels:
-        is_first = all(quantity != other for _, _, other in chosen)
-        if quantity in told and (is_first or not subject.find_words(quantity)):
-            chosen.append((subject, what, quantity))
-    return chosen
+    """Return the panels of the shown quantities, and last the first panel of each quantity without
+    a picture.
+    """
+    words = {quantity: subject.find_words(quantity) for quantity in told}
+    shown = [(subject, what, name) for name, what in panels if name in told and not words[name]]
+    first = {name: what for name, what in reversed(panels) if words.get(name)}
+    return [*shown, *((subject, what, name) for name, what in first.items())]
 
 
 def _template() -> Template:

@@ -196,7 +196,7 @@ def draw_panel(subject: PageSubject, what: str, quantity: str) -> str:
     """Return one picture of one quantity as an SVG for an HTML page, or words in its place."""
     if words := subject.find_words(quantity):
         return f"<p><b>{subject.title(what, quantity)}</b><br>{words}</p>"
-    with open_figure(*((4.2, 4.0) if what == "polar" else (5.2, 3.1))) as fig:
+    with open_figure(5.2, 3.1) as fig:
         fig.set_facecolor("none")
         _draw(fig.subplots(), subject, what, quantity)
         name = f"{what}-{quantity}{'-after' if subject.study.before else ''}"

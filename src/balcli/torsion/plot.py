@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.peaks import find_swing
-from ..core.vibration import Complex, Real
+from ..core.vibration import Complex, Indices, Real
 from ..errors import BalcliError
+from ..file.fields import counted
 from ..show.plot_style import (
     BLUE,
     FAINT,
@@ -39,7 +40,8 @@ if TYPE_CHECKING:
 _MOST_MODES = 4  # whose shapes are drawn: more lie on one another
 _MOST_SHAFTS = 8  # whose torque is drawn: the largest
 _WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
-_MOST_ORDERS = 12  # that are named in a Campbell diagram
+_MOST_ORDERS = 15  # in a Campbell diagram or a waterfall: the largest
+_LEAST_ORDER = 0.01  # of the largest order: smaller ones are left out
 _WORTH = 1e-3  # share of work from which a critical is drawn
 
 
@@ -134,7 +136,11 @@ def _find_span(result: TorsionAnalysis) -> float:
 def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
     """Draw natural frequencies over speed, a ray for each order, a dot for each critical."""
     top = _find_span(result)
-    drawn = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
+    met = [c for c in result.criticals or () if c.work_share > _WORTH and c.speed_rpm <= top]
+    every = np.array(sorted({c.order for c in met}) or result.orders or ())
+    work = [max((c.work for c in met if c.order == order), default=0.0) for order in every]
+    orders = every[_find_largest(np.array(work))].tolist()
+    drawn = [c for c in met if c.order in orders]
     modes = {mode.number: mode for mode in result.modes}
     highest = max((modes[c.mode].frequency_Hz for c in drawn), default=0.0)
     first = result.modes[0].frequency_Hz if result.modes else 1.0
@@ -144,21 +150,30 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
             ax.axhline(mode.frequency_Hz, color=INK, linewidth=1)
             height, label = mode.frequency_Hz, f"{number(mode.frequency_Hz)} Hz"
             ax.text(0.01 * top, height, label, va="bottom", fontsize=7)
-    orders = sorted({c.order for c in drawn}) or result.orders or ()
-    named = sorted(orders, key=lambda n: -sum(c.work_share for c in drawn if c.order == n))
     for order in orders:
         end = min(top, 60 * ceiling / order)
         ax.plot([0, end], [0, order * end / 60], color=FAINT, linewidth=0.9, zorder=1)
-        if order in named[:_MOST_ORDERS]:
-            ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
+        ax.text(end, order * end / 60, order_name(order), fontsize=7, color=SOFT)
     most = max((critical.work for critical in drawn), default=1.0)
     for critical in drawn:
         size = 12 + 240 * critical.work / most
         height = modes[critical.mode].frequency_Hz
         ax.scatter([critical.speed_rpm], [height], s=size, color=RED, alpha=0.7, zorder=3)
     ax.set(xlim=(0, 1.03 * top), ylim=(0, ceiling), xlabel="rpm", ylabel="Hz")
-    ax.set_title("Campbell diagram: orders, and criticals by work")
+    title = "Campbell diagram: orders, and criticals by work"
+    ax.set_title(title + _count_left_out(len(every) - len(orders)))
     _shade_barred(ax, result)
+
+
+def _find_largest(sizes: Real) -> Indices:
+    """Return the rows of the orders to draw, by the size of each, shape (orders,)."""
+    largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]
+    return np.sort(largest[sizes[largest] >= _LEAST_ORDER * sizes.max(initial=0.0)])
+
+
+def _count_left_out(count: int) -> str:
+    """Return the second line of a title, which counts the orders that are not drawn."""
+    return f"\n({counted(count, 'smaller order')} left out)" if count else ""
 
 
 def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
@@ -213,7 +228,9 @@ def _finish(
 def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
     """Draw each order of the largest torque of a shaft as a stream up the speeds."""
     shaft = int(curves.swings[:, : len(result.shafts)].max(axis=0).argmax())
-    amplitudes, orders = np.abs(curves.phasors[:, :, shaft]), curves.orders
+    every = np.abs(curves.phasors[:, :, shaft])
+    shown = _find_largest(every.max(axis=1))
+    amplitudes, orders = every[shown], curves.orders[shown]
     most = float(amplitudes.max())
     gap = float(np.diff(orders).min()) if len(orders) > 1 else 1.0
     half = _WIDEST * gap / 2 / (most or 1.0)
@@ -226,4 +243,5 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: 
     ax.set_xlim(0, float(orders[-1]) + gap)
     unit, name = system.moment.fit(most), fit_name(result.shafts[shaft].name, 22)
     largest = f"{number(unit.of(most), 3)} {unit.name}"
-    ax.set_title(f"Torque of {name} by order: width, at most {largest}")
+    title = f"Torque of {name} by order: width, at most {largest}"
+    ax.set_title(title + _count_left_out(len(every) - len(orders)))

@@ -164,7 +164,7 @@
     const figures = Kernel.describe(engine, ladder), changed = listChanges().length > 0;
     byId("figures").textContent = JSON.stringify(figures);
     byId("live-changed").hidden = !changed;
-    byId("live-verdict").textContent = writeVerdict(figures);
+    byId("live-verdict").textContent = writeVerdict();
     showOrders(figures);
     showLadder(figures);
     byId("live-undo").disabled = !past.length;
@@ -185,14 +185,48 @@
   }
   const quantity = (kind, value) => value / book.show[kind].size;
   const unitName = (kind) => book.show[kind].name;
-  const NAMES = ["Mean", "First", "Second", "Third", "Fourth"];
-  function writeVerdict({ orders, ladder: { scale } }) {
-    const large = (kind, value, most) => value && value >= book.small * most ? [`${kind} of ${shown(quantity(kind, value))} ${unitName(kind)}`] : [];
-    const sentences = orders.flatMap(({ order, force_N: f, moment_Nm: m }) => {
-      const parts = [...large("force", f.major, scale.force_N), ...(data.known ? large("moment", m.major, scale.moment_Nm) : [])];
-      return parts.length ? [`${NAMES[order] || `${order}th`} order: ${parts.join(" and ")}.`] : [];
-    });
-    return sentences.join(" ") || "No order is large compared with one cylinder.";
+  // A value in the unit that fits it, as the command prints it.
+  function sizeText(kind, value) {
+    const { name, thousand } = book.show[kind], found = quantity(kind, value);
+    return thousand && found >= 5000 ? `${shown(found / 1000)} ${thousand}` : `${shown(found)} ${name}`;
+  }
+  const NAMES = ["", "First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth"];
+  const nameOrder = (n) => NAMES[n] || `${n}${n % 100 - n % 10 !== 10 && ["", "st", "nd", "rd"][n % 10] || "th"}`;
+  const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+  // Orders that the command shows: 1, 2, and those in which some kind exceeds a millionth of its largest order.
+  function listShownOrders(kinds) {
+    const shownOrders = new Set([1, 2]), total = (parts) => parts.reduce((a, v) => a + Math.hypot(...v), 0);
+    for (const type of data.known ? Object.keys(kinds) : Object.keys(kinds).filter((each) => each !== "moment")) {
+      const sizes = Object.entries(kinds[type]).map(([n, parts]) => [Number(n), total(parts)]);
+      const most = Math.max(...sizes.map(([, size]) => size));
+      for (const [n, size] of sizes) if (n && size > book.shown * most) shownOrders.add(n);
+    }
+    return [...shownOrders].sort((a, b) => a - b);
+  }
+  // The verdict of `balcli analyze`, without directions and cures: a force or moment is large if its part
+  // that turns with the crank, or the one that turns against it, is not small compared with one cylinder's.
+  function writeVerdict() {
+    const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
+    const sentences = [], balanced = [], most = {};
+    for (const n of listShownOrders(kinds)) {
+      const vectors = types.map((type) => {
+        const parts = (kinds[type][n] || []).map((v) => Math.hypot(...v)), size = parts.reduce((a, b) => a + b, 0);
+        return { type, size, large: parts.some((part) => part && part >= book.small * scale[type] * (1 - 1e-9)) };
+      });
+      const couple = n <= 2 && !vectors.some(({ type, size }) => type === "moment" && size) ? 2 * Math.hypot(...kinds.couple[n][0]) : 0;
+      const turns = couple > book.negligible * scale.force * engine.r ? [`roll couple of ${sizeText("moment", couple)}`] : [];
+      const large = vectors.filter((each) => each.large).map(({ type, size }) => `${type} of ${sizeText(type, size)}`);
+      const none = vectors.every(({ size }) => !size);
+      if (large.length) sentences.push(`${nameOrder(n)} order: ${[large.join(" and "), ...turns].join(", ")}.`);
+      else if (turns.length) sentences.push(`${nameOrder(n)} order: ${turns[0]}; ${types.join(" and ")} ${none ? "balanced" : "small"}.`);
+      else if (none && n <= 2) balanced.push(n);
+      for (const { type, size } of vectors.filter((each) => !each.large)) if (size > (most[type]?.size || 0)) most[type] = { size, n, type };
+    }
+    const small = Object.values(most).map(({ type, size, n }) => `${type} of ${sizeText(type, size)} (order ${n})`).join(", ");
+    const which = `${types.join(" and ")} of order${balanced.length > 1 ? "s" : ""} ${balanced.join(" and ")}`;
+    const rest = [...(balanced.length ? [`${which} ${types.length > 1 ? "are" : "is"} balanced`] : []), ...(small ? [`small: ${small}`] : [])];
+    if (rest.length) sentences.push(`${capital(rest.join("; "))}.`);
+    return [...sentences, ...(data.known ? [] : [book.unknown])].join(" ");
   }
   function fill(id, heads, rows) {
     const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
@@ -211,12 +245,12 @@
     ]);
     const [f, m] = ["force", "moment"].map(unitName);
     rows.push(["all", cell("force", peak.force_N, least), "", "", data.known ? cell("moment", peak.moment_Nm, small) : "–", "", "", ""]);
-    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `roll, ${m}`], rows);
+    fill("live-orders", ["order", `force, ${f}`, "with crank", "against", `moment, ${m}`, "with crank", "against", `${data.gas ? "roll of inertia" : "roll"}, ${m}`], rows);
   }
   function showLadder({ ladder: { steps, scale } }) {
     const [least, small] = [1e-9 * scale.force_N, 1e-9 * (scale.moment_Nm || 0)];
     const rows = steps.map((each, k) => [
-      `${k} ${each.step}`, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
+      each.step, cell("force", each.peak_force_N, least), data.known ? cell("moment", each.peak_moment_Nm, small) : "–",
       String(each.counterweights || "–"), String(each.shafts || "–"), each.mass_kg ? shown(each.mass_kg, 3) : "–",
       k ? button("Fit", () => fit(k), `live-fit-${k}`) : "",
     ]);
@@ -364,13 +398,24 @@
     return data.text.includes("\r\n") ? text.replaceAll("\n", "\r\n") : text;
   }
   const listOf = (path) => `[${Object.keys(numbers).filter((name) => name.startsWith(`${path}.`)).map((name) => numbers[name]).join(", ")}]`;
-  const fileName = () => `${(data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine"}.toml`;
+  // A changed engine has another name than its file, so that a command never means the unchanged one.
+  function fileName() {
+    const name = (data.key || data.name || "engine").replace(/[^\w-]+/g, "_").slice(0, 40) || "engine";
+    return `${name}${listChanges().length ? "_changed" : ""}.toml`;
+  }
   function download() {
     const link = make("a", { href: URL.createObjectURL(new Blob([writeFile()], { type: "application/toml" })), download: fileName() });
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    byId("live-done").textContent = `Downloaded: ${link.download}`;
   }
-  async function copy(text) {
+  const quote = (name) => /^[\w.+-]+$/.test(name) ? name : /^[\w.+(), -]+$/.test(name) ? `"${name}"` : `'${name.replaceAll("'", "'\\''")}'`;
+  function copyCommand() {
+    const there = !listChanges().length && book.source;       // the file of an unchanged engine
+    const hint = there ? "" : "Download TOML saves this engine under that name; do that first.";
+    return copy(`balcli analyze ${quote(there || fileName())}`, hint);
+  }
+  async function copy(text, hint = "") {
     try { await navigator.clipboard.writeText(text); } catch {
       const area = make("textarea", { value: text });
       document.body.append(area);
@@ -378,7 +423,7 @@
       document.execCommand("copy");
       area.remove();
     }
-    byId("live-done").textContent = `Copied: ${text.slice(0, 80)}`;
+    byId("live-done").textContent = [`Copied: ${text.slice(0, 80)}`, hint].filter(Boolean).join(". ");
   }
 
   // ------------------------------------------------------------------ start
@@ -401,7 +446,7 @@
       button("Add a counterweight", () => addDevice("counterweight"), "live-add"),
       button("Add a shaft", () => addDevice("shaft")),
       ...(location.protocol === "about:" ? [] : [button("Copy link", () => copy(location.href.split("#")[0] + writeAddress()))]),
-      button("Download TOML", download), button("Copy command", () => copy(`balcli analyze ${fileName()}`)),
+      button("Download TOML", download), button("Copy command", copyCommand),
     );
     if (book.choice) {
       const select = byId("live-engine");
