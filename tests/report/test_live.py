@@ -204,6 +204,17 @@ def test_bad_parts_of_an_address_are_named_and_the_rest_applies(show):
 
 
 @live
+def test_an_address_is_followed_while_the_page_writes_its_own(show):
+    """The page writes its address a moment after a change, which may be just now."""
+    page = show()
+    go(page, "#crank.stroke=81")
+    listen = "addEventListener('hashchange', () => setTimeout(done, 0), { once: true })"
+    both = "location.hash = '#crank.stroke=80'; history.replaceState(null, '', location.pathname)"
+    page.run(f"new Promise(done => {{ {listen}; {both}; }})")
+    assert page.run("Live.numbers['crank.stroke']") == 80
+
+
+@live
 def test_bad_input_keeps_the_last_good_engine(show):
     page = show()
     before = figures(page)

@@ -453,7 +453,10 @@
       select.append(...Object.entries(book.engines).map(([key, { name }]) => make("option", { value: key }, `${key}: ${name}`)));
       select.addEventListener("change", () => open(`#engine=${select.value}`));
     }
-    window.addEventListener("hashchange", () => { if (location.hash.includes("=")) open(location.hash); });
+    window.addEventListener("hashchange", ({ newURL }) => {   // location may have the page's own address by now
+      const hash = newURL.replace(/^[^#]*/, "");
+      if (hash.includes("=")) open(hash);
+    });
     window.Live = { change, apply, writeFile, writeAddress, get numbers() { return numbers; } };
     document.body.classList.add("changing");
     open(location.hash);
