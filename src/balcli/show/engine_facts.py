@@ -133,9 +133,9 @@ def _bore(engine: Engine, system: System) -> str:
     bore_m = float(engine.bore_m)
     if math.isnan(bore_m):
         return ""
-    bore = number(system.length.of(bore_m))
+    bore = number(system.length.of(bore_m), 5)
     first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
-    stroke = number(system.length.of(float(first)))
+    stroke = number(system.length.of(float(first)), 5)
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
     return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
