@@ -318,7 +318,8 @@ def verdict(
     balanced = [one.order for one in every if one.balanced and one not in matter]
     small_ones = _tell_largest([(one, vector) for one in every for vector in one.rest])
     if told or small_ones or min(balanced, default=3) <= 2:  # odd ones are of no interest then
-        balanced = [order for order in balanced if order <= 2]
+        usual = [order for order in balanced if order in (1, 2)]
+        balanced = usual or [order for order in balanced if order < 2 and not told]
     rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
     last = "; ".join(filter(None, rest))
     return (*told, sentence(last)) if last else tuple(told)
