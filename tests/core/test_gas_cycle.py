@@ -1,7 +1,5 @@
 """Computed cycles against arithmetic of 50 digits (`oracle/gas.py`), and what they refuse."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

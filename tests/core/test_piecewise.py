@@ -1,7 +1,5 @@
 """Piecewise curves against closed forms and against mpmath."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

@@ -2,8 +2,6 @@
 limits by the conditions of the optimum.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

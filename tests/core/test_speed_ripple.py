@@ -3,8 +3,6 @@
 `tests/oracle/test_momentum.py` does the same with whole engines; here are the rules by themselves.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np
@@ -213,9 +211,7 @@ def test_orders_of_the_speed_are_halves_of_whole_numbers():
     [([(2, 0.2, 30.0), (1, 0.05, 0.0)], 1.0), ([(0.5, 0.1, -70.0), (2, 0.2, 30.0)], 0.5), ([(1, 0.6, 200.0)], 0.5)],
 )
 def test_orders_of_the_time(lines, step):
-    """Phasors of a curve over equal steps of time: mean, halves where there are some, in both
-    senses of rotation.
-    """
+    """Phasors of a curve over equal steps of time: mean, halves where there are some, in both senses of rotation."""
     turns = round(1 / step)
     over_angle, orders = np.arange(0, 8 + step, step), np.arange(0, 12 + step, step)
     rng = np.random.default_rng(5)

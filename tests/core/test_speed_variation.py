@@ -1,7 +1,5 @@
 """Speed of a shaft from energy, against 50 digits and against the equation of motion."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

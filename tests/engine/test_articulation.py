@@ -1,8 +1,4 @@
-"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them
-from equal rods.
-"""
-
-from __future__ import annotations
+"""Articulated rods: what the file may say, strokes and dead centres, and what distinguishes them from equal rods."""
 
 import math
 import re
@@ -105,9 +101,7 @@ def test_a_radial_with_a_master_rod_shakes_forward_in_the_second_order():
 
 @pytest.mark.parametrize("angles", [(0, 60, 120), (0, 60, -60), (0, 120, -120)])
 def test_knuckles_that_differ_in_one_component_alone(angles):
-    """Two rods in one direction, hung on opposite sides of the master's big end: against the
-    momentum of every part.
-    """
+    """Two rods in one direction, hung on opposite sides of the master's big end: against the momentum of every part."""
     text = RADIAL.replace("radial = 7", "banks = [0, 60, 60]").replace(
         "knuckle_radius", f"knuckle_angles = {list(angles)}\nknuckle_radius"
     )
@@ -147,9 +141,7 @@ def highest(c):
 @pytest.mark.parametrize("angle", [60, 89.999, 90, 90.001, 120, 180])
 @pytest.mark.parametrize("rotary", ["", "rotary = true"])
 def test_few_orders_far_from_the_lock(angle, rotary):
-    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame,
-    too.
-    """
+    """Wherever the master's crank angle comes to a multiple of 90 degrees in a cylinder's frame, too."""
     for master in (1, 2):
         e = built(
             ("radial = 7", f"bank_angle = {angle}\n{rotary}"),
@@ -160,9 +152,7 @@ def test_few_orders_far_from_the_lock(angle, rotary):
 
 
 def test_variants_on_a_trailing_axis():
-    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an
-    uneven speed.
-    """
+    """A sweep of knuckle radius and rod length gives what each variant alone gives, also at an uneven speed."""
     file = enginefile.parse(RADIAL + "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.1, angle = 20 }]\n")
     radii, lengths = np.array([40.0, 52.0, 60.0]), np.array([180.0, 188.0, 230.0])
 

@@ -1,7 +1,5 @@
 """Firing order <-> crank throws, on engines whose answer is known."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -44,9 +42,7 @@ def fires(**parts):
     ],
 )
 def test_throws_follow_from_the_firing_order(layout, wanted):
-    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real
-    engines.
-    """
+    """Pins of in-line engines are minus the firing angle; the rest are the shared pins of real engines."""
     assert pins(layout=layout) == wanted
 
 
@@ -56,9 +52,7 @@ def test_the_first_bank_fires_405_and_315_degrees_apart_in_a_45_degree_v_twin():
 
 
 def test_vr6_pins_of_neighbours_are_split_by_the_offset_of_the_banks():
-    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau
-    of the offset.
-    """
+    """a_2 = g_2 - g_1 + tau_2 - tau_1 - f_2, sin tau = e/(r + l): 15 degrees of bank and twice tau of the offset."""
     e = engine(
         crank={"stroke": 90, "spacing": 65},
         rod={"length": 164},

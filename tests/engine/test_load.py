@@ -1,8 +1,4 @@
-"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can
-do harm.
-"""
-
-from __future__ import annotations
+"""Reading engine files: every mistake at once, by its path, in words; nothing that a file holds can do harm."""
 
 import io
 import json

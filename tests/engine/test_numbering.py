@@ -1,7 +1,5 @@
 """Which engine a file means: usual numberings, tier by tier, on engines whose makers are known."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

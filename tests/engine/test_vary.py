@@ -1,7 +1,5 @@
 """Engines from dicts and texts, their tables, and the same with other values of some keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

@@ -1,6 +1,4 @@
-"""What people type by mistake, and what balcli makes of it: understood, or answered with the right
-word.
-"""
+"""What people type by mistake, and what balcli makes of it: understood, or answered with the right word."""
 
 import tomllib
 from pathlib import Path

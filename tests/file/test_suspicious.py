@@ -1,7 +1,5 @@
 """Warnings: silent for ordinary engines, and the whole text for each that is given."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.engines import GOOD, changed
@@ -96,9 +94,7 @@ def test_loss_factors_in_percent_are_asked_back():
 
 
 def test_a_flywheel_that_torsion_lacks():
-    """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher
-    frequencies.
-    """
+    """[flywheel] is for `torque`; without one of its own the crankshaft twists at far higher frequencies."""
     wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
     alone = twist.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [

@@ -1,7 +1,5 @@
 """Figures with units: exact where they can be, refused in words where they are none."""
 
-from __future__ import annotations
-
 import math
 import re
 from fractions import Fraction

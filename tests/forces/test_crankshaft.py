@@ -1,8 +1,4 @@
-"""Inner forces and moments against statics worked out here, and the classical comparison of in-line
-engines.
-"""
-
-from __future__ import annotations
+"""Inner forces and moments against statics worked out here, and the classical comparison of in-line engines."""
 
 import numpy as np
 import pytest
@@ -22,9 +18,7 @@ RECIPROCATING = (0.5 + 0.6 * 45 / 160) * 0.045 * OMEGA**2
 
 
 def test_the_first_order_along_an_inline_four():
-    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
-    (times i).
-    """
+    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0 (times i)."""
     found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
@@ -34,9 +28,7 @@ def test_the_first_order_along_an_inline_four():
 
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
-    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
-    make.
-    """
+    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
     plain = inline_engine([0, 120, 240, 240, 120, 0])
     weights = "".join(
         f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "

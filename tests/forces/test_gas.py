@@ -1,7 +1,5 @@
 """Gas torque of whole engines by order: identities, and a quadrature that shares nothing with it."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -32,9 +30,7 @@ def find_plain_rate(found, row, crank):
 
 
 def quadrature(found, orders, find_rate=find_plain_rate):
-    """The same by Gauss-Legendre sums over the cycle of each cylinder, of pressures at crank angles
-    times `-s'`.
-    """
+    """The same by Gauss-Legendre sums over the cycle of each cylinder, of pressures at crank angles times `-s'`."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     cycle, total = found.gas.cycle, 0
     for row, gas in enumerate(found.gas.cylinders):

@@ -1,7 +1,5 @@
 """Which orders there are."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

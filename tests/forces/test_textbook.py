@@ -1,7 +1,5 @@
 """The units of textbooks, by hand, and the handbook's figures wherever balcli shows such."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache

@@ -1,7 +1,5 @@
 """Amounts on the command line have the units of the file, one reader for all options."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

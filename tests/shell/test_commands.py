@@ -2,8 +2,6 @@
 and what the schemes refuse.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import re

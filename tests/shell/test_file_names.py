@@ -1,7 +1,5 @@
 """The ending of a file's name says what is written into it; `-` is standard output."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

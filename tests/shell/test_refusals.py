@@ -1,7 +1,5 @@
 """What a command refuses, and the whole text with which it does."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here

@@ -1,7 +1,5 @@
 """`balcli torque`: what it prints in every format, and what it refuses."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

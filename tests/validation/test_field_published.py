@@ -4,8 +4,6 @@ E01: Bruel & Kjaer Application Note 17-227, example 6. E02: Goodman, J. Eng. Ind
 E03: Feese and Grazier, Balance This!, 33rd Turbomachinery Symposium 2004. E08: ISO 21940-11.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -3,8 +3,6 @@ figure; harmonics of the gas torque of one cylinder by convolution of the polyli
 coefficients with the closed form of the travel, an own recomputation.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.pistons import slider_crank_piston

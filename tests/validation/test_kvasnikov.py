@@ -3,8 +3,6 @@
 Ratios of the orders, and which orders remain in radial, V and in-line engines.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 import numpy as np
@@ -52,9 +50,7 @@ def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):
 
 
 def radial_orders(cylinders, highest=20):
-    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over
-    the axes g.
-    """
+    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over the axes g."""
     axes = np.arange(cylinders) * 360 / cylinders
     return [
         n
@@ -76,9 +72,7 @@ def layout(name):
 
 
 def test_radial_engines():
-    """(81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each
-    i/2, i = 7 only 6.
-    """
+    """(81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each i/2, i = 7 only 6."""
     five, seven = layout("radial5"), layout("radial7")
     assert five["F1_major"] == five["F1_minor"] == pytest.approx(5 / 2, rel=1e-14)
     assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx((0, 5 / 2, 5 / 2), abs=1e-12)
@@ -93,18 +87,14 @@ def test_v_pair_of_90_degrees():
 
 
 def test_in_line_engines():
-    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours,
-    sixes repeat cranks.
-    """
+    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours, sixes repeat cranks."""
     assert (layout("i3")["F2_major"], layout("i3")["F6_major"]) == pytest.approx((0, 3), abs=1e-12)
     assert layout("i4")["F2_major"] == pytest.approx(4, rel=1e-14)
     assert (layout("i6")["F4_major"], layout("i6")["F6_major"]) == pytest.approx((0, 6), abs=1e-12)
 
 
 def test_textbook_moments():
-    """sqrt3 F1 a: in-line three; sqrt10 F1 a: cross-plane V8; 4 sqrt2 F2: flat-plane V8 of 90
-    degrees.
-    """
+    """sqrt3 F1 a: in-line three; sqrt10 F1 a: cross-plane V8; 4 sqrt2 F2: flat-plane V8 of 90 degrees."""
     assert layout("i3")["M1_major"] == pytest.approx(sqrt(3), rel=1e-14)
     cross = layout("v8_crossplane")
     assert cross["M1_major"] == cross["M1_minor"] == pytest.approx(sqrt(10), rel=1e-14)

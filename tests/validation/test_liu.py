@@ -5,8 +5,6 @@ K = 4 lambda m r omega^2, gamma the bank angle, alpha the crank angle; forces of
 Z_x = (cos 3g/2 - cos g/2) sin 2a, Z_y = (cos 3g/2 + cos g/2) cos 2a for K = 1.
 """
 
-from __future__ import annotations
-
 from math import atan, cos, degrees, pi, radians, sqrt
 
 import numpy as np
@@ -74,9 +72,7 @@ def test_largest_slider_force_across():
 
 
 def test_relative_extreme_of_the_slider_force_along():
-    """6.2: -4/(3 sqrt6) = -0.544 at gamma = 2 arctan sqrt5 = 131.8103 degrees; the largest is 2, at
-    gamma = 0.
-    """
+    """6.2: -4/(3 sqrt6) = -0.544 at gamma = 2 arctan sqrt5 = 131.8103 degrees; the largest is 2, at gamma = 0."""
     assert round(degrees(2 * atan(sqrt(5))), 4) == 131.8103
     assert z_y(2 * atan(sqrt(5))) == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-14)
     assert z_y(GAMMA).min() == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-7)
@@ -84,9 +80,7 @@ def test_relative_extreme_of_the_slider_force_along():
 
 
 def test_second_derivatives_at_the_extreme():
-    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22, 16, and the
-    right product).
-    """
+    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22, 16, and the right product)."""
     g, h = 2 * atan(sqrt(2)), 1e-4
     by_gamma = (z_x(g + h) - 2 * z_x(g) + z_x(g - h)) / h**2
     assert by_gamma == pytest.approx(12 / (3 * sqrt(3)), rel=1e-6)
@@ -96,9 +90,7 @@ def test_second_derivatives_at_the_extreme():
 
 
 def test_paths_of_the_two_shafts():
-    """Section 4: from gamma = 0 to 180 degrees one travels 3b, the other b; they meet at 90 and 180
-    degrees.
-    """
+    """Section 4: from gamma = 0 to 180 degrees one travels 3b, the other b; they meet at 90 and 180 degrees."""
     travelled = np.abs(np.diff(np.cos(1.5 * np.linspace(0, pi, 30001)))).sum()
     assert travelled == pytest.approx(3, rel=1e-7)
     table = recompute("liu-1")

@@ -5,8 +5,6 @@ Its crankshaft lies along y; the hydraulic part of mount 1 adds 1e5 N/m along it
 stored figures are right.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

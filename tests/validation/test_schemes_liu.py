@@ -6,8 +6,6 @@ b1/b2; (5.6) has a factor 4 too many; (5.5) and the first line of 6.1 print Z_x 
 sign. A2 stands for the source's lambda, its leading term.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 

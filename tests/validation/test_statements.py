@@ -4,8 +4,6 @@ Of every one the printed form, the right form and a reference are computed: the 
 agree with the reference, and the printed one must not.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@ openTorsion (Aalto-Arotor/openTorsion, opentorsion/tests/tests.py): natural freq
 printed, beside those recomputed to ten figures.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

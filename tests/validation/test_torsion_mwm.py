@@ -6,8 +6,6 @@ Proc. IMechE K 222 (2008), doi 10.1243/14644193JMBD126, Fig. 4, as digitised for
 example, run with openTorsion 0.3.2.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import balance_power

@@ -4,8 +4,6 @@ University, undated.
 J = m_j r omega^2; a counterweight k m_j r leads the point opposite the crank by alpha.
 """
 
-from __future__ import annotations
-
 from math import cos, radians, sin, sqrt
 
 import numpy as np
@@ -43,9 +41,7 @@ def rows():
 
 
 def test_true_optimum_has_three_equal_maxima():
-    """Table 1: at theta = 0 and at two angles symmetric to the cylinder; no other k or alpha does
-    better.
-    """
+    """Table 1: at theta = 0 and at two angles symmetric to the cylinder; no other k or alpha does better."""
     for row in rows():
         lam, k = row["lambda"], row["k0"]
         assert row["Pmax_min"] == pytest.approx(1 + lam - k, rel=1e-14)
@@ -61,9 +57,7 @@ def test_true_optimum_in_figures():
 
 
 def test_the_print_searched_half_a_revolution():
-    """Its own figures come out of that search; over the whole revolution its choice leaves up to 19
-    % more.
-    """
+    """Its own figures come out of that search; over the whole revolution its choice leaves up to 19 % more."""
     table = recompute("wang-1")
     assert {e.kind.partition(",")[0] for e in table.errata} == {"half-cycle search"}
     assert {e.row for e in table.errata} == set(range(5))

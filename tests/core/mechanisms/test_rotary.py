@@ -1,7 +1,5 @@
 """Rotary engines: the crank stands still, the cylinders turn."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.engines import GNOME, build_text, rotary_engine
@@ -17,8 +15,7 @@ from balcli.show.units import SYSTEMS
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
 def test_three_or_more_cylinders_have_no_first_order_force(count):
-    """Well known: the pistons run round the crank pin almost on a circle. What is left has the
-    order of the cylinders.
+    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders.
     """
     force = spectrum.compute_spectra(rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
     assert force is not None
@@ -28,9 +25,7 @@ def test_three_or_more_cylinders_have_no_first_order_force(count):
 
 
 def test_one_cylinder_has_a_first_order_force_of_its_mean_distance():
-    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature
-    (lambda = 6/23).
-    """
+    """Forward first order: m omega^2 times the mean distance of the piston pin, here by quadrature (lambda = 6/23)."""
     force = spectrum.compute_spectra(rotary_engine("banks = [0]"), [1.0], ["force"]).force
     assert force is not None
     psi = np.arange(64) * (2 * np.pi / 64)
@@ -57,9 +52,7 @@ def test_every_second_cylinder_fires_as_they_come_round():
 
 
 def test_the_throws_of_two_rows_follow_from_the_firing_order():
-    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands
-    still at 300.
-    """
+    """Cylinder 6 stands at 240 degrees and is to fire 60 degrees after cylinder 1: its pin stands still at 300."""
     found = rotary_engine("radial = 3", more="firing_order = [1, 6, 5, 4, 3, 2]\nstrokes = 2\n")
     assert found.cylinders.axis_deg == pytest.approx([0, 300])
     assert found.numbers == (1, 3, 5, 2, 4, 6)
