@@ -10,18 +10,7 @@ from support.cases import cases
 
 from balcli.file import units as unit_table
 from balcli.file.fields import STRING_PATTERN
-from balcli.file.units import (
-    ANGLE,
-    INERTIA,
-    LENGTH,
-    MASS,
-    PLAIN,
-    SPEED,
-    TORQUE,
-    UNBALANCE,
-    convert,
-    read_unit,
-)
+from balcli.file.units import ANGLE, INERTIA, LENGTH, MASS, PLAIN, SPEED, TORQUE, UNBALANCE, convert, read_unit
 
 A_LENGTH = 'a length is wanted: a bare number in mm, or "90 mm" or "3.5 in"'
 AN_ANGLE = 'an angle is wanted: a bare number in deg, or "30 deg" or "1.2 rad" or "1/7 turn"'

@@ -15,12 +15,7 @@ from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
 from balcli.forces import crankshaft as in_bearings
-from balcli.forces.crankshaft import (
-    compute_forces_along,
-    compute_inner_loads,
-    compute_loads_with_gas,
-    place_bearings,
-)
+from balcli.forces.crankshaft import compute_forces_along, compute_inner_loads, compute_loads_with_gas, place_bearings
 from balcli.forces.spectrum import compute_device_force
 
 DEVICES = """

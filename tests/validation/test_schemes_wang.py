@@ -77,8 +77,7 @@ def test_eccentric_slider_leading_order(design, residual):
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_eccentric_slider_beats_its_neighbours(design):
-    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage differentiated numerically.
-    """
+    """Direct evaluation of the corrected (24) on a fine grid, with the angle of the linkage differentiated numerically."""
     lam, theta = 0.25, np.linspace(0, 2 * np.pi, 4001)
 
     def largest(k, mu):

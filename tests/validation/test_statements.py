@@ -314,11 +314,7 @@ def product():
 def moment():
     along, across, z = 3.0, 5.0, 2.0  # force of a cylinder at gamma, its place
     force = (along + E * across) * exp(E * G)
-    return (
-        along * z * cos(G) + across * z * sin(G),
-        along * z * sin(G) + across * z * cos(G),
-        force.imag * z,
-    )
+    return (along * z * cos(G) + across * z * sin(G), along * z * sin(G) + across * z * cos(G), force.imag * z)
 
 
 @check("kvasnikov, after (62)")

@@ -15,8 +15,7 @@ from balcli.show.units import SYSTEMS
 
 @pytest.mark.parametrize("count", [3, 4, 5, 7, 9])
 def test_three_or_more_cylinders_have_no_first_order_force(count):
-    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders.
-    """
+    """Well known: the pistons run round the crank pin almost on a circle. What is left has the order of the cylinders."""
     force = spectrum.compute_spectra(rotary_engine(f"radial = {count}"), np.arange(1.0, 2 * count + 1), ["force"]).force
     assert force is not None
     assert force.balanced[0]
