@@ -53,14 +53,9 @@ def vectors(gamma):
 
 @pytest.mark.parametrize("gamma", [0, 30, 60, 90, 120, 150, 180])
 def test_the_second_order_is_two_vectors(gamma):
-    """(1.5): cos(gamma/2) turning with the crank, cos(3 gamma/2) against it."""
+    """(1.5): cos(gamma/2) turning with the crank, cos(3 gamma/2) against it: at 60 degrees sqrt3/2 and none (3.1)."""
     expected = abs(cos(radians(gamma / 2))), abs(cos(radians(1.5 * gamma)))
     assert vectors(gamma) == pytest.approx(expected, abs=1e-14)
-
-
-def test_at_60_degrees_one_vector_vanishes_and_2_sqrt3_remains():
-    """(3.1): F1 = 2 sqrt3 lambda m r omega^2 = K sqrt3/2."""
-    assert vectors(60) == pytest.approx((sqrt(3) / 2, 0), abs=1e-14)
 
 
 def test_largest_slider_force_across():
@@ -77,16 +72,6 @@ def test_relative_extreme_of_the_slider_force_along():
     assert z_y(2 * atan(sqrt(5))) == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-14)
     assert z_y(GAMMA).min() == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-7)
     assert np.abs(z_y(GAMMA)).max() == z_y(0.0) == 2
-
-
-def test_second_derivatives_at_the_extreme():
-    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22, 16, and the right product)."""
-    g, h = 2 * atan(sqrt(2)), 1e-4
-    by_gamma = (z_x(g + h) - 2 * z_x(g) + z_x(g - h)) / h**2
-    assert by_gamma == pytest.approx(12 / (3 * sqrt(3)), rel=1e-6)
-    by_alpha = -4 * z_x(g)  # of sin 2 alpha at 45 degrees
-    assert by_alpha == pytest.approx(32 / (3 * sqrt(3)), rel=1e-14)
-    assert 12 / (3 * sqrt(3)) * 32 / (3 * sqrt(3)) == pytest.approx(128 / 9, rel=1e-14)
 
 
 def test_paths_of_the_two_shafts():

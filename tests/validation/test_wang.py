@@ -20,15 +20,8 @@ def peak(lam, k, alpha=0.0):
     return np.abs(np.cos(TH) + lam * np.cos(2 * TH) - k * np.exp(1j * (TH + radians(alpha)))).max()
 
 
-@pytest.mark.parametrize(("k", "alpha"), [(0.3, 12), (0.62, -23), (0.9, 63)])
-def test_largest_force_of_the_first_order(k, alpha):
-    """(32): J/2 (1 + sqrt(1 - 4 k cos alpha + 4 k^2))."""
-    expected = (1 + sqrt(1 - 4 * k * cos(radians(alpha)) + 4 * k**2)) / 2
-    assert peak(0, k, alpha) == pytest.approx(expected, rel=1e-6)
-
-
 @pytest.mark.parametrize("alpha", [0, 20, 60])
-def test_smallest_of_these(alpha):
+def test_smallest_force_of_the_first_order(alpha):
     """(36): (1 + |sin alpha|) J/2 at k = cos alpha/2."""
     best = min(peak(0, k, alpha) for k in np.arange(0, 1, 0.005))
     assert best == pytest.approx((1 + sin(radians(alpha))) / 2, abs=1e-4)
