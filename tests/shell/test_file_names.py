@@ -182,9 +182,6 @@ def test_a_name_stays_in_one_cell_whatever_parts_cells(name):
     assert run_here("compare", "a.toml", "good.toml", "-f", "csv")[1].splitlines()[0].split(cell)[1] == ",in-line four"
 
 
-# ------------------------------------------------------------------ colours
-
-
 # ------------------------------------------------------------------ Parquet
 def test_parquet_says_nothing_where_there_is_nothing_and_what_it_is():
     parquet = pytest.importorskip("pyarrow.parquet")
