@@ -9,10 +9,9 @@ from math import atan, cos, degrees, pi, radians, sqrt
 
 import numpy as np
 import pytest
+from support.engines import build_text
 
 from balcli.books.answer import tables as recompute
-from balcli.engine.build import build
-from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
@@ -27,17 +26,9 @@ def z_y(gamma):
 
 
 def flat_plane(gamma):
-    return build(
-        parse(
-            f"""
-        crank = {{ stroke = 80, throws = [0, 180, 180, 0], spacing = 100 }}
-        rod = {{ ratio = 0.28 }}
-        piston = {{ mass = 0.5 }}
-        layout = {{ bank_angle = {gamma} }}
-        operation = {{ speed = 6000 }}
-    """,
-            "flat-plane V8",
-        )
+    return build_text(
+        "crank = { stroke = 80, throws = [0, 180, 180, 0], spacing = 100 }\nrod.ratio = 0.28\npiston.mass = 0.5\n"
+        f"layout.bank_angle = {gamma}\noperation.speed = 6000\n"
     )
 
 
