@@ -1,7 +1,5 @@
 """The registry of printed tables: form, the rule for errata, ranges, and the command."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """Peaks of functions side by side, each within its own bounds; where a function is least."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Pistons, measured diagrams and gas torque: against geometry, closed forms and 50 digits."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import mpmath as mp

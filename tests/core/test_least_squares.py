@@ -1,7 +1,5 @@
 """Least squares against the same sums in fifty digits."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 import pytest

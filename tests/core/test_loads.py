@@ -1,7 +1,5 @@
 """Bounds of rounding that every result carries, and angles of cylinders by bank."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -50,9 +48,7 @@ def test_every_order_has_a_bound_of_its_rounding(name, along):
 
 
 def test_what_balances_does_so_about_any_point():
-    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own
-    cylinders.
-    """
+    """An in-line six has neither force nor moment of orders 1 and 2, a kilometre away or at its own cylinders."""
     for reference in ([0, 0, 1e6], [3e5, -2e5, 250], [0, 0, -250]):
         six = engine(
             crank={"stroke": 100, "throws": [0, 240, 120, 120, 240, 0], "spacing": 100}, frame={"reference": reference}
@@ -128,9 +124,7 @@ def test_variants_side_by_side_are_what_each_is_alone(vary):
 
 @pytest.mark.parametrize("ripple", ["", "speed_ripple = [{ order = 1, amplitude = 0.03, angle = 40 }]"])
 def test_an_engine_does_what_its_cylinders_do(ripple):
-    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any
-    of them.
-    """
+    """Unlike cylinders: the sum of what each does alone, with a bound no smaller than that of any of them."""
     text = VEE + ripple + "\n[cylinder.2]\npiston_mass = 3\nrod_length = 170\n[cylinder.5]\npiston_offset = 9\n"
     built = build_text(text)
     parts = [compute_spectra(alone(built, number), LOW, QUANTITIES) for number in built.numbers]
@@ -144,9 +138,7 @@ def test_an_engine_does_what_its_cylinders_do(ripple):
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 @pytest.mark.parametrize("size", [0.0, 1e-6])
 def test_errors_of_a_curve_stay_within_the_bounds_of_the_forces(name, size):
-    """Both components off by their own bounds; a bound for the rounding of the sum even if they are
-    exact.
-    """
+    """Both components off by their own bounds; a bound for the rounding of the sum even if they are exact."""
     built = engine(**ENGINES[name])
     c = built.cylinders
     few, which = c.linkage.find_distinct_harmonics(LOW, c.lam, c.eps, SERIES)

@@ -1,7 +1,5 @@
 """The largest values of many curves at once against a dense grid of each."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

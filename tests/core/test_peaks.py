@@ -1,7 +1,5 @@
 """The largest value over a revolution, on the curve and not on a grid."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -73,9 +71,7 @@ def test_after_which_angle_a_curve_repeats_its_size(parts, every):
 
 
 def test_a_narrow_peak_between_samples():
-    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle
-    itself.
-    """
+    """All orders in step at an angle that no regular sampling meets: their sum there, and the angle itself."""
     orders, at = np.arange(1, 41), 1.2345678
     found = find_peak(curve(*[(n, 0.5 * np.exp(-1j * n * at), 0.5 * np.exp(1j * n * at)) for n in orders]))
     assert found.value == pytest.approx(40, rel=RELATIVE)
@@ -101,9 +97,7 @@ def test_random_curves_against_many_samples(seed):
 
 
 def test_of_equal_peaks_the_first_counts():
-    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not
-    choose.
-    """
+    """|cos 3 theta| is 1 at 0, 60, 120 .. deg, |sin 3 theta| at 30, 90 ..; rounding must not choose."""
     for turned, first in ((1, 0.0), (1j, 30.0), (1 - 1e-13j, 0.0), (1 + 1e-13j, 0.0)):  # the last a whole turn, nearly
         half = np.array([turned / 2])
         found = find_peak(Phasors.of(np.array([3.0]), half, np.conj(half), np.zeros(1)))

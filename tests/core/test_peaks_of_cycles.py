@@ -1,7 +1,5 @@
 """Curves over a cycle against the curve itself on a fine grid and in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -50,9 +48,7 @@ def test_of_one_order_it_is_the_amplitude(order):
 
 
 def test_two_orders_in_closed_form():
-    """cos t + a cos 2t: highest 1 + a at 0; lowest where cos t = -1/(4a), -a - 1/(8a), if a >
-    1/4.
-    """
+    """cos t + a cos 2t: highest 1 + a at 0; lowest where cos t = -1/(4a), -a - 1/(8a), if a > 1/4."""
     a = np.array([0.26, 0.5, 3.0])
     swing = find_swing([1, 2], np.stack([np.ones(3), a]).astype(complex))
     assert swing.highest.value == pytest.approx(1 + a, rel=RELATIVE)

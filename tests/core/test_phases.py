@@ -1,7 +1,5 @@
 """Sums of turning vectors against the same sums written out, cylinder by cylinder."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Rotating vectors against what they stand for: the curve, angle by angle."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -2,8 +2,6 @@
 limits by the conditions of the optimum.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -53,14 +51,6 @@ def test_it_is_proved_by_linear_programming(case):
     bound = multipliers @ (np.conj(residual / np.abs(residual)) * weights * target).real
     assert largest_of(found, weights) == pytest.approx(bound, rel=1e-7)
     assert found.bound == pytest.approx(largest_of(found, weights), rel=2e-8)
-
-
-def test_a_textbook_case():
-    """3x - 2y = -1, 5x - 2y = 1, 5x - 3y = 0 in real numbers: all three residuals 0.4 at (1, 1.8)."""
-    matrix = np.array([[3, -2], [5, -2], [5, -3]], dtype=complex)
-    found = minimise(matrix, np.array([-1, 1, 0], dtype=complex), np.ones(3), largest=True)
-    assert found.x == pytest.approx([1.0, 1.8], abs=1e-7)
-    assert np.abs(found.residual) == pytest.approx([0.4] * 3, rel=1e-7)
 
 
 def test_what_can_be_cancelled_is_cancelled():

@@ -3,8 +3,6 @@
 `tests/oracle/test_momentum.py` does the same with whole engines; here are the rules by themselves.
 """
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np
@@ -67,24 +65,16 @@ def test_two_sided_coefficients_of_the_speed(lines):
     assert found == pytest.approx(speed(lines, THETA) + 0j, abs=1e-14)
 
 
+@pytest.mark.parametrize(("scalar", "mean"), [(False, 0.0), (True, 3.0)], ids=["force", "couple"])
 @pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
-def test_force(lines):
-    """-W (W G)'."""
-    want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * momentum(t), THETA)
-    found = ripple.apply_to_force(steady(), ripple.find_speed(lines)).values(THETA)
-    assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
+def test_force_and_couple(lines, scalar, mean):
+    """-W (W G)', and the same of the moment of momentum, whose mean of the rotating masses shakes as well."""
 
+    def carried(theta):
+        return speed(lines, theta) * (mean + integral(theta) if scalar else momentum(theta))
 
-@pytest.mark.parametrize("lines", LINES.values(), ids=LINES.keys())
-def test_couple_with_the_mean_moment_of_momentum_of_the_rotating_masses(lines):
-    """-W (W (h_0 + h))': what is constant at steady speed shakes as well."""
-    mean = 3.0
-
-    def h(theta):
-        return mean + integral(theta)
-
-    want = -speed(lines, THETA) * rate(lambda t: speed(lines, t) * h(t), THETA)
-    found = ripple.apply_to_force(steady(scalar=True), ripple.find_speed(lines), mean).values(THETA)
+    want = -speed(lines, THETA) * rate(carried, THETA)
+    found = ripple.apply_to_force(steady(scalar), ripple.find_speed(lines), mean).values(THETA)
     assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
 
 
@@ -97,11 +87,9 @@ def test_torque(lines):
         return mean / 2 + integral(theta)
 
     want = -rate(lambda t: half_inertia(t) * speed(lines, t) ** 2, THETA)
-    found = ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).values(THETA)
-    assert np.abs(found - want).max() < RELATIVE * np.abs(want).max()
-    assert (
-        abs(ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean).forward[0]) < 1e-14
-    )  # T has no mean
+    found = ripple.apply_to_torque(steady(scalar=True), ripple.find_speed(lines), mean)
+    assert np.abs(found.values(THETA) - want).max() < RELATIVE * np.abs(want).max()
+    assert abs(found.forward[0]) < 1e-14  # T has no mean
 
 
 @pytest.mark.parametrize(
@@ -213,9 +201,7 @@ def test_orders_of_the_speed_are_halves_of_whole_numbers():
     [([(2, 0.2, 30.0), (1, 0.05, 0.0)], 1.0), ([(0.5, 0.1, -70.0), (2, 0.2, 30.0)], 0.5), ([(1, 0.6, 200.0)], 0.5)],
 )
 def test_orders_of_the_time(lines, step):
-    """Phasors of a curve over equal steps of time: mean, halves where there are some, in both
-    senses of rotation.
-    """
+    """Phasors of a curve over equal steps of time: mean, halves where there are some, in both senses of rotation."""
     turns = round(1 / step)
     over_angle, orders = np.arange(0, 8 + step, step), np.arange(0, 12 + step, step)
     rng = np.random.default_rng(5)

@@ -1,19 +1,12 @@
 """Speed of a shaft from energy, against 50 digits and against the equation of motion."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest
 from support.cases import slow
 
 from balcli.core.piecewise import polyline, resolved
-from balcli.core.speed_ripple import (
-    StallError,
-    needed_inertia,
-    speed_variation,
-    surplus,
-)
+from balcli.core.speed_ripple import StallError, needed_inertia, speed_variation, surplus
 
 TURN = 2 * np.pi
 MEAN = 30.0  # rad/s

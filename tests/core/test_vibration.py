@@ -1,7 +1,5 @@
 """Modes and response of small systems, against 50 digits, closed forms and direct solution."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support import high_precision
@@ -92,9 +90,7 @@ def test_without_damping_modes_and_equations_agree():
 
 
 def twins():
-    """Two equal masses, each on a spring 3, with a spring 1 between: w^2 = 3 together and 5 against
-    each other.
-    """
+    """Two equal masses, each on a spring 3, with a spring 1 between: w^2 = 3 together and 5 against each other."""
     return np.array([[4.0, -1], [-1, 4]]), np.zeros((2, 2)), np.eye(2)
 
 

@@ -1,7 +1,5 @@
 """Engine file -> SI arrays: masses, rods, places, devices, and what cannot be an engine."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -77,9 +75,7 @@ def test_pendulum(pivot, arm):
 
 
 def test_a_rod_of_its_own():
-    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest
-    stays.
-    """
+    """What a cylinder gives displaces what the engine says otherwise of the same thing; the rest stays."""
     e = engine(
         crank={"throws": [0, 120, 240]},
         rod={"length": 200, "mass": 0.6, "cg": 50, "inertia": 4000},
@@ -161,9 +157,7 @@ def test_a_throw_mass_is_shared_by_the_pins_of_its_throw():
 
 # ------------------------------------------------------------------ devices
 def test_devices():
-    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass
-    and radius.
-    """
+    """A counterweight counts from pin 1, a shaft and a slider from the x axis; unbalance or mass and radius."""
     e = engine(
         crank={"throws": [0]},
         layout={"banks": [45, -45]},
@@ -208,8 +202,6 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
 
 @cases("engine/build", "a_centre_of_mass_outside_the_rod_needs_an_inertia")
 def test_a_centre_of_mass_outside_the_rod_needs_an_inertia(parts, message):
-    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any
-    other.
-    """
+    """Two masses at the ends would have m s_a s_b < 0; with its own inertia it is a rod like any other."""
     assert refused(**parts) == f"engine: {message}: give a cg from 0 to 200 mm, or the rod's inertia"
     assert engine(**parts | {"rod": parts["rod"] | {"inertia": 1000}}).cylinders.count == 1

@@ -1,7 +1,5 @@
 """Dummy pistons (cylinders that the firing order leaves out), true strokes, vanishing rod couples."""
 
-from __future__ import annotations
-
 import pytest
 from support.engines import engine, refused
 

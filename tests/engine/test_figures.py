@@ -1,7 +1,5 @@
 """Figures that vary: each takes the place of what the file says, wherever an engine needs it."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import fields
 from typing import Any

@@ -1,7 +1,5 @@
 """[gas] of an engine file: what is built of it, and every mistake by its path."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

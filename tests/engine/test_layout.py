@@ -1,7 +1,5 @@
 """Banks and throws -> numbered cylinders."""
 
-from __future__ import annotations
-
 from itertools import product
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Engines from dicts and texts, their tables, and the same with other values of some keys."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases
@@ -57,20 +55,11 @@ def parse_of(tables):
     return tables | {"crank": crank, "rod": rod, "cylinder": {3: {"piston_mass": np.float64(0.5)}}}
 
 
-@pytest.mark.parametrize(
-    ("source", "message"),
-    [
-        ({1.5: {}}, 'engine: the key 1.5 (float) is no text; write it as a file has it, such as "stroke"'),
-        (
-            {"crank": {None: 3}},
-            'engine: the key None (NoneType) is no text; write it as a file has it, such as "stroke"',
-        ),
-    ],
-)
-def test_keys_are_text(source, message):
+@pytest.mark.parametrize(("source", "key"), [({1.5: {}}, "1.5 (float)"), ({"crank": {None: 3}}, "None (NoneType)")])
+def test_keys_are_text(source, key):
     with pytest.raises(balcli.InputError) as caught:
         balcli.load(source)
-    assert str(caught.value) == message
+    assert str(caught.value) == f'engine: the key {key} is no text; write it as a file has it, such as "stroke"'
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,6 @@
 angles, with a correction in; and what cannot be found is refused.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`balcli field`: every format says the same figures; files to start from, the schema, pictures and exit statuses."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """A weight spread over places: it adds up, is the lightest, and what cannot be is said."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

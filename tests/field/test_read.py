@@ -1,7 +1,5 @@
 """Files of runs: every mistake at once, by path, with the value and what would be right."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.rotors import three_runs

@@ -1,8 +1,4 @@
-"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other
-tables.
-"""
-
-from __future__ import annotations
+"""Keys of an engine file's text are changed, and all else stays: comments, lay-out, other tables."""
 
 import tomllib
 

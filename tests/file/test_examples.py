@@ -1,8 +1,4 @@
-"""The shipped examples: all are listed, each is the file of the repository, and a wheel has
-them.
-"""
-
-from __future__ import annotations
+"""The shipped examples: all are listed, each is the file of the repository, and a wheel has them."""
 
 import re
 import subprocess

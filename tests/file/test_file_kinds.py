@@ -1,7 +1,5 @@
 """A file of another kind is told as such, in one line; a file with slips is told its slips."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.engines import GOOD

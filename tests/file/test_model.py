@@ -1,7 +1,5 @@
 """The tables of an engine file: values in the file's units, contradictions refused."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 from support.cases import cases

@@ -1,7 +1,5 @@
 """The JSON Schema knows every key with its unit, and its examples are true."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,6 +1,4 @@
-"""What people type by mistake, and what balcli makes of it: understood, or answered with the right
-word.
-"""
+"""What people type by mistake, and what balcli makes of it: understood, or answered with the right word."""
 
 import tomllib
 from pathlib import Path
@@ -145,34 +143,30 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     assert told == "balcli: no table 'kvasnikov'; did you mean kvasnikov-2?\n"
 
 
+def search(file, over, minimise, *more):
+    return run_here("search", file, "--over", over, "--minimise", minimise, *more).out
+
+
 @pytest.mark.slow
 def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
     file = write(tmp_path / "i4.toml", GOOD)
-    search = ("search", file, "--minimise", "force.2.major", "--over")
-    assert "The best rod.length is an end of its range" in run_here(*search, "rod.length=140:180").out
-    search = ("search", file, "--minimise", "force.1.major", "--over")
-    inside = run_here(*search, "crank.throws.2=90:270").out
+    assert "The best rod.length is an end of its range" in search(file, "rod.length=140:180", "force.2.major")
+    inside = search(file, "crank.throws.2=90:270", "force.1.major")
     assert "180" in inside
     assert "an end of its range" not in inside
     file.write_text(PETROL_FOUR)
-    search = ("search", file, "--minimise", "gas.2.amplitude", "--over")
-    assert "an end of its range" not in run_here(*search, "cylinder.2.heat=0:300").out
-    assert "an end of its range" in run_here(*search, "cylinder.2.heat=1:300").out
+    assert "an end of its range" not in search(file, "cylinder.2.heat=0:300", "gas.2.amplitude")
+    assert "an end of its range" in search(file, "cylinder.2.heat=1:300", "gas.2.amplitude")
 
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):
-    """What turns with the crank has no second order."""
-    file = write(tmp_path / "i4.toml", GOOD)
-    search = ("search", file, "--over", "crank.throw_mass=0:6", "--minimise", "force.2.major")
-    told = run_here(*search).out
-    nothing = "No effect on force.2.major: the same at every value searched."
+    """What turns with the crank has no second order; of one value nobody knows."""
+    file, nothing = (write(tmp_path / "i4.toml", GOOD), "No effect on force.2.major: the same at every value searched.")
+    told = search(file, "crank.throw_mass=0:6", "force.2.major")
     assert nothing in told
     assert "an end of its range" not in told
-    search = ("search", file, "--over", "crank.stroke=60:90", "--minimise", "force.2.major")
-    told = run_here(*search, "--limit", "force.2.major<3000").out
-    assert nothing not in told
-    search = ("search", file, "--over", "piston.mass=0.5:0.5", "--minimise", "force.2.major")
-    assert nothing not in run_here(*search).out, "of one value nobody knows"
+    assert nothing not in search(file, "crank.stroke=60:90", "force.2.major", "--limit", "force.2.major<3000")
+    assert nothing not in search(file, "piston.mass=0.5:0.5", "force.2.major")
 
 
 def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
@@ -184,8 +178,7 @@ def test_a_search_says_that_not_all_of_a_range_makes_an_engine(tmp_path):
             ("firing_order = [1, 3, 4, 2]", "firing_order = [1, 4, 2, 5, 3, 6]\nbank_angle = 60"),
         ),
     )
-    search = ("search", file, "--minimise", "moment.1.backward", "--over", "crank.splay=-80:80")
-    told = run_here(*search).out
+    told = search(file, "crank.splay=-80:80", "moment.1.backward")
     assert "\n-60 " in told
     assert "Some of these values make no engine, such as crank.splay = -80: layout.f" in " ".join(told.split())
     assert "No effect" not in told

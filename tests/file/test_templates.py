@@ -1,8 +1,4 @@
-"""Starting files are valid, also with their optional keys switched on, and tell the truth about
-alternatives.
-"""
-
-from __future__ import annotations
+"""Starting files are valid, also with their optional keys switched on, and tell the truth about alternatives."""
 
 import math
 import re

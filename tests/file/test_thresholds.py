@@ -1,7 +1,5 @@
 """Limits of doubts: just inside nothing is said, just outside one warning."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.commands import run_here

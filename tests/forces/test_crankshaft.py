@@ -1,8 +1,4 @@
-"""Inner forces and moments against statics worked out here, and the classical comparison of in-line
-engines.
-"""
-
-from __future__ import annotations
+"""Inner forces and moments against statics worked out here, and the classical comparison of in-line engines."""
 
 import numpy as np
 import pytest
@@ -22,9 +18,7 @@ RECIPROCATING = (0.5 + 0.6 * 45 / 160) * 0.045 * OMEGA**2
 
 
 def test_the_first_order_along_an_inline_four():
-    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0
-    (times i).
-    """
+    """Loads +1 -1 -1 +1, 100 mm apart: shear 1 0 -1 0, moment about the section 0 -100 -100 0 (times i)."""
     found = compute_inner_loads(inline_engine([0, 180, 180, 0]), ORDERS)
     assert found.shear.z_m == pytest.approx([-0.15, -0.05, 0.05, 0.15])
     ahead, against = ROTATING + RECIPROCATING / 2, RECIPROCATING / 2
@@ -34,14 +28,11 @@ def test_the_first_order_along_an_inline_four():
 
 
 def test_an_inline_six_has_a_large_inner_moment_and_counterweights_take_most_of_it():
-    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side
-    make.
-    """
+    """0-120-240-240-120-0: nothing is free, but the middle carries what three throws on one side make."""
     plain = inline_engine([0, 120, 240, 240, 120, 0])
     weights = "".join(
-        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\nangle "
-        f"= {angle + 180}\n"
-        f"position = {place}\n"
+        f"[[counterweight]]\nunbalance = {(ROTATING + RECIPROCATING / 2) / OMEGA**2 * 1e6}\n"
+        f"angle = {angle + 180}\nposition = {place}\n"
         for angle, place in zip([0, 120, 240, 240, 120, 0], range(-250, 251, 100), strict=True)
     )
     fitted = inline_engine([0, 120, 240, 240, 120, 0], more=weights)
@@ -116,8 +107,7 @@ def _height_of_pin(angle, r, rod):
     return r * np.cos(angle) + np.sqrt(rod**2 - (r * np.sin(angle)) ** 2)
 
 
-# ------------------------------------------------------------------ cylinder by cylinder, and near
-# the lock
+# ------------------------------------------------------------------ cylinder by cylinder, and near the lock
 @pytest.mark.parametrize("name", ["w12", "vr6", "radial9", "car/tsinghua_ca72", "ripple"])
 def test_each_cylinder_is_what_it_is_alone(name):
     layout = "firing_order = [1, 3, 4, 2]" if name == "ripple" else ""
@@ -157,8 +147,7 @@ def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
 def test_more_results_along_the_crank_than_anybody_reads_are_refused():
     with pytest.raises(
         BalcliError,
-        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 "
-        r"results, "
-        r"and at most 32768 are listed; give fewer orders$",
+        match=r"^along the crankshaft, 4096 orders of 9 cylinders and counterweights are 36864 results, and at most 32768 "
+        r"are listed; give fewer orders$",
     ):
         compute_inner_loads(inline_engine([0] * 9), np.arange(1.0, 4097))

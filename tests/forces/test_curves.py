@@ -1,8 +1,4 @@
-"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must
-do.
-"""
-
-from __future__ import annotations
+"""Curves by direct evaluation: equal to the sum of all orders, and to what the mechanism must do."""
 
 from dataclasses import replace
 
@@ -67,9 +63,7 @@ def summed(subject, crank_deg):
 
 
 def scale(subject):
-    """Size of what is added up: force of one cylinder times their number; times a length for
-    moments.
-    """
+    """Size of what is added up: force of one cylinder times their number; times a length for moments."""
     c = subject.cylinders
     moving = c.reciprocating + c.rotating + (0 if c.linkage is None else c.linkage.mass / c.lam)
     force = c.count * float(subject.omega) ** 2 * float(np.max(c.radius)) * float(np.max(moving))
@@ -91,9 +85,7 @@ def test_direct_evaluation_is_the_sum_of_all_orders(name):
 
 @pytest.mark.parametrize("name", ["single", "i4", "v6_60", "v12_60", "boxer6", "radial7"])
 def test_what_is_zero_is_exactly_zero(name):
-    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of
-    their parts.
-    """
+    """No rounding noise and no negative zeros beside real figures, which may be as small as 1e-9 of their parts."""
     subject = engine(name)
     curves = compute_engine_curves(subject, divide_revolution(15)).curves
     for quantity, curve in curves.items():
@@ -105,9 +97,7 @@ def test_what_is_zero_is_exactly_zero(name):
 
 
 def test_a_mean_under_uneven_speed_keeps_its_sign_where_the_documents_say():
-    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and
-    y without them.
-    """
+    """Order 0 is the mean over the crank angle: in `forward` with signs, in the amplitudes of x and y without them."""
     subject, angles = engine("uneven"), divide_revolution(0.5)
     (order,) = write_each(list_orders(compute_spectra(subject, [0])))
     mean = {name: float(curve.mean()) for name, curve in compute_engine_curves(subject, angles).curves.items()}
@@ -133,9 +123,7 @@ def test_a_revolution_is_divided_from_0_without_360():
 
 @pytest.mark.parametrize("name", ["articulated", "rotary"])
 def test_other_mechanisms_by_differences(name):
-    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere
-    less.
-    """
+    """Velocity and acceleration are the slopes of the travel, which is 0 at the top and nowhere less."""
     text = TEXTS[name].replace(", speed_ripple = [{ order = 2, amplitude = 0.02, angle = 40 }]", "")
     subject, fine = build_text(text), divide_revolution(0.05)
     omega, step = float(subject.omega), np.radians(0.05)

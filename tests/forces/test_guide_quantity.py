@@ -1,7 +1,5 @@
 """Guide-force moments as quantities: what the analysis says of each variant."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

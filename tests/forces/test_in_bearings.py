@@ -1,7 +1,5 @@
 """What gas and inertia do inside an engine: statics and quadratures of their own."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -17,12 +15,7 @@ from balcli.analysis.curves import compute_engine_curves
 from balcli.core.phasors import Phasors
 from balcli.errors import BalcliError
 from balcli.forces import crankshaft as in_bearings
-from balcli.forces.crankshaft import (
-    compute_forces_along,
-    compute_inner_loads,
-    compute_loads_with_gas,
-    place_bearings,
-)
+from balcli.forces.crankshaft import compute_forces_along, compute_inner_loads, compute_loads_with_gas, place_bearings
 from balcli.forces.spectrum import compute_device_force
 
 DEVICES = """
@@ -126,9 +119,7 @@ def draw_uneven():
 
 @pytest.mark.parametrize("seed", [1, 4, None])
 def test_shaft_and_block_together_bear_what_inertia_makes(seed):
-    """Gas presses on throw and head alike; the block has its shafts and sliders besides. Of an
-    uneven speed, too.
-    """
+    """Gas presses on throw and head alike; the block has its shafts and sliders besides. Of an uneven speed, too."""
     found = draw_uneven() if seed is None else draw(seed)
     orders = np.arange(1.0, 7.0)
     loads, inertia = compute_loads_with_gas(found, orders), compute_inner_loads(found, orders)

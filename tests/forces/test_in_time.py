@@ -1,7 +1,5 @@
 """Orders of the time at uneven speed, against an engine followed through equal steps of time."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

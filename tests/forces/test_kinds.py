@@ -1,7 +1,5 @@
 """The table of what shakes, against what the rest of the house makes of it."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which orders there are."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases
@@ -17,13 +15,7 @@ from balcli.engine.engine import take_model
 from balcli.engine.load import load
 from balcli.errors import BalcliError
 from balcli.forces.guide import compute_guide_moments
-from balcli.forces.spectrum import (
-    Spectra,
-    choose_orders,
-    is_order,
-    mark_considerable,
-    parse_order,
-)
+from balcli.forces.spectrum import Spectra, choose_orders, is_order, mark_considerable, parse_order
 from balcli.mounts.loads import find_loads
 from balcli.show.units import SI
 from balcli.torque.answer import analyze_torque_of_engine as analyze_torque

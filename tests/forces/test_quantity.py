@@ -1,7 +1,5 @@
 """Quantities such as `force.2.major`: named, and what they are of an engine."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases
@@ -49,9 +47,7 @@ def test_they_are_what_analyze_gives() -> None:
 
 
 def test_the_signed_parts_of_an_order_are_those_of_the_curve() -> None:
-    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its
-    cos.
-    """
+    """Value = cos cos n theta + sin sin n theta; order 0, the mean under uneven speed, is its cos."""
     engine = build(load(VEE + "speed_ripple = [{ order = 2, amplitude = 0.02, angle = 25 }]\n"))
     theta = np.radians(np.arange(0.0, 360.0, 0.5))
     curves = {

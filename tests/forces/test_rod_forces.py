@@ -1,7 +1,5 @@
 """Gas on each piston of an engine whose cylinders are in part equal."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

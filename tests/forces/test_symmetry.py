@@ -1,7 +1,5 @@
 """Whether orders are balanced by symmetry or by chance; and how engines fire."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -67,9 +65,7 @@ def test_balanced_by_masses_that_fit_is_chance(throws, heavy):
 
 
 def test_two_banks_of_different_mechanisms_that_are_each_balanced():
-    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced
-    three.
-    """
+    """A VR6: neighbouring pins stand at no fraction of a turn, but each bank is a balanced three."""
     vr6 = engine.build(enginefile.read(next(p for p in ENGINE_FILES if p.stem == "vr6")))
     assert explain_symmetry(vr6, [1]).reasons[0].verdict == "symmetry"
 

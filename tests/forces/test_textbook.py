@@ -1,7 +1,5 @@
 """The units of textbooks, by hand, and the handbook's figures wherever balcli shows such."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache
@@ -16,11 +14,7 @@ from balcli.core.mechanisms import closed_form
 from balcli.file.examples import folder
 from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_spectra
-from balcli.forces.symmetry import (
-    find_textbook,
-    find_textbook_units,
-    with_reciprocating_only,
-)
+from balcli.forces.symmetry import find_textbook, find_textbook_units, with_reciprocating_only
 
 # Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition
 # intervals of the most common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in

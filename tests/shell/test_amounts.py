@@ -1,7 +1,5 @@
 """Amounts on the command line have the units of the file, one reader for all options."""
 
-from __future__ import annotations
-
 import json
 
 import pytest
@@ -14,25 +12,18 @@ from balcli.shell.values import as_bare_angles, read_share
 
 V8 = ENGINES / "v8_crossplane.toml"
 IMPERIAL = ("--units", "imperial")
-FACTOR = ("balance", V8, "--scheme", "factor")
-WEIGHTS = ("balance", V8, "--scheme", "counterweights")
-SHAFT = ("balance", V8, "--scheme", "two-shaft", "--order", 4)
-GUIDE = ("analyze", V8, "--only", "guide")
-SUM = ("sum", V8, V8)
 MOUNTS = PACKAGE / "file" / "starting_files" / "mounts.toml"
-CURVES = ("curves", V8, "--format", "json")
+COMMANDS = {
+    "CURVES": ("curves", V8, "--format", "json"),
+    "FACTOR": ("balance", V8, "--scheme", "factor"),
+    "GUIDE": ("analyze", V8, "--only", "guide"),
+    "SHAFT": ("balance", V8, "--scheme", "two-shaft", "--order", 4),
+    "SUM": ("sum", V8, V8),
+    "WEIGHTS": ("balance", V8, "--scheme", "counterweights"),
+}
 
 
-@cases(
-    "shell/amounts",
-    "a_figure_with_its_unit_is_the_bare_one",
-    CURVES=CURVES,
-    FACTOR=FACTOR,
-    GUIDE=GUIDE,
-    SHAFT=SHAFT,
-    SUM=SUM,
-    WEIGHTS=WEIGHTS,
-)
+@cases("shell/amounts", "a_figure_with_its_unit_is_the_bare_one", **COMMANDS)
 def test_a_figure_with_its_unit_is_the_bare_one(command, bare, said):
     texts = [run_here(*command, *options, "-f", "json") for options in (bare, said)]
     assert [text.status for text in texts] == [0, 0], texts[1].err
@@ -48,27 +39,13 @@ def test_speeds_of_a_range_have_units_too():
     )
 
 
-@cases(
-    "shell/amounts",
-    "with_imperial_units_a_bare_length_or_mass_asks_for_its_unit",
-    GUIDE=GUIDE,
-    SHAFT=SHAFT,
-    WEIGHTS=WEIGHTS,
-)
+@cases("shell/amounts", "with_imperial_units_a_bare_length_or_mass_asks_for_its_unit", **COMMANDS)
 def test_with_imperial_units_a_bare_length_or_mass_asks_for_its_unit(command, option, text, message):
     told = refusal(*command, option, text, *IMPERIAL)
     assert told == f'{option} "{text}": with --units imperial {message}'
 
 
-@cases(
-    "shell/amounts",
-    "what_is_no_amount_is_told_with_its_option",
-    CURVES=CURVES,
-    FACTOR=FACTOR,
-    SHAFT=SHAFT,
-    SUM=SUM,
-    WEIGHTS=WEIGHTS,
-)
+@cases("shell/amounts", "what_is_no_amount_is_told_with_its_option", **COMMANDS)
 def test_what_is_no_amount_is_told_with_its_option(command, options, message):
     assert refusal(*command, *options) == message
 

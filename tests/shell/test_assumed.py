@@ -1,7 +1,5 @@
 """What a file leaves out and a result depends on stands in its document, and at the head of its table."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Forces of a file without a speed are told as those at the speed that is assumed."""
 
-from __future__ import annotations
-
 from support.cases import cases
 from support.commands import run_here
 from support.engines import GOOD, changed

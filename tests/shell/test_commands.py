@@ -2,8 +2,6 @@
 and what the schemes refuse.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import re
@@ -98,8 +96,7 @@ def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pair
     assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
 
 
-# ------------------------------------------------------------------ sweeps: cluster, files,
-# progress
+# ------------------------------------------------------------------ sweeps: cluster and files
 SWEEP = ("--vary", "rod.ratio=0.2,0.25,0.3", "--quantity", "force.2.major")
 
 

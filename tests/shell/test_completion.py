@@ -1,7 +1,5 @@
 """What a shell offers when one presses Tab: asked as bash asks it, in a process of its own."""
 
-from __future__ import annotations
-
 import pytest
 from support.commands import run_python
 

@@ -1,7 +1,5 @@
 """Units and digits by environment variables."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The ending of a file's name says what is written into it; `-` is standard output."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json
@@ -182,9 +180,6 @@ def test_a_name_stays_in_one_cell_whatever_parts_cells(name):
     Path("a.toml").write_text(changed(('"in-line four"', json.dumps(name))))
     cell = '"' + name.replace('"', '""') + '"'
     assert run_here("compare", "a.toml", "good.toml", "-f", "csv")[1].splitlines()[0].split(cell)[1] == ",in-line four"
-
-
-# ------------------------------------------------------------------ colours
 
 
 # ------------------------------------------------------------------ Parquet

@@ -1,7 +1,5 @@
 """The examples in the help of every command run as they stand."""
 
-from __future__ import annotations
-
 import shlex
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """How much is said beside results: -q, -v, and the version."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

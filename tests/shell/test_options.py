@@ -1,7 +1,5 @@
 """Options that several commands share."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.paths import ENGINES

@@ -1,7 +1,5 @@
 """What is said while something takes long, and when Ctrl-C ends it."""
 
-from __future__ import annotations
-
 import signal
 import sys
 from collections.abc import Iterator

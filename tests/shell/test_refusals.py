@@ -1,7 +1,5 @@
 """What a command refuses, and the whole text with which it does."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here
@@ -37,19 +35,9 @@ def files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@cases("shell/refusals", "files")
-def test_files(command, message):
+@cases("shell/refusals", "what_is_refused", ENGINES=ENGINES)
+def test_what_is_refused(command, message):
     assert refusal(*command.split()) == message
-
-
-@cases("shell/refusals", "balance", ENGINES=ENGINES)
-def test_balance(options, message):
-    assert refusal("balance", *options.split()) == message
-
-
-@cases("shell/refusals", "search", ENGINES=ENGINES)
-def test_search(options, message):
-    assert refusal("search", *options.split()) == message
 
 
 def test_bearings_without_places():

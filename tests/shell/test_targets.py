@@ -1,7 +1,5 @@
 """Where results go: never onto what is read, through links and into pipes, whole or not at all."""
 
-from __future__ import annotations
-
 import errno
 import os
 import signal
@@ -27,9 +25,7 @@ def balcli():
 
 @pytest.fixture
 def good(tmp_path, monkeypatch):
-    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which
-    commands run.
-    """
+    """A folder with good.toml, other.toml and a symbolic and a hard link to the first, in which commands run."""
     monkeypatch.chdir(tmp_path)
     for name in ("good.toml", "other.toml"):
         Path(name).write_text(GOOD)

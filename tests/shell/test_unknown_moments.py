@@ -1,6 +1,4 @@
-"""A file that does not say where its throws stand: their moments are not known, and nobody may take
-them for balanced.
-"""
+"""A file that does not say where its throws stand: their moments are not known, and nobody may take them for balanced."""
 
 import csv
 import io

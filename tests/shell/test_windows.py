@@ -1,7 +1,5 @@
 """What is otherwise on Windows, as far as it can be had elsewhere."""
 
-from __future__ import annotations
-
 import errno
 import io
 import sys

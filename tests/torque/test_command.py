@@ -1,7 +1,5 @@
 """`balcli torque`: what it prints in every format, and what it refuses."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path
@@ -270,8 +268,7 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
     for command, *options in commands:
         far = tmp_path / "far" / "out.toml"
         told = refusal(command, path, *options, "--write", far)
-        assert f'{far}: the engine file names "p.csv", a file in {tmp_path}' in told
-        assert f"or copy p.csv into {far.parent} first" in told
+        assert told == f'{far}: the engine file names "p.csv", which is in {tmp_path}'
         assert not far.exists()
     (tmp_path / "far" / "p.csv").write_bytes((tmp_path / "p.csv").read_bytes())
     for folder in (tmp_path, tmp_path / "far"):

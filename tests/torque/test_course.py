@@ -2,8 +2,6 @@
 step-by-step integration of the equation of motion.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise, product
 
 import numpy as np

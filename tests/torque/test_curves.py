@@ -1,7 +1,5 @@
 """What gas does in one cylinder, over the crank angle."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from balcli import Curves, curves, load

@@ -1,7 +1,5 @@
 """Loads of pins and bearings: virtual work, statics, and one cylinder by hand."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

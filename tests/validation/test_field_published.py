@@ -4,27 +4,15 @@ E01: Bruel & Kjaer Application Note 17-227, example 6. E02: Goodman, J. Eng. Ind
 E03: Feese and Grazier, Balance This!, 33rd Turbomachinery Symposium 2004. E08: ISO 21940-11.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
+from support.rotors import three_runs
 
 from balcli.core.records import angle_deg
 from balcli.core.unbalance import find_permitted_unbalance
 from balcli.field.answer import find_corrections
 from balcli.field.read import parse_runs
 
-EXAMPLE_6 = """
-planes = ["front", "rear"]
-[[run]]
-readings = ["170 @ 112", "53 @ 78"]
-[[run]]
-weights = { front = "1.15 @ 0" }
-readings = ["235 @ 94", "58 @ 68"]
-[[run]]
-weights = { rear = "1.15 @ 0" }
-readings = ["185 @ 115", "77 @ 104"]
-"""
 GOODMAN = """
 planes = ["1", "2"]
 influence = [["3 @ 0", "2 @ 180"], ["5 @ 0", "2 @ 180"], ["5 @ 0", "3 @ 180"]]
@@ -51,7 +39,7 @@ def weights(text: str):
 
 def test_bruel_kjaer_example_6():
     """Printed by another program: 1.979 at 236.2, 1.071 at 121.8."""
-    (front, rear), result = weights(EXAMPLE_6), find_corrections(parse_runs(EXAMPLE_6))
+    (front, rear), result = weights(three_runs()), find_corrections(parse_runs(three_runs()))
     assert front == pytest.approx((1.979467642, 236.1703733), rel=1e-9)
     assert rear == pytest.approx((1.070509308, 121.8438999), rel=1e-9)
     assert np.abs(result.influence) == pytest.approx(
@@ -62,7 +50,7 @@ def test_bruel_kjaer_example_6():
 
 def test_the_notes_own_answer_belongs_to_another_reading():
     """1.96 at -122 and 1.06 at 121 follow from 189, not 185, in the third run."""
-    front, rear = weights(EXAMPLE_6.replace("185 @ 115", "189 @ 115"))
+    front, rear = weights(three_runs().replace("185 @ 115", "189 @ 115"))
     assert front == pytest.approx((1.956, 237.4), rel=5e-4)
     assert rear == pytest.approx((1.073, 121.1), rel=5e-4)
 
@@ -80,6 +68,7 @@ def test_goodman_smallest_largest():
     result = find_corrections(parse_runs(GOODMAN), "max")
     assert [p.weight for p in result.corrections] == pytest.approx([1, 1.8], abs=1e-7)
     assert (result.largest, result.bound) == pytest.approx((0.4, 0.4), rel=1e-7)
+    assert np.abs(result.residual) == pytest.approx([0.4] * 3, rel=1e-7)
 
 
 def test_fan_whose_first_trial_weight_stays_in():

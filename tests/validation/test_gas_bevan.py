@@ -2,8 +2,6 @@
 pounds, feet and inches as printed.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support import two_term

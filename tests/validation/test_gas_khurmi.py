@@ -5,8 +5,6 @@ Printed figures with their digits. The book takes the two-term acceleration; wha
 beside it where it differs.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support import two_term

@@ -2,8 +2,6 @@
 Textbook Companions. Ideal cycles: nothing is lost while the valves are open.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.pistons import slider_crank_piston

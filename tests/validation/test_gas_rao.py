@@ -4,8 +4,6 @@ No printed answer was seen; the figures are those of the 24 points by themselves
 steps, joined by straight lines, has them times (sin x/x)^2, x = pi n/24.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -6,8 +6,6 @@ solution takes the work of a whole cycle for the fluctuation of energy, which is
 large. 430 and 440 deg break the table's symmetry about 360 deg (190 and 324 expected).
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

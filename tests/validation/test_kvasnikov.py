@@ -3,8 +3,6 @@
 Ratios of the orders, and which orders remain in radial, V and in-line engines.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 import numpy as np
@@ -52,9 +50,7 @@ def test_tables_i_and_ii_agree_with_the_series(coefficients, terms, orders):
 
 
 def radial_orders(cylinders, highest=20):
-    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over
-    the axes g.
-    """
+    """Orders n that a radial of equal cylinders on one crank leaves: sum of e^{i(1 -+ n) g} over the axes g."""
     axes = np.arange(cylinders) * 360 / cylinders
     return [
         n
@@ -70,42 +66,21 @@ def test_orders_left_in_radial_engines():
     assert radial_orders(6) == [1]
 
 
-def layout(name):
+@pytest.mark.parametrize(
+    ("name", "sizes"),
+    [  # (81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each i/2, i = 7 only 6
+        ("radial5", {"F1_major": 5 / 2, "F1_minor": 5 / 2, "F2_major": 0, "F4_major": 5 / 2, "F6_major": 5 / 2}),
+        ("radial7", {"F4_major": 0, "F6_major": 7 / 2}),
+        ("vtwin90", {"F1_major": 1, "F1_minor": 1, "F2_major": sqrt(2), "F2_minor": 0}),  # a circle, then a line
+        # (84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours, sixes repeat cranks
+        ("i3", {"F2_major": 0, "F6_major": 3, "M1_major": sqrt(3)}),
+        ("i4", {"F2_major": 4}),
+        ("i6", {"F4_major": 0, "F6_major": 6}),
+        ("v8_crossplane", {"M1_major": sqrt(10), "M1_minor": sqrt(10)}),
+        ("v8_flatplane", {"F2_major": 4 * sqrt(2)}),
+    ],
+)
+def test_layouts(name, sizes):
     table = recompute("layouts")
-    return next(dict(zip(table.columns, row, strict=True)) for row in table.exact if row[0] == name)
-
-
-def test_radial_engines():
-    """(81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each
-    i/2, i = 7 only 6.
-    """
-    five, seven = layout("radial5"), layout("radial7")
-    assert five["F1_major"] == five["F1_minor"] == pytest.approx(5 / 2, rel=1e-14)
-    assert (five["F2_major"], five["F4_major"], five["F6_major"]) == pytest.approx((0, 5 / 2, 5 / 2), abs=1e-12)
-    assert (seven["F4_major"], seven["F6_major"]) == pytest.approx((0, 7 / 2), abs=1e-12)
-
-
-def test_v_pair_of_90_degrees():
-    """First order a circle, second order sqrt2 A_2 along one line."""
-    pair = layout("vtwin90")
-    assert (pair["F1_major"], pair["F1_minor"]) == pytest.approx((1, 1), rel=1e-14)
-    assert (pair["F2_major"], pair["F2_minor"]) == pytest.approx((sqrt(2), 0), abs=1e-14)
-
-
-def test_in_line_engines():
-    """(84), (85): with even crank spacing the lowest order is i (i even) or 2 i (i odd); fours,
-    sixes repeat cranks.
-    """
-    assert (layout("i3")["F2_major"], layout("i3")["F6_major"]) == pytest.approx((0, 3), abs=1e-12)
-    assert layout("i4")["F2_major"] == pytest.approx(4, rel=1e-14)
-    assert (layout("i6")["F4_major"], layout("i6")["F6_major"]) == pytest.approx((0, 6), abs=1e-12)
-
-
-def test_textbook_moments():
-    """sqrt3 F1 a: in-line three; sqrt10 F1 a: cross-plane V8; 4 sqrt2 F2: flat-plane V8 of 90
-    degrees.
-    """
-    assert layout("i3")["M1_major"] == pytest.approx(sqrt(3), rel=1e-14)
-    cross = layout("v8_crossplane")
-    assert cross["M1_major"] == cross["M1_minor"] == pytest.approx(sqrt(10), rel=1e-14)
-    assert layout("v8_flatplane")["F2_major"] == pytest.approx(4 * sqrt(2), rel=1e-14)
+    found = next(dict(zip(table.columns, row, strict=True)) for row in table.exact if row[0] == name)
+    assert {key: found[key] for key in sizes} == pytest.approx(sizes, rel=1e-14, abs=1e-14)

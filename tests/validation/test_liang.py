@@ -4,8 +4,6 @@ examples.
 p = r/l; weights in lb, lengths in in, g = 32.174 ft/s^2.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
 import numpy as np
@@ -27,9 +25,7 @@ def answers():
 
 
 def test_small_coefficients_at_p_0_3():
-    """a_6 = 0.00019 (0.000190081 in two terms, 0.000191937 in all), a_8 = -4.27e-6 in one term,
-    -5.027e-6 in all.
-    """
+    """a_6 = 0.00019 (0.000190081 in two terms, 0.000191937 in all), a_8 = -4.27e-6 in one term, -5.027e-6 in all."""
     a6, a8 = closed_form.piston([6, 8], 0.3)
     assert float(a6) == pytest.approx(1.91937e-4, rel=1e-5)
     assert float(a8) == pytest.approx(-5.0272e-6, rel=1e-5)
@@ -38,9 +34,7 @@ def test_small_coefficients_at_p_0_3():
 
 
 def test_example_2():
-    """Triangular rod: hk = 2/9, q^2 = 1/18; the residual couple has the factor 1/sqrt(1 - p^2)
-    (print: 1.036).
-    """
+    """Triangular rod: hk = 2/9, q^2 = 1/18; the residual couple has the factor 1/sqrt(1 - p^2) (print: 1.036)."""
     factor = 1 / sqrt(1 - P**2)
     couple = 2.75 / G * (1 / 6) * (7 / 12) * (2 / 12) * OMEGA**2 * factor
     assert answers()[3:8] == pytest.approx([2 / 9, 1 / 18, 1 / 6, factor, couple], rel=1e-12)

@@ -5,16 +5,13 @@ K = 4 lambda m r omega^2, gamma the bank angle, alpha the crank angle; forces of
 Z_x = (cos 3g/2 - cos g/2) sin 2a, Z_y = (cos 3g/2 + cos g/2) cos 2a for K = 1.
 """
 
-from __future__ import annotations
-
 from math import atan, cos, degrees, pi, radians, sqrt
 
 import numpy as np
 import pytest
+from support.engines import build_text
 
 from balcli.books.answer import tables as recompute
-from balcli.engine.build import build
-from balcli.engine.parse import parse
 from balcli.forces.spectrum import compute_spectra
 
 GAMMA = np.radians(np.arange(0.0, 180.0, 0.01))
@@ -29,17 +26,9 @@ def z_y(gamma):
 
 
 def flat_plane(gamma):
-    return build(
-        parse(
-            f"""
-        crank = {{ stroke = 80, throws = [0, 180, 180, 0], spacing = 100 }}
-        rod = {{ ratio = 0.28 }}
-        piston = {{ mass = 0.5 }}
-        layout = {{ bank_angle = {gamma} }}
-        operation = {{ speed = 6000 }}
-    """,
-            "flat-plane V8",
-        )
+    return build_text(
+        "crank = { stroke = 80, throws = [0, 180, 180, 0], spacing = 100 }\nrod.ratio = 0.28\npiston.mass = 0.5\n"
+        f"layout.bank_angle = {gamma}\noperation.speed = 6000\n"
     )
 
 
@@ -55,14 +44,9 @@ def vectors(gamma):
 
 @pytest.mark.parametrize("gamma", [0, 30, 60, 90, 120, 150, 180])
 def test_the_second_order_is_two_vectors(gamma):
-    """(1.5): cos(gamma/2) turning with the crank, cos(3 gamma/2) against it."""
+    """(1.5): cos(gamma/2) turning with the crank, cos(3 gamma/2) against it: at 60 degrees sqrt3/2 and none (3.1)."""
     expected = abs(cos(radians(gamma / 2))), abs(cos(radians(1.5 * gamma)))
     assert vectors(gamma) == pytest.approx(expected, abs=1e-14)
-
-
-def test_at_60_degrees_one_vector_vanishes_and_2_sqrt3_remains():
-    """(3.1): F1 = 2 sqrt3 lambda m r omega^2 = K sqrt3/2."""
-    assert vectors(60) == pytest.approx((sqrt(3) / 2, 0), abs=1e-14)
 
 
 def test_largest_slider_force_across():
@@ -74,31 +58,15 @@ def test_largest_slider_force_across():
 
 
 def test_relative_extreme_of_the_slider_force_along():
-    """6.2: -4/(3 sqrt6) = -0.544 at gamma = 2 arctan sqrt5 = 131.8103 degrees; the largest is 2, at
-    gamma = 0.
-    """
+    """6.2: -4/(3 sqrt6) = -0.544 at gamma = 2 arctan sqrt5 = 131.8103 degrees; the largest is 2, at gamma = 0."""
     assert round(degrees(2 * atan(sqrt(5))), 4) == 131.8103
     assert z_y(2 * atan(sqrt(5))) == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-14)
     assert z_y(GAMMA).min() == pytest.approx(-4 / (3 * sqrt(6)), rel=1e-7)
     assert np.abs(z_y(GAMMA)).max() == z_y(0.0) == 2
 
 
-def test_second_derivatives_at_the_extreme():
-    """12/(3 sqrt3) by gamma, 32/(3 sqrt3) by alpha; their product is 128/9 (print: 22, 16, and the
-    right product).
-    """
-    g, h = 2 * atan(sqrt(2)), 1e-4
-    by_gamma = (z_x(g + h) - 2 * z_x(g) + z_x(g - h)) / h**2
-    assert by_gamma == pytest.approx(12 / (3 * sqrt(3)), rel=1e-6)
-    by_alpha = -4 * z_x(g)  # of sin 2 alpha at 45 degrees
-    assert by_alpha == pytest.approx(32 / (3 * sqrt(3)), rel=1e-14)
-    assert 12 / (3 * sqrt(3)) * 32 / (3 * sqrt(3)) == pytest.approx(128 / 9, rel=1e-14)
-
-
 def test_paths_of_the_two_shafts():
-    """Section 4: from gamma = 0 to 180 degrees one travels 3b, the other b; they meet at 90 and 180
-    degrees.
-    """
+    """Section 4: from gamma = 0 to 180 degrees one travels 3b, the other b; they meet at 90 and 180 degrees."""
     travelled = np.abs(np.diff(np.cos(1.5 * np.linspace(0, pi, 30001)))).sum()
     assert travelled == pytest.approx(3, rel=1e-7)
     table = recompute("liu-1")

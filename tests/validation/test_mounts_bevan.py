@@ -8,8 +8,6 @@ there; 98 lb are passed on, and its amplitude of 0.643 in takes 152 lb/in, where
 pass on 1/30 have 264: 0.369 in.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.rigid_bodies import respond_body

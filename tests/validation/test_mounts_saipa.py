@@ -5,20 +5,10 @@ Its crankshaft lies along y; the hydraulic part of mount 1 adds 1e5 N/m along it
 stored figures are right.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from balcli.mounts.rigid_body import (
-    Body,
-    Mounts,
-    find_body_modes,
-    roll_axis,
-    share_energy,
-    stiffness_matrix,
-    turn_axes,
-)
+from balcli.mounts.rigid_body import Body, Mounts, find_body_modes, roll_axis, share_energy, stiffness_matrix, turn_axes
 
 BODY = Body(163.9, np.zeros(3), np.array([[9.91, -0.813, -0.472], [-0.813, 4.12, 1.34], [-0.472, 1.34, 9.09]]))
 NONE = np.zeros((3, 3))

@@ -3,8 +3,6 @@ about the upright axis are alone, the rest are two pairs (Den Hartog, Mechanical
 and Crede, Shock and Vibration Handbook).
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -4,8 +4,6 @@ Of every one the printed form, the right form and a reference are computed: the 
 agree with the reference, and the printed one must not.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -316,11 +314,7 @@ def product():
 def moment():
     along, across, z = 3.0, 5.0, 2.0  # force of a cylinder at gamma, its place
     force = (along + E * across) * exp(E * G)
-    return (
-        along * z * cos(G) + across * z * sin(G),
-        along * z * sin(G) + across * z * cos(G),
-        force.imag * z,
-    )
+    return (along * z * cos(G) + across * z * sin(G), along * z * sin(G) + across * z * cos(G), force.imag * z)
 
 
 @check("kvasnikov, after (62)")

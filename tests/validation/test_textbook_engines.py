@@ -7,8 +7,6 @@ F1 = m r w^2 and of F_n = A_n F1, moments of these times the distance a of neigh
 about the middle of the crank.
 """
 
-from __future__ import annotations
-
 from cmath import exp
 from math import cos, pi, radians, sin, sqrt
 from typing import Any
@@ -45,9 +43,7 @@ def of(throws: list[float], **layout: Any) -> Spectra:
 
 
 def units(found: Spectra, quantity: str, order: int, part: str) -> float:
-    """A size in multiples of F_n (or F_n a) of one cylinder; odd orders above 1, which no piston
-    has, of F1.
-    """
+    """A size in multiples of F_n (or F_n a) of one cylinder; odd orders above 1, which no piston has, of F1."""
     phasors = getattr(found, quantity)
     one = F1 * abs(A[order] or 1.0) * (ARM if quantity == "moment" else 1)
     k = list(ORDERS).index(order)
@@ -106,9 +102,7 @@ def test_moments_in_line(name, first, second):
 
 @pytest.mark.parametrize(("order", "printed"), [(1, 0.449), (2, 4.980)])
 def test_moments_of_the_five(order, printed):
-    """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them
-    exact.
-    """
+    """Firing 1-2-4-5-3; the printed figures are those of every book, |sum z e^(i n phi)| makes them exact."""
     exact = abs(sum(z * exp(1j * order * radians(phi)) for z, phi in zip(range(-2, 3), INLINE["five"], strict=True)))
     assert exact == pytest.approx(printed, abs=5e-4)
     assert units(of(INLINE["five"]), "moment", order, "major") == pytest.approx(exact, rel=RELATIVE)
@@ -124,9 +118,7 @@ def test_in_line_moments_turn_half_with_and_half_against_the_crank():
 
 # ------------------------------------------------------------------ vees
 def test_90_degree_v_twin():
-    """First order: a vector of F1 turning with the crank, which a counterweight balances; second:
-    sqrt 2 F2, across.
-    """
+    """First order: a vector of F1 turning with the crank, which a counterweight balances; second: sqrt 2 F2, across."""
     found = of([0], bank_angle=90)
     assert units(found, "force", 1, "forward") == pytest.approx(1, rel=RELATIVE)
     assert found.force.backward[0] == 0
@@ -137,9 +129,7 @@ def test_90_degree_v_twin():
 
 @pytest.mark.parametrize("gamma", [15, 45, 60, 75.5, 120, 170])
 def test_v_twins_of_any_angle(gamma):
-    """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2
-    sin(g/2) sin g F2.
-    """
+    """Along the bisector 2 cos^2(g/2) F1 and 2 cos(g/2) cos g F2, across it 2 sin^2(g/2) F1 and 2 sin(g/2) sin g F2."""
     found, half = of([0], bank_angle=gamma), radians(gamma / 2)
     along, across = abs(found.force.x) / F1, abs(found.force.y) / F1
     assert along[:2] == pytest.approx([2 * cos(half) ** 2, A[2] * abs(2 * cos(half) * cos(2 * half))], rel=RELATIVE)
@@ -147,9 +137,7 @@ def test_v_twins_of_any_angle(gamma):
 
 
 def test_cross_plane_v8():
-    """sqrt 10 F1 a turning with the crank, no second order; the eighth is small, but there: 4 sqrt
-    2 F8.
-    """
+    """sqrt 10 F1 a turning with the crank, no second order; the eighth is small, but there: 4 sqrt 2 F8."""
     found = of([0, 90, 270, 180], bank_angle=90)
     assert free(found, "force") == [4, 8, 12]
     assert units(found, "moment", 1, "forward") == pytest.approx(sqrt(10), rel=RELATIVE)
@@ -196,9 +184,7 @@ def test_v6_of_60_degrees_on_six_pins():
 
 @pytest.mark.parametrize("splay", [0, -30])
 def test_v6_of_90_degrees(splay):
-    """sqrt 3 F1 a turning with the crank; with pins split by s cos(s/2) of it, and sin(s/2) against
-    the crank.
-    """
+    """sqrt 3 F1 a turning with the crank; with pins split by s cos(s/2) of it, and sin(s/2) against the crank."""
     found = v6(90, splay)
     assert {1, 2, 3, 4, 5} & set(free(found, "force")) == set()
     half = radians(abs(splay) / 2)
@@ -206,48 +192,29 @@ def test_v6_of_90_degrees(splay):
     assert units(found, "moment", 1, "backward") == pytest.approx(sqrt(3) * sin(half), rel=RELATIVE)
 
 
-# ------------------------------------------------------------------ boxers: opposed pistons on pins
-# of their own
-BOXER = {"banks": [-90, 90], "rods": "alternating"}
-
-
-def boxer(pins: list[float]) -> Spectra:
-    """Pins at half the spacing of a bank's cylinders: the textbook's a is the distance of
-    neighbouring pins.
+# ------------------------------------------------------------------ boxers: opposed pistons on pins of their own
+@pytest.mark.parametrize(
+    ("pins", "first", "second"),
+    [([0, 180], 1, 1), ([0, 180, 180, 0], 0, 2), ([0, 180, 120, 300, 240, 60], 0, 0)],
+    ids=["twin", "four", "six"],
+)
+def test_boxers(pins, first, second):
+    """No forces, and moments F1 a and F2 a about x. Pins stand at half the spacing of a bank's cylinders: the
+    textbook's a is the distance of neighbouring pins.
     """
-    return of(pins, **BOXER)
-
-
-def test_boxer_twin():
-    """Pistons in and out together: no forces, and moments F1 a and F2 a about x."""
-    found = boxer([0, 180])
+    found = of(pins, banks=[-90, 90], rods="alternating")
     assert free(found, "force") == []
-    assert units(found, "moment", 1, "major") == pytest.approx(1, rel=RELATIVE)
-    assert units(found, "moment", 2, "major") == pytest.approx(1, rel=RELATIVE)
-    assert found.moment.axis_deg[:2] == pytest.approx([0, 0])
-
-
-def test_boxer_four():
-    """Crank 0-180-180-0: no forces, no first-order moment, 2 F2 a of second order."""
-    found = boxer([0, 180, 180, 0])
-    assert free(found, "force") == []
-    assert 1 not in free(found, "moment")
-    assert units(found, "moment", 2, "major") == pytest.approx(2, rel=RELATIVE)
-
-
-def test_boxer_six():
-    """Three pairs at 120 degrees: no forces, no moments of first and second order."""
-    found = boxer([0, 180, 120, 300, 240, 60])
-    assert free(found, "force") == []
-    assert {1, 2} & set(free(found, "moment")) == set()
+    for order, factor in ((1, first), (2, second)):
+        assert (order in free(found, "moment")) is (factor != 0)
+        assert units(found, "moment", order, "major") == pytest.approx(factor, rel=RELATIVE)
+    if len(pins) == 2:
+        assert found.moment.axis_deg[:2] == pytest.approx([0, 0])
 
 
 # ------------------------------------------------------------------ radials
 @pytest.mark.parametrize("count", [3, 5, 7, 9])
 def test_radials_on_one_pin(count):
-    """m cylinders, equal rods: m/2 F_n with the crank if n = i m + 1, against it if n = i m - 1; no
-    other order.
-    """
+    """m cylinders, equal rods: m/2 F_n with the crank if n = i m + 1, against it if n = i m - 1; no other order."""
     found = of([0], radial=count)
     forward = {n for n in ORDERS if A[n] and n % count == 1}
     backward = {n for n in ORDERS if A[n] and (n + 1) % count == 0}

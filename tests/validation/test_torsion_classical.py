@@ -1,7 +1,5 @@
 """Chains whose frequencies have a closed form, and textbook examples of a single one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

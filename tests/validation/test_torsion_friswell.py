@@ -3,8 +3,6 @@ openTorsion (Aalto-Arotor/openTorsion, opentorsion/tests/tests.py): natural freq
 printed, beside those recomputed to ten figures.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases
@@ -19,36 +17,31 @@ def shaft_stiffness(length, diameter, shear_modulus=68e9):
     return shear_modulus * np.pi * diameter**4 / 32 / length
 
 
-TWO_DISCS = join_chain([211.4, 8.3], [ChainShaft(0, 1, 9.775e6)])
-THREE_CYLINDERS = join_chain(
-    [0.0035, 0.0035, 0.0035, 0.15, 0.05],
-    [ChainShaft(0, 1, 12e3), ChainShaft(1, 2, 12e3), ChainShaft(2, 3, 14e3), ChainShaft(3, 4, 10e3)],
-)
-PAIR_OF_GEARS = join_chain(
-    [0.0004, 2.5e-5, 2.5e-5, 0.0007, 0.0007],
-    [ChainShaft(0, 1, 10e3), ChainShaft(1, 2, INF, -1), ChainShaft(2, 3, 5e3), ChainShaft(1, 4, 5e3)],
-)
-BRANCHES = join_chain(
-    [3200, 200, 200, 800, 800, 450, 450],
-    [
-        ChainShaft(0, 1, shaft_stiffness(2.5, 0.2)),
-        ChainShaft(1, 2, INF, -1),
-        ChainShaft(1, 3, INF, -0.5 / 0.8),
-        ChainShaft(2, 4, INF, -0.5 / 0.8),
-        ChainShaft(3, 5, shaft_stiffness(3.5, 0.25)),
-        ChainShaft(4, 6, shaft_stiffness(3.5, 0.25)),
-    ],
-)
+CHAINS = {
+    "TWO_DISCS": join_chain([211.4, 8.3], [ChainShaft(0, 1, 9.775e6)]),
+    "THREE_CYLINDERS": join_chain(
+        [0.0035, 0.0035, 0.0035, 0.15, 0.05],
+        [ChainShaft(0, 1, 12e3), ChainShaft(1, 2, 12e3), ChainShaft(2, 3, 14e3), ChainShaft(3, 4, 10e3)],
+    ),
+    "PAIR_OF_GEARS": join_chain(
+        [0.0004, 2.5e-5, 2.5e-5, 0.0007, 0.0007],
+        [ChainShaft(0, 1, 10e3), ChainShaft(1, 2, INF, -1), ChainShaft(2, 3, 5e3), ChainShaft(1, 4, 5e3)],
+    ),
+    "BRANCHES": join_chain(
+        [3200, 200, 200, 800, 800, 450, 450],
+        [
+            ChainShaft(0, 1, shaft_stiffness(2.5, 0.2)),
+            ChainShaft(1, 2, INF, -1),
+            ChainShaft(1, 3, INF, -0.5 / 0.8),
+            ChainShaft(2, 4, INF, -0.5 / 0.8),
+            ChainShaft(3, 5, shaft_stiffness(3.5, 0.25)),
+            ChainShaft(4, 6, shaft_stiffness(3.5, 0.25)),
+        ],
+    ),
+}
 
 
-@cases(
-    "validation/torsion_friswell",
-    "natural_frequencies",
-    BRANCHES=BRANCHES,
-    PAIR_OF_GEARS=PAIR_OF_GEARS,
-    THREE_CYLINDERS=THREE_CYLINDERS,
-    TWO_DISCS=TWO_DISCS,
-)
+@cases("validation/torsion_friswell", "natural_frequencies", **CHAINS)
 def test_natural_frequencies(chain, printed, places, recomputed):
     hertz = find_chain_modes(chain).omega / (2 * np.pi)
     assert hertz[0] == 0

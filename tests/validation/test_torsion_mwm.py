@@ -6,11 +6,10 @@ Proc. IMechE K 222 (2008), doi 10.1243/14644193JMBD126, Fig. 4, as digitised for
 example, run with openTorsion 0.3.2.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import balance_power
+from support.diesel import DIAGRAM, INERTIAS, NATURAL_HZ, STIFFNESSES
 from support.paths import ROOT
 
 from balcli.core.peaks import find_swing, sum_amplitudes
@@ -21,107 +20,20 @@ from balcli.torsion.motion import respond_chain
 
 DOCUMENT = ROOT / "docs" / "torsion.md"
 LOSS = 0.035
-STIFFNESS = np.array([1.106e6, 1.631e6, 1.253e6, 1.253e6, 1.678e6, 1.253e6, 1.253e6, 1.976e6])
-CHAIN = join_chain(
-    [0.017, 0.009, 0.0467, 0.0327, 0.0467, 0.0467, 0.0327, 0.0487, 2.075],
-    [ChainShaft(i, i + 1, k) for i, k in enumerate(STIFFNESS)],
-)
+CHAIN = join_chain(INERTIAS, [ChainShaft(i, i + 1, k) for i, k in enumerate(STIFFNESSES)])
 DAMPING = Damping(np.full(8, LOSS), np.zeros(8), np.array([0, 0, 2, 2, 2, 2, 2, 2, 0.0]))
 BORE, RADIUS, ROD, RECIPROCATING = 0.105, 0.137 / 2, 0.207, 2.521
 TURNS_AT_FIRING = np.array([0, 4, 2, 5, 1, 3]) / 3  # of cylinders 1 to 6: order 1 5 3 6 2 4
 
-PRESSURE = """
-    0 0.266924565
-    28.0487805 0.266924565
-    50.6097561 0.282398453
-    71.3414634 0.266924565
-    94.5121951 0.266924565
-    112.195122 0.266924565
-    135.97561 0.282398453
-    160.365854 0.282398453
-    179.878049 0.282398453
-    208.536585 0.313346228
-    234.146341 0.359767892
-    248.170732 0.406189555
-    262.804878 0.499032882
-    276.829268 0.638297872
-    292.073171 0.916827853
-    301.219512 1.28820116
-    309.146341 1.56673114
-    314.634146 1.92263056
-    318.292683 2.29400387
-    322.560976 2.85106383
-    325.609756 3.3926499
-    328.658537 3.93423598
-    332.317073 4.50676983
-    336.585366 5.40425532
-    337.804878 6.27079304
-    340.853659 6.96711799
-    343.902439 8.12765957
-    345.731707 9.14893617
-    348.170732 10.1856867
-    350.609756 10.9748549
-    357.317073 12.2591876
-    359.146341 13.1411992
-    360.97561 13.7756286
-    362.804878 14.3017408
-    364.634146 14.7814313
-    367.682927 15.1992263
-    371.341463 14.6576402
-    373.780488 14.1779497
-    375 13.7446809
-    376.829268 13.1102515
-    378.658537 12.615087
-    379.878049 12.0270793
-    382.926829 11.3617021
-    384.756098 10.7272727
-    386.585366 10.2011605
-    388.414634 9.13346228
-    390.243902 8.68471954
-    391.463415 8.25145068
-    393.902439 7.74081238
-    395.731707 7.15280464
-    397.560976 6.47195358
-    400.609756 6.0696325
-    403.04878 5.51257253
-    408.536585 5.00193424
-    410.365854 4.32108317
-    415.853659 3.73307544
-    420.731707 3.12959381
-    428.04878 2.72727273
-    437.804878 2.13926499
-    451.219512 1.75241779
-    465.853659 1.41199226
-    481.707317 1.16441006
-    501.829268 0.994197292
-    524.390244 0.854932302
-    543.292683 0.700193424
-    557.926829 0.529980658
-    582.317073 0.406189555
-    603.04878 0.328820116
-    635.97561 0.29787234
-    669.512195 0.266924565
-    698.170732 0.251450677
-    720 0.251450677
-"""  # crank angle (deg), pressure (MPa) of a diagram with a peak of 15.2
-PEAK = """
-    997.846881 14.27833
-    1097.21795 14.27833
-    1197.84938 14.2664016
-    1296.0051 14.0636183
-    1396.47399 14.8270378
-    1495.84506 14.8270378
-    1595.21612 14.8270378
-    1693.30182 14.9582505
-    1799.00221 14.7673956
-    1898.37328 14.7673956
-    1998.9722 14.9105368
-    2097.08791 14.8986083
-    2197.66433 15.1491054
-    2298.64336 13.4791252
-    2398.36453 11.8091451
-    2550.55078 5.88071571
-"""  # speed (rpm), peak pressure (MPa)
+PRESSURE = [*np.transpose(DIAGRAM) * [[25 / 41], [2 / 517]]]  # crank angle (deg), pressure (MPa), with a peak of 15.2
+# fmt: off
+PEAK = [  # speed (rpm), peak pressure (MPa)
+    (997.846881, 14.27833), (1097.21795, 14.27833), (1197.84938, 14.2664016), (1296.0051, 14.0636183),
+    (1396.47399, 14.8270378), (1495.84506, 14.8270378), (1595.21612, 14.8270378), (1693.30182, 14.9582505),
+    (1799.00221, 14.7673956), (1898.37328, 14.7673956), (1998.9722, 14.9105368), (2097.08791, 14.8986083),
+    (2197.66433, 15.1491054), (2298.64336, 13.4791252), (2398.36453, 11.8091451), (2550.55078, 5.88071571),
+]
+# fmt: on
 
 SUMS_OF_AMPLITUDES = {
     1000: [56.0, 85.3, 4106.4, 5302.5, 3790.0, 6244.4, 5925.2, 2825.9],
@@ -132,14 +44,10 @@ SUMS_OF_AMPLITUDES = {
 }
 
 
-def table(text):
-    return np.array([line.split() for line in text.split("\n") if line], float).T
-
-
 def torque(rpm, angle):
     """Of one cylinder, N m: gas and inertia force along the cylinder, the latter as a series."""
-    pressure = np.interp(np.degrees(angle), *table(PRESSURE)) / 15.2
-    pressure = pressure * np.interp(rpm, *table(PEAK)) * 1e6
+    pressure = np.interp(np.degrees(angle), *PRESSURE) / 15.2
+    pressure = pressure * np.interp(rpm, *np.transpose(PEAK)) * 1e6
     lam = RADIUS / ROD
     cosines = {1: 1, 2: lam, 4: -(lam**3) / 4, 6: 9 * lam**5 / 128}
     series = sum(a * np.cos(n * angle) for n, a in cosines.items())
@@ -167,10 +75,7 @@ def exact_loads(rpm):
 
 def test_natural_frequencies():
     modes = find_chain_modes(CHAIN)
-    assert modes.omega / (2 * np.pi) == pytest.approx(
-        [0, 216.5836052, 592.7404802, 984.922964, 1171.017408, 1415.995017, 1660.043912, 1794.38758, 2993.473563],
-        rel=1e-9,
-    )
+    assert modes.omega / (2 * np.pi) == pytest.approx([0, *NATURAL_HZ], rel=1e-9)
     assert [sum(map(len, locate_nodes(CHAIN, shape))) for shape in modes.shapes] == list(range(9))
 
 

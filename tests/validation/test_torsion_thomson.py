@@ -2,8 +2,6 @@
 table of three discs at two trial frequencies.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from balcli.core.vibration import scale_shapes

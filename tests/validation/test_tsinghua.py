@@ -5,8 +5,6 @@ Statements of the text in figures, each test named after what is stated; the tab
 in the package.
 """
 
-from __future__ import annotations
-
 from math import acos, degrees, pi, radians, sqrt
 
 import numpy as np
@@ -93,9 +91,7 @@ def test_at_the_fastest_point_crank_and_rod_stand_nearly_at_right_angles():
 
 @pytest.mark.parametrize("lam", [0.26, 0.28, 0.32])
 def test_extremes_of_the_two_term_acceleration(lam):
-    """1 + lambda at 0, -(1 - lambda) at 180 degrees, lambda > 1/4: -(lambda + 1/(8 lambda)) at
-    arccos(-1/4 lambda).
-    """
+    """1 + lambda at 0, -(1 - lambda) at 180 degrees, lambda > 1/4: -(lambda + 1/(8 lambda)) at arccos(-1/4 lambda)."""
     lowest = -(lam + 1 / (8 * lam))
     assert float(two_term.acceleration(0, lam)) == 1 + lam
     assert float(two_term.acceleration(pi, lam)) == pytest.approx(-(1 - lam), rel=1e-14)

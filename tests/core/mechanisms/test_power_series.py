@@ -1,8 +1,4 @@
-"""The generated series: against the closed forms they expand, and in coefficients that are easily
-found by hand.
-"""
-
-from __future__ import annotations
+"""The generated series: against the closed forms they expand, and in coefficients that are easily found by hand."""
 
 from fractions import Fraction
 from math import cos, radians, sin
@@ -51,9 +47,7 @@ def test_piston_orders_at_top_dead_centre_add_up_to_1_plus_lambda():
 
 
 def test_leading_terms():
-    """The leading term of A_2m is (2m)^2 (-1)^(m+1) binom(2m, m) / ((2m - 1) 2^(4m - 1)) lambda^(2m
-    - 1).
-    """
+    """The leading term of A_2m is (2m)^2 (-1)^(m+1) binom(2m, m) / ((2m - 1) 2^(4m - 1)) lambda^(2m - 1)."""
     from math import comb
 
     for m in range(1, 9):

@@ -1,8 +1,4 @@
-"""As many samples as each mechanism needs: no fewer than its bound of errors allows, whatever
-stands beside it.
-"""
-
-from __future__ import annotations
+"""As many samples as each mechanism needs: no fewer than its bound of errors allows, whatever stands beside it."""
 
 from functools import cache
 
@@ -19,9 +15,7 @@ HIGHEST = 40  # order
 
 
 def random_rods(count: int = 400) -> list[np.ndarray]:
-    """Articulated rods up to near their lock: lambda, offset, knuckle, lead, and the master's lambda
-    and offset.
-    """
+    """Articulated rods up to near their lock: lambda, offset, knuckle, lead, and the master's lambda and offset."""
     rng = np.random.default_rng(5)
     lam, master = rng.uniform(0.05, 0.6, count), rng.uniform(0.1, 0.5, count)
     offset, offset_of_master = rng.uniform(-0.1, 0.1, (2, count))
