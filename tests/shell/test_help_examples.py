@@ -12,7 +12,7 @@ from balcli.cli import COMMANDS
 from balcli.file.examples import template
 
 FILES = {
-    **{f"{name}.toml": f"{name}.toml" for name in ("i4", "v8_wiebe", "i4_mounts", "i6_diesel")},
+    **{f"{name}.toml": f"{name}.toml" for name in ("i4", "vr6", "v8_wiebe", "i4_mounts", "i6_diesel")},
     "v8.toml": "v8_crossplane.toml",
     "twin.toml": "vtwin90.toml",
     "s50.toml": "marine/marine6.toml",

@@ -4,8 +4,6 @@ there is an error that says why.
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
 from hypothesis import example, given, strategies as st
@@ -130,14 +128,11 @@ def test_planes_next_to_each_other(apart):
 
 
 @pytest.mark.parametrize("apart", [1e-9, 1e-6])
-def test_hopeless_planes_are_refused_with_their_condition_number(apart):
+def test_hopeless_planes_are_refused(apart):
     """A nanometre, or a micrometre: rounding alone would leave more than the promised 1e-12."""
     engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100"))
-    with pytest.raises(BalcliError) as caught:
+    with pytest.raises(BalcliError, match=r"work against each other .* choose planes farther apart"):
         size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart))
-    told = re.search(r"condition number ([0-9.e+]+)\)", str(caught.value))
-    assert told is not None
-    assert float(told[1]) == pytest.approx(0.2 / apart, rel=0.01)  # |1, 1| / (apart / 0.05 sqrt 2), times sqrt 2
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1, 1e6])

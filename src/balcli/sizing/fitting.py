@@ -168,8 +168,8 @@ def solve_exactly(
 ) -> Fit:
     """Return unbalances that cancel these parts completely, up to rounding.
 
-    Raises BalcliError with the given reason if these slots cannot make the parts, or with the
-    condition number if the slots are too similar.
+    Raises BalcliError with the given reason if these slots cannot make the parts, or if the slots
+    are too similar.
     """
     fit = size_unbalances(slots, residual, parts)
     weights = _weigh(slots, residual, parts)
