@@ -1,7 +1,5 @@
 """The bench's errors against mpmath, and the page that shows them."""
 
-from __future__ import annotations
-
 import mpmath
 import pytest
 from support.paths import DOCS

@@ -2,8 +2,6 @@
 every command is described.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

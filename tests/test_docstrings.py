@@ -1,7 +1,5 @@
 """What `help` says of the public functions: an example that runs, what goes in, what is wrong."""
 
-from __future__ import annotations
-
 import inspect
 import re
 import shutil

@@ -1,7 +1,5 @@
 """What is imported by name is there: public names, renderers, documents, tables and quantities of chapters."""
 
-from __future__ import annotations
-
 import pytest
 
 import balcli

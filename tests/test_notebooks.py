@@ -1,7 +1,5 @@
 """The notebooks in docs/: they run as they stand, and show what is shown in them."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -2,8 +2,6 @@
 promised; the package index, citations and hooks say what is so.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`balcli check`: what is recorded, what moved, and how it is named."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

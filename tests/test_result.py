@@ -1,7 +1,5 @@
 """What every answer can do: one idea, tried on all that there are."""
 
-from __future__ import annotations
-
 import json
 import re
 import sys

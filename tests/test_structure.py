@@ -1,7 +1,5 @@
 """Who imports whom, and how large the parts are."""
 
-from __future__ import annotations
-
 import ast
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Results can be kept, sent to other processes and copied: they come back equal."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 

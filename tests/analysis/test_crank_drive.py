@@ -1,7 +1,5 @@
 """Torque along the crankshaft against the sum of single cylinders; masses against a uniform rod."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The marine sheet against motion sampled over a revolution: no series, no phasor of ours."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

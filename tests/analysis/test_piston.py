@@ -1,7 +1,5 @@
 """Motion of pistons against the formula differentiated by Fourier; printed values of a textbook."""
 
-from __future__ import annotations
-
 import json
 import math
 

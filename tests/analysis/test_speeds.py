@@ -1,7 +1,5 @@
 """`analyze --speed` with several speeds."""
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -2,8 +2,6 @@
 mirroring curves gives.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

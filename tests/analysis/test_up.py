@@ -1,7 +1,5 @@
 """`frame.up`: results say vertical, horizontal, yawing and pitching with it, and never without."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.commands import ask, ask_csv, ask_json, run_here

@@ -1,7 +1,5 @@
 """The verdict: a sentence for each order, in words that need no key."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

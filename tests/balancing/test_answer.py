@@ -1,7 +1,5 @@
 """`balcli balance`: what it prints, what it refuses, and the workshop's figures."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

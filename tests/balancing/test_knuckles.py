@@ -1,7 +1,5 @@
 """Knuckle angles that make strokes or dead centres even."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`balance --grade --mass`: what ISO 21940-11 permits beside each counterweight."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 

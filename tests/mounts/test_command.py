@@ -1,7 +1,5 @@
 """`balcli mounts`: every format says the same figures; options, files to start from."""
 
-from __future__ import annotations
-
 import json
 import re
 

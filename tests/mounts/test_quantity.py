@@ -1,7 +1,5 @@
 """Figures of an engine on its mounts, over variants: each as if the file said so."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

@@ -1,7 +1,5 @@
 """Mistakes in [body], [[mount]] and [[point]]: all at once, by path, with what would be right."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.mounts import ENGINE, block

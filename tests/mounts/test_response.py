@@ -1,7 +1,5 @@
 """A body on its mounts, from file to result, against matrices, eigenvalues, loads and time steps of the tests' own."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from oracle import momentum

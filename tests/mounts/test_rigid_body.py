@@ -1,7 +1,5 @@
 """A rigid body on mounts: geometry, statics, modes and response against laws and 50 digits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support import high_precision

@@ -6,8 +6,6 @@ pressure of a Wiebe burn is the integral of `V^(n-1) dx` as it stands; the burn 
 so that exponents of whole and half numbers are smooth.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property

@@ -8,8 +8,6 @@ forces from differentiating momentum. The engine file is read by its own few lin
 about 1e-12 of the largest force for the lower orders.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib
@@ -96,7 +94,7 @@ class Engine:
     throws: list[float] = field(default_factory=list)
 
     @classmethod
-    def read(cls, source: str | Path) -> Engine:
+    def read(cls, source: str | Path) -> "Engine":
         text = source.read_text(encoding="utf-8") if isinstance(source, Path) else source
         return cls(_bare(tomllib.loads(text)))
 

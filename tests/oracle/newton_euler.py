@@ -3,8 +3,6 @@ and rod, on the grid of crank angles of `momentum`, whose places and derivatives
 rigid bodies with centre of mass and moment of inertia, and a linear system is solved at each angle.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

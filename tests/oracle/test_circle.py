@@ -2,8 +2,6 @@
 and its own bound.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from fractions import Fraction

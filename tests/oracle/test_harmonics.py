@@ -6,8 +6,6 @@ revolution of the textbook's own expressions, which converges geometrically for 
 function. At 0.3 the two are compared.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cache
 from math import comb

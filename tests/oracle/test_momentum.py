@@ -1,7 +1,5 @@
 """balcli against a momentum calculation on a grid that shares nothing with it (see momentum.py)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from oracle import momentum

@@ -1,7 +1,5 @@
 """The closed forms against mpmath with 50 digits, where every difference is taken as it stands."""
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

@@ -2,8 +2,6 @@
 files give the same engine again.
 """
 
-from __future__ import annotations
-
 import json
 import random
 import re

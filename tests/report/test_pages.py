@@ -2,8 +2,6 @@
 values where they belong.
 """
 
-from __future__ import annotations
-
 import re
 import warnings
 import xml.etree.ElementTree as ET

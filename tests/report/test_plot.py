@@ -2,8 +2,6 @@
 in matplotlib's settings.
 """
 
-from __future__ import annotations
-
 import matplotlib
 import pytest
 from support.rotors import three_runs

@@ -1,7 +1,5 @@
 """Several pages of `balcli plot` at once."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

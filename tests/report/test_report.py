@@ -1,7 +1,5 @@
 """The page: whole without a network, whatever an engine is called; and alive in a real browser."""
 
-from __future__ import annotations
-
 import json
 import re
 from functools import cache

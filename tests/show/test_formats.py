@@ -1,7 +1,5 @@
 """Every kind of result in every format, as its command shows it."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

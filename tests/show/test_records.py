@@ -1,7 +1,5 @@
 """Records: JSON, CSV and schema derive from the attributes of a dataclass."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import dataclass

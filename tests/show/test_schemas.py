@@ -1,7 +1,5 @@
 """JSON Schemas of results: what commands print keeps to them, and every key is described."""
 
-from __future__ import annotations
-
 import json
 from functools import lru_cache
 from pathlib import Path

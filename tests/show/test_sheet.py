@@ -1,7 +1,5 @@
 """Numbers for people: what two machines compute with other last digits reads the same."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 

@@ -2,8 +2,6 @@
 for letter.
 """
 
-from __future__ import annotations
-
 from io import StringIO
 
 from rich import box

@@ -1,7 +1,5 @@
 """The default remedy, its reasons, and what it does not depend on."""
 
-from __future__ import annotations
-
 import pytest
 from support.engines import build_text
 from support.remedies import fit_scheme, write_engine

@@ -2,8 +2,6 @@
 calculation on a grid.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
 

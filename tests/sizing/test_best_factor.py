@@ -1,7 +1,5 @@
 """Which balance factor is best, and for what: against peaks of engines with the weights of single factors."""
 
-from __future__ import annotations
-
 import pytest
 from support.commands import ask
 from support.engines import GOOD, build_text, changed

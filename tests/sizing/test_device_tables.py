@@ -1,7 +1,5 @@
 """New devices as tables of an engine file: plain angles and places, the file's units."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """What devices in their slots do, and the least squares that sizes them."""
 
-from __future__ import annotations
-
 import cmath
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Devices whose unbalance is "fit": least squares of what is left, in given places."""
 
-from __future__ import annotations
-
 import cmath
 import json
 import math

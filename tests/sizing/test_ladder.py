@@ -1,7 +1,5 @@
 """The ladder: figures of an independent calculation, and what is true of any engine."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """The smallest peak: reached where it is said, with a known error."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

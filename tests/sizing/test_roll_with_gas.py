@@ -1,7 +1,5 @@
 """What new devices leave of the roll of an engine with gas: inertia and gas together."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

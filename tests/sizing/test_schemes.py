@@ -1,7 +1,5 @@
 """The names of the schemes, and the functions behind them."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

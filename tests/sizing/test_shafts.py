@@ -1,7 +1,5 @@
 """One shaft with one eccentric or two, and shafts whose place is free."""
 
-from __future__ import annotations
-
 import pytest
 from support.cases import cases
 from support.commands import refusal, run_here

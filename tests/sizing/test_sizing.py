@@ -1,7 +1,5 @@
 """Every scheme: its devices, what it says of itself, and which options it takes."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

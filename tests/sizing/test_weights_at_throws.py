@@ -1,7 +1,5 @@
 """Counterweights at every throw, and the loads within the crankshaft before and after."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.commands import ask, ask_json

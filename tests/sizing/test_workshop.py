@@ -1,7 +1,5 @@
 """Practical figures of sized devices."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

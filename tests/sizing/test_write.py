@@ -1,7 +1,5 @@
 """Writing remedies: the original text stays, and what is read back is what was analysed."""
 
-from __future__ import annotations
-
 import pytest
 from support.engines import GOOD, SINGLE, build_text
 from support.paths import ENGINE_FILES

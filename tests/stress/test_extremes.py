@@ -4,8 +4,6 @@ momentum of every part.
 Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 """
 
-from __future__ import annotations
-
 import mpmath as mp
 import numpy as np
 import pytest

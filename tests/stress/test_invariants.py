@@ -8,8 +8,6 @@ cancel, and the bound of the rounding error that both sides state (a place 158 m
 to 1e-12 of a spacing of 4 um).
 """
 
-from __future__ import annotations
-
 import copy
 from typing import Any
 

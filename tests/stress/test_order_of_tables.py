@@ -1,7 +1,5 @@
 """Where the order of tables in a file has no meaning, neither has it an effect."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -2,8 +2,6 @@
 traceback, a warning of numpy or a figure that is no number.
 """
 
-from __future__ import annotations
-
 import json
 import warnings
 

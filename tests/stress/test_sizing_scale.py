@@ -2,8 +2,6 @@
 there is an error that says why.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import example, given, strategies as st

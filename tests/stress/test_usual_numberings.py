@@ -2,8 +2,6 @@
 angle, numbered in a usual way that the file does not name. Never another engine without a word.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from itertools import pairwise
 from typing import Any, NamedTuple

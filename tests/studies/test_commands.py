@@ -1,7 +1,5 @@
 """sweep, search, scatter, compare and bench as commands."""
 
-from __future__ import annotations
-
 import json
 import signal
 import subprocess

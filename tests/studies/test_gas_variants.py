@@ -1,7 +1,5 @@
 """Torque with gas over variants: as of each engine built by itself."""
 
-from __future__ import annotations
-
 import csv
 import json
 from io import StringIO

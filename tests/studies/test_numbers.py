@@ -1,7 +1,5 @@
 """`balcli numbers`: what can be varied and asked for is what `sweep` takes."""
 
-from __future__ import annotations
-
 import pytest
 from support.commands import ask_json, refusal, run_here
 from support.paths import ENGINES

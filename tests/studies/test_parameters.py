@@ -1,7 +1,5 @@
 """Numbers of an engine file by dotted names: found, read, replaced."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

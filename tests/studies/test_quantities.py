@@ -1,7 +1,5 @@
 """The table of quantities: what it names can be asked for, and nothing else."""
 
-from __future__ import annotations
-
 import csv
 from io import StringIO
 

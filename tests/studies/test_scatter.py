@@ -1,7 +1,5 @@
 """Scatter: random variants against exact derivatives and against engines written out."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Sweeps: variants as arrays are what each engine gives alone."""
 
-from __future__ import annotations
-
 import json
 import math
 from functools import partial

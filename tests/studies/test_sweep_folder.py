@@ -1,7 +1,5 @@
 """Sweeps written into folders: the same variants as in one file, whole blocks, nothing of others lost."""
 
-from __future__ import annotations
-
 import json
 import os
 from functools import partial

@@ -1,7 +1,5 @@
 """A headless Chromium driven over its DevTools pipe: no more is needed than the browser itself."""
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os

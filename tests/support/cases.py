@@ -2,8 +2,6 @@
 row for each case.
 """
 
-from __future__ import annotations
-
 import tomllib
 from functools import reduce
 from typing import Any

@@ -1,7 +1,5 @@
 """Random torsional chains, and what they do at 50 digits, from equations of every node."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import mpmath

@@ -1,7 +1,5 @@
 """Commands as users give them: in this process, or in processes of their own."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -2,8 +2,6 @@
 Zampieri 2008, doi 10.1243/14644193JMBD126, as set in the examples of openTorsion).
 """
 
-from __future__ import annotations
-
 INERTIAS = (0.017, 0.009, 0.0467, 0.0327, 0.0467, 0.0467, 0.0327, 0.0487, 2.075)  # kg m2
 STIFFNESSES = (1.106e6, 1.631e6, 1.253e6, 1.253e6, 1.678e6, 1.253e6, 1.253e6, 1.976e6)
 NATURAL_HZ = (

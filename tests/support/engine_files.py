@@ -1,7 +1,5 @@
 """Random engine files, sound and damaged, as strategies of hypothesis."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import tomli_w

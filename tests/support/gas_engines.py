@@ -1,7 +1,5 @@
 """Engine files with [gas], small ones and some drawn at random, for tests."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from balcli.engine.engine import Engine

@@ -1,7 +1,5 @@
 """Eigenvalues and equations at 50 digits (mpmath): what floating point is measured against."""
 
-from __future__ import annotations
-
 import mpmath
 import numpy as np
 

@@ -1,7 +1,5 @@
 """A crank at uneven speed, followed through equal steps of time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Engine files with a body on mounts, and the same body by formulas of the tests' own."""
 
-from __future__ import annotations
-
 import numpy as np
 
 ENGINE = """

@@ -1,7 +1,5 @@
 """Where things stand in the repository, and files that tests write."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -1,7 +1,5 @@
 """Pages of pictures as files."""
 
-from __future__ import annotations
-
 from contextlib import ExitStack
 from unittest.mock import patch
 

@@ -1,7 +1,5 @@
 """Pistons of plain slider-cranks by their lengths, for tests of gas."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from balcli.core.cylinder_pressure import GasPiston, pistons

@@ -1,7 +1,5 @@
 """Engines for which tests size devices, and what they ask of a remedy."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

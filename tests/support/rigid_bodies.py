@@ -1,7 +1,5 @@
 """Forced vibration of a rigid body on its mounts, put together from the functions of `core`."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

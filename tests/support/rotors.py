@@ -1,7 +1,5 @@
 """Files of runs written from a planted unbalance and known influence coefficients."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """Searches as tests ask for them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from balcli.file.model import EngineFile

@@ -2,8 +2,6 @@
 how far they are out.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from balcli.core.mechanisms import slidercrank

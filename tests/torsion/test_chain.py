@@ -1,7 +1,5 @@
 """How nodes hang together; dampers as complex inertias, against the same dampers as nodes."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import no_damping

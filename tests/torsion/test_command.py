@@ -1,7 +1,5 @@
 """`balcli torsion` of chains: every format says the same figures, and they are right."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`torsion --damper`: what is sized is the best there is, does what is said, and can be written."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import re

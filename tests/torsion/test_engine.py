@@ -2,8 +2,6 @@
 integration, and every mistake by its path.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

@@ -1,7 +1,5 @@
 """Gas and inertia shake the crankshaft together: the published Diesel, misfires, half orders."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.commands import ask_json, refusal

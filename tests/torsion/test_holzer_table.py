@@ -1,7 +1,5 @@
 """Holzer's table against modes, forced vibration and a table by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import KINDS, chain_of, no_damping, random_chain

@@ -1,7 +1,5 @@
 """Largest torques over a range of speeds, of resonances far narrower than the step of the speeds."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

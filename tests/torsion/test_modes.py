@@ -1,7 +1,5 @@
 """Natural modes of torsional chains against 50 digits and the laws that hold for every chain."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import KINDS, chain_matrices, chain_of, exact_frequencies, random_chain, random_damping

@@ -1,7 +1,5 @@
 """Published torsional systems as chain files, to the digits of the print."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Quantities of torsion in sweeps: what the command itself says of each variant."""
 
-from __future__ import annotations
-
 import csv
 import json
 from io import StringIO

@@ -1,7 +1,5 @@
 """Quantities with gas over every number of an engine file: as of a file that says so."""
 
-from __future__ import annotations
-
 import tomllib
 from typing import Any
 

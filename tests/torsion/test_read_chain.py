@@ -1,7 +1,5 @@
 """What a chain file may say, and how every mistake is told, by its path."""
 
-from __future__ import annotations
-
 import json
 import math
 

@@ -1,7 +1,5 @@
 """Forced vibration of torsional chains against 50 digits and the laws that hold for every chain."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.chains import KINDS, balance_power, chain_of, exact_response, no_damping, random_chain, random_damping

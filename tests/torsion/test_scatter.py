@@ -1,7 +1,5 @@
 """Tolerances of shafts and inertias."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from support.cases import cases

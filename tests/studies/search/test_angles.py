@@ -2,8 +2,6 @@
 engines that are made to fire evenly at one angle.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

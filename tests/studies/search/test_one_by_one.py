@@ -1,7 +1,5 @@
 """Searches by quantities of gas, mounts and torsion: each design as a file that says so."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

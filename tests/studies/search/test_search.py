@@ -1,7 +1,5 @@
 """Searches: the best of all candidates, each arrangement once."""
 
-from __future__ import annotations
-
 from itertools import permutations
 
 import numpy as np
