@@ -183,11 +183,7 @@ def test_columns_of_one_name_stay_apart():
 
 
 @pytest.mark.parametrize(
-    ("library", "method", "install"),
-    [
-        ("pandas", "to_pandas", "pandas"),
-        ("pyarrow", "to_parquet", r"balcli\[scale\]"),
-    ],
+    ("library", "method", "install"), [("pandas", "to_pandas", "pandas"), ("pyarrow", "to_parquet", r"balcli\[scale\]")]
 )
 def test_a_library_that_is_missing_is_named(library, method, install, monkeypatch, tmp_path):
     found = balcli.analyze(load("i4"), [2])

@@ -60,8 +60,7 @@ def test_any_text_is_read_or_refused_in_words(text):
         assert math.isfinite(outcome)
 
 
-# In m, kg, s and turns: the SI brochure (2019), chapters 2 to 4 and table 8; the international yard
-# and pound (1959).
+# In m, kg, s and turns: the SI brochure (2019), chapters 2 to 4 and table 8; the international yard and pound (1959).
 EXACT = {
     "m metre meter": 1,
     "micron": 1e-6,

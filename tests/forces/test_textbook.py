@@ -16,10 +16,9 @@ from balcli.forces.kinds import FORCE, MOMENT
 from balcli.forces.spectrum import compute_spectra
 from balcli.forces.symmetry import find_textbook, find_textbook_units, with_reciprocating_only
 
-# Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition
-# intervals of the most common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in
-# it (cross-plane four, V-twin) by the formulas of C. F. Taylor, The Internal-Combustion Engine in
-# Theory and Practice, vol. 2, ch. 8.
+# Bosch, Automotive Handbook, "Free forces and moments of the 1st and 2nd order, and ignition intervals of the most
+# common engine designs": sizes in F1 and F2, F1 a and F2 a. Engines not in it (cross-plane four, V-twin) by the
+# formulas of C. F. Taylor, The Internal-Combustion Engine in Theory and Practice, vol. 2, ch. 8.
 HANDBOOK = {  # forces of order 1 and 2, moments of order 1 and 2
     "twin180": (0, 2, 1, 0),
     "i3": (0, 0, 1.732, 1.732),

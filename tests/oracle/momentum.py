@@ -1,5 +1,4 @@
-"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the
-oracle.
+"""Free forces and moments straight from the momentum of every part, on a grid of crank angles: the oracle.
 
 Nothing here comes from `src/`, nor any formula of the theory: pistons are points, rods rigid bodies
 with centre of mass and moment of inertia, places come from plain geometry (where a rod's circle

@@ -132,8 +132,7 @@ def test_a_step_is_what_the_written_engine_does_as_drawn(seed):
         assert remedy.step == step.step
         written = find_ladder(build_text(insert_remedy(text.encode(), remedy, "random"))).steps[0]
         agree(
-            {key: getattr(written, key) or 0.0 for key in FIGURES},
-            {key: getattr(step, key) or 0.0 for key in FIGURES},
+            {key: getattr(written, key) or 0.0 for key in FIGURES}, {key: getattr(step, key) or 0.0 for key in FIGURES}
         )
 
 

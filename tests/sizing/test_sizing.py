@@ -96,10 +96,7 @@ def test_planes_are_named_or_given():
     engine = build_text(SMALL["vee"])
     with pytest.raises(BalcliError, match=r'--planes "left": give ends, throws, or places along z$'):
         size_scheme(engine, "counterweights", planes="left")
-    with pytest.raises(
-        BalcliError,
-        match=r"--planes: give ends, or two places along z, for opposite eccentrics$",
-    ):
+    with pytest.raises(BalcliError, match=r"--planes: give ends, or two places along z, for opposite eccentrics$"):
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
     assert ends[0] == ends[1] == ends[2]

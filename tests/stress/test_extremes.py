@@ -1,5 +1,4 @@
-"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the
-momentum of every part.
+"""Numerical extremes of the mechanisms and of what engines make of them, against mpmath and the momentum of every part.
 
 Each test holds a bound of `BOUNDS`, as `docs/accuracy.md` prints them.
 """

@@ -1,5 +1,4 @@
-"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up,
-renumbered.
+"""What must hold for every engine, on random ones: turned, mirrored, shifted, split, sped up, renumbered.
 
 Engines are drawn as the tables of an engine file and pass through the loader, so that all ways to
 say a thing are met.

@@ -12,8 +12,7 @@ def to_matrix(values):
 
 
 def angular_frequencies(springs, stiffness, mass):
-    """All natural frequencies, rising, rad/s, of `S^T k S x = w^2 M x` for a diagonal mass, massless
-    ones condensed.
+    """All natural frequencies, rising, rad/s, of `S^T k S x = w^2 M x` for a diagonal mass, massless ones condensed.
 
     Args:
         springs: S (springs, dof).

@@ -5,12 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from balcli.core.vibration import solve_response
-from balcli.mounts.rigid_body import (
-    couple_mounts,
-    damping_matrix,
-    mass_matrix,
-    stiffness_matrix,
-)
+from balcli.mounts.rigid_body import couple_mounts, damping_matrix, mass_matrix, stiffness_matrix
 
 
 def apply_couplings(couplings, motion) -> np.ndarray:

@@ -63,10 +63,7 @@ def test_a_branch_to_a_clamp_is_a_spring_to_ground():
             join_chain([1, 1, 1], [ChainShaft(0, 1, 6), ChainShaft(1, 2, np.inf, 2)], clamped=[2]),
             "Holzer's table does not take gears that mesh with a fixed node",
         ),
-        (
-            join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]),
-            "a branch is at resonance by itself",
-        ),
+        (join_chain([1, 1, 1], [ChainShaft(0, 2, 6), ChainShaft(0, 1, 4)]), "a branch is at resonance by itself"),
     ],
 )
 def test_tables_that_cannot_be_drawn_up(chain, said):

@@ -132,8 +132,7 @@ def test_a_limit_that_the_largest_stress_alone_passes_bars_its_speed():
 
 
 def test_the_top_of_a_wide_resonance_between_the_speeds_is_barred():
-    """The ring shifts the resonance from the criticals, and steps of 24 rpm show it anyway, but not
-    its top."""
+    """The ring shifts the resonance from the criticals, and steps of 24 rpm show it anyway, but not its top."""
     plain, few = write_engine(0.05, THICK), ("--orders", "1-12")
     shafts = ask_torsion(plain, *few, "--speeds", "1700:1900:200")["response"]["shafts"]
     top = max((shaft["worst"] for shaft in shafts), key=lambda worst: worst.get("stress_Pa", 0.0))

@@ -36,10 +36,7 @@ def mistakes(text):
 
 def test_figures_are_converted_once():
     pendulum = {"kind": "pendulum", "mass": "3 lb", "radius": 60, "length": "1 in"}
-    nodes = {
-        "a": {"inertia": 1500, "damping": "18 lbf in s/rad"},
-        "b": {"inertia": "1500 lb ft^2", "damper": pendulum},
-    }
+    nodes = {"a": {"inertia": 1500, "damping": "18 lbf in s/rad"}, "b": {"inertia": "1500 lb ft^2", "damper": pendulum}}
     shaft = {"stiffness": "24.17e6 lbf in/rad", "diameter": "3 in", "bore": 20}
     system = build(chain_text(nodes, {"ab": shaft}))
     pound, inch = 0.45359237, 0.0254

@@ -1,5 +1,4 @@
-"""Liang Shoupan: Engine Dynamics (in Chinese), Commercial Press, 1948: section 1-2, and the worked
-examples.
+"""Liang Shoupan: Engine Dynamics (in Chinese), Commercial Press, 1948: section 1-2, and the worked examples.
 
 p = r/l; weights in lb, lengths in in, g = 32.174 ft/s^2.
 """

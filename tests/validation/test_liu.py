@@ -1,5 +1,4 @@
-"""Liu Xianzhi: Two-shaft balance of the second-order inertia force of flat-plane V8 engines (in
-Chinese), 1979.
+"""Liu Xianzhi: Two-shaft balance of the second-order inertia force of flat-plane V8 engines (in Chinese), 1979.
 
 K = 4 lambda m r omega^2, gamma the bank angle, alpha the crank angle; forces of the sliders
 Z_x = (cos 3g/2 - cos g/2) sin 2a, Z_y = (cos 3g/2 + cos g/2) cos 2a for K = 1.

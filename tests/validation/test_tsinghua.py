@@ -1,5 +1,4 @@
-"""Lu Jiqing, Meng Sizong: Automobile Engine Design, vol. 1 (in Chinese), Tsinghua University Press,
-1990, sec. 1.1.1.
+"""Lu Jiqing, Meng Sizong: Automobile Engine Design, vol. 1 (in Chinese), Tsinghua University Press, 1990, sec. 1.1.1.
 
 Statements of the text in figures, each test named after what is stated; the tables themselves are
 in the package.

@@ -1,5 +1,4 @@
-"""Wang Yongding: Methods of balancing single-cylinder engines (in Chinese), Shanghai Fisheries
-University, undated.
+"""Wang Yongding: Methods of balancing single-cylinder engines (in Chinese), Shanghai Fisheries University, undated.
 
 J = m_j r omega^2; a counterweight k m_j r leads the point opposite the crank by alpha.
 """
