@@ -62,9 +62,7 @@ def hung_on_a_master_rod(psi, lead, crank=60.0, rod=240.0, knuckle=52.0, slave=1
 def test_pistons_of_a_radial_with_a_master_rod():
     cylinders = load(ENGINES / "radial7_articulated.toml").cylinders
     found = pistons(cylinders, 0.01)
-    angle = np.linspace(0, 2 * np.pi, 721)
-    leads = np.arange(7) * 360 / 7
-    strokes = []
+    angle, leads, strokes = np.linspace(0, 2 * np.pi, 721), np.arange(7) * 360 / 7, []
     for piston, lead in zip(found, leads, strict=True):
         if lead == 0:
             place = lambda c: 60 * np.cos(c) + np.sqrt(240**2 - (60 * np.sin(c)) ** 2)  # noqa: E731
@@ -202,8 +200,7 @@ WRONG = {
 @pytest.mark.parametrize("case", WRONG)
 def test_mistakes_of_a_diagram(case):
     angle, pressure, expected = WRONG[case]
-    found = [*find_diagram_mistakes(angle, pressure)]
-    assert found == expected
+    assert [*find_diagram_mistakes(angle, pressure)] == expected
 
 
 def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():

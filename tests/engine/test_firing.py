@@ -156,8 +156,6 @@ def test_a_turn_that_is_left_over_goes_to_the_last_of_equal_intervals(count):
 
 
 # ------------------------------------------------------------------ doubts
-
-
 @cases("engine/firing", "an_order_is_not_doubted_where_it_is_even_or_none_is")
 def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
     doubts = engine(**parts).doubts

@@ -89,8 +89,6 @@ def test_alternating_rods_have_a_throw_to_themselves_so_there_is_no_stagger():
 
 
 # ------------------------------------------------------------------ what cannot be
-
-
 @cases("engine/layout", "one_mistake")
 def test_one_mistake(parts, message):
     assert refused(**parts) == f"engine: {message}"
