@@ -26,7 +26,12 @@ _BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # codes of ANSI
 
 
 def plain_text(sheets: Sequence[Sheet], width: int = WIDTH) -> str:
-    """Return all sheets one after the other, no line with blanks at its end."""
+    """Return all sheets one after the other, no line with blanks at its end.
+
+    Args:
+        sheets: Sheets to write.
+        width: Width of prose, and of tables as far as they can be folded.
+    """
     lines = (line for sheet in sheets for line in _lines(sheet, width))
     return "\n".join(legible("".join(text for text, _ in line)).rstrip() for line in lines)
 
@@ -34,6 +39,10 @@ def plain_text(sheets: Sequence[Sheet], width: int = WIDTH) -> str:
 def coloured_text(sheets: Sequence[Sheet], width: int) -> str:
     """Return all sheets with escapes for a terminal of this width. Figures are never broken: a
     table that is too wide is divided into pieces, each with the first column.
+
+    Args:
+        sheets: Sheets to write.
+        width: Width of the terminal.
     """
     lines = (line for sheet in sheets for line in _lines(sheet, width, divided=True))
     return "\n".join("".join(map(_paint, line)).rstrip() for line in lines)
