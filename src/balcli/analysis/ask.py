@@ -25,12 +25,22 @@ if TYPE_CHECKING:
 
 
 def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
-    """Return the sheet of one analysis."""
+    """Return the sheet of one analysis.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
     return chapter.sheet(one.result, system, one.view)
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """Return CSV: the rows of the analysis, each after the engine's name."""
+    """Return CSV: the rows of the analysis, each after the engine's name.
+
+    Args:
+        one: Analysis with the engine's name.
+        system: System of units.
+    """
     header, lines = chapter.rows(one.result, system, named=one.view.parts)
     return Rows(("engine", *header), ((name_cell(one.name), *line) for line in lines))
 

@@ -193,7 +193,14 @@ def analyze_alike(
 def make_line(
     kind: Kind, order: float | None, values: tuple[float, ...], single: tuple[float, ...]
 ) -> Line:
-    """Return one figure with its ratios to the first value; arguments as of `Line`."""
+    """Return one figure of every engine, with its ratios to the first value.
+
+    Args:
+        kind: Kind of force or moment.
+        order: Order; None for a peak.
+        values: Values, SI, one an engine.
+        single: Value against which each one may be negligible.
+    """
     name = f"peak_{kind.key}" if order is None else kind.key
     ratios = tuple(value / values[0] if values[0] else nan for value in values)
     return Line(quantity=name, order=order, values=values, ratios=ratios, kind=kind, single=single)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar, assert_never
 
 from ..core.records import Node, to_document
 from .csv import csv_text, json_text
-from .table import coloured_text, markdown, plain_text
+from .table import markdown, plain_text, terminal_text
 
 if TYPE_CHECKING:
     from .csv import Columns, Rows
@@ -107,6 +107,5 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
         return markdown(sheets)
     if not seen:
         return plain_text(sheets)
-    without_styles = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    write = plain_text if without_styles else coloured_text
-    return write(sheets, get_terminal_size().columns)
+    styled = not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+    return terminal_text(sheets, get_terminal_size().columns, styled=styled)

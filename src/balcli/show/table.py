@@ -25,23 +25,30 @@ Piece = tuple[str, str]  # of a line: its text, and its style in a terminal
 _BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # codes of ANSI
 
 
-def plain_text(sheets: Sequence[Sheet], width: int = WIDTH) -> str:
+def plain_text(sheets: Sequence[Sheet]) -> str:
     """Return all sheets one after the other, no line with blanks at its end."""
-    lines = (line for sheet in sheets for line in _lines(sheet, width))
+    lines = (line for sheet in sheets for line in _lines(sheet, WIDTH))
     return "\n".join(legible("".join(text for text, _ in line)).rstrip() for line in lines)
 
 
-def coloured_text(sheets: Sequence[Sheet], width: int) -> str:
-    """Return all sheets with escapes for a terminal of this width. Figures are never broken: a
-    table that is too wide is divided into pieces, each with the first column.
+def terminal_text(sheets: Sequence[Sheet], width: int, *, styled: bool) -> str:
+    """Return all sheets for a terminal. Figures are never broken: a table that is too wide is
+    divided into pieces, each with the first column.
+
+    Args:
+        sheets: Sheets to write.
+        width: Width of the terminal.
+        styled: Whether escapes make titles bold and notes dim.
     """
     lines = (line for sheet in sheets for line in _lines(sheet, width, divided=True))
-    return "\n".join("".join(map(_paint, line)).rstrip() for line in lines)
+    return "\n".join(
+        "".join(_paint(text, style * styled) for text, style in line).rstrip() for line in lines
+    )
 
 
-def _paint(piece: Piece) -> str:
-    text, style = piece
-    return f"\x1b[{style}m{legible(text)}\x1b[0m" if style and text.strip() else legible(text)
+def _paint(text: str, style: str) -> str:
+    text = legible(text)
+    return f"\x1b[{style}m{text}\x1b[0m" if style and text.strip() else text
 
 
 def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[Piece]]:
