@@ -36,13 +36,9 @@ ANALYSES = PAGES[:6]
 MAGIC = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}
 
 
-def engine(text: str = GOOD):
-    return build_text(text)
-
-
 @pytest.fixture(scope="module")
 def four():
-    return analyze(engine(), only=QUANTITIES)
+    return analyze(build_text(GOOD), only=QUANTITIES)
 
 
 @pytest.fixture(scope="module")
@@ -177,7 +173,7 @@ def test_locus_has_x_upwards(ax):
     """
     masses = (("mass = 0.5", "mass = 0"), ("mass = 0.6\ncg = 45\n", ""), ("spacing = 100\n", ""))
     one = analyze(
-        engine(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""), *masses))
+        build_text(changed(("throws = [0, 180, 180, 0]", "throws = [0]"), ("firing_order = [1, 3, 4, 2]", ""), *masses))
     )
     draw_locus(ax, one.spectra.force, FORCE.name_components(None), SI.force)
     right, up = next(line for line in ax.lines if len(line.get_xdata()) > 100).get_data()

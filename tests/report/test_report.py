@@ -239,31 +239,25 @@ def test_a_hostile_name_stays_text_in_a_browser(show):
 
 
 @live
-def test_light_and_dark(show):
-    paper = "getComputedStyle(document.body).backgroundColor"
+def test_light_and_dark_and_in_print(show):
+    paper, white = "getComputedStyle(document.body).backgroundColor", "rgb(255, 255, 255)"
+    page = show()
+    assert page.run(paper) == white
+    page.run("theme.click()")
+    changed = page.run(paper)
     page = show(dark=True)
     dark = page.run(paper)
-    page.run("theme.click()")
-    assert page.run(paper) == "rgb(255, 255, 255)" != dark
-    page = show()
-    assert page.run(paper) == "rgb(255, 255, 255)"
-    page.run("theme.click()")
-    assert page.run(paper) == dark
+    assert dark == changed != white
+    page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
+    assert page.run(paper) == white
+    page.call("Emulation.setEmulatedMedia", media="")
 
 
 @live
 @pytest.mark.parametrize("width", [400, 800, 1600])
 def test_it_fits_its_window(show, width):
     assert show(width=width).run("document.documentElement.scrollWidth") <= width
-
-
-@live
-def test_it_prints_in_light_and_without_controls(show):
-    page = show(dark=True)
-    page.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-    assert page.run("getComputedStyle(document.querySelector('.controls')).display") == "none"
-    assert page.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
-    page.call("Emulation.setEmulatedMedia", media="")
 
 
 @pytest.mark.parametrize(

@@ -28,15 +28,11 @@ CROSS = changed(
 )
 
 
-def engine(text):
-    return build_text(text)
-
-
 def test_flat_plane_vee_eight_over_its_bank_angle():
     """Liu: with K = 4 A_2 m r omega^2 the second order is K cos(gamma/2) with the crank and K cos(3
     gamma/2) against it.
     """
-    vee = engine(VEE)
+    vee = build_text(VEE)
     banks = swing_banks(vee, 2)
     c = vee.cylinders
     ratio = float(harmonics.find_harmonics([2.0], c.lam, c.eps)["piston"].c[0, 0].real)
@@ -48,7 +44,7 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
 
 
 def test_its_own_bank_angle_is_the_engine_as_it_is():
-    vee, found = engine(VEE), compute_study(engine(VEE), "bank")
+    vee, found = build_text(VEE), compute_study(build_text(VEE), "bank")
     at = int(np.flatnonzero(found.banks.angles_deg == 75)[0])
     force = compute_study(vee, "all").now.spectra.force.select_orders([2])
     assert found.banks.force.major[0, at] == pytest.approx(float(force.major[0]), rel=1e-12)
@@ -56,7 +52,7 @@ def test_its_own_bank_angle_is_the_engine_as_it_is():
 
 
 def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
-    rows = compute_study(engine(CROSS), "factor").factors
+    rows = compute_study(build_text(CROSS), "factor").factors
     best = min(rows, key=lambda row: row.peak_moment_Nm)
     assert [row.factor for row in rows] == pytest.approx(np.linspace(0, 1, 51))
     assert best.factor == 0.5
@@ -72,21 +68,21 @@ def test_half_the_reciprocating_mass_balances_a_cross_plane_vee_eight():
 )
 def test_only_a_vee_has_a_bank_angle(text, reason):
     with pytest.raises(BalcliError, match=reason):
-        compute_study(engine(text), "bank")
+        compute_study(build_text(text), "bank")
 
 
 def test_the_page_of_factors_tells_the_best_and_by_what():
     """Pins of a cross-plane crank balance each other: a factor changes the moment alone."""
     single = changed(("[0, 180, 180, 0]", "[0]"), ("firing_order = [1, 3, 4, 2]", ""))
     for text, by in ((CROSS, r"moment [\d.]+ N·m"), (single, r"[\d.]+ k?N")):
-        page = draw_page(PageSubject(compute_study(engine(text), "factor")), "factor", "svg")
+        page = draw_page(PageSubject(compute_study(build_text(text), "factor")), "factor", "svg")
         assert re.search(rf"best at 0\.\d+ \({by}\)", page.decode())
 
 
 def test_counterweights_unload_the_crankshaft_of_an_in_line_four():
     """It is balanced outside, and yet bent; weights at every throw take most of that away."""
-    free = compute_study(engine(GOOD), "inner").bent[0]
-    now, before = compute_study(engine(GOOD), "inner", scheme="factor").bent
+    free = compute_study(build_text(GOOD), "inner").bent[0]
+    now, before = compute_study(build_text(GOOD), "inner", scheme="factor").bent
     assert max(p.value for p in before.bending.peaks) == max(p.value for p in free.bending.peaks) > 100
     assert max(p.value for p in now.bending.peaks) < 0.7 * max(p.value for p in before.bending.peaks)
 
@@ -95,7 +91,7 @@ def test_the_best_factor_of_one_cylinder_is_found_between_the_steps():
     """The force is that of piston and small end along the cylinder, less the factor's share of
     their mass on the other side of the pin: a peak over a fine grid of both, by hand.
     """
-    rows = compute_study(engine(SINGLE), "factor").factors
+    rows = compute_study(build_text(SINGLE), "factor").factors
     best = min(rows, key=lambda row: row.peak_force_N)
     r, rod, mass, omega = 0.045, 0.160, 0.5 + 0.6 * 45 / 160, 100 * np.pi
     turn = np.radians(np.arange(0, 360, 0.05))
@@ -116,22 +112,22 @@ def test_a_force_that_is_negligible_at_every_bank_angle_is_said():
         ("firing_order = [1, 3, 4, 2]", "bank_angle = 60"),
         ("length = 160", "length = 240"),
     )
-    drawn = draw_page(PageSubject(compute_study(engine(text), "bank")), "bank", "svg")
+    drawn = draw_page(PageSubject(compute_study(build_text(text), "bank")), "bank", "svg")
     assert re.search(r"negligible \(\S+ N\), whatever the bank angle", drawn.decode())
 
 
 def test_a_scheme_compares_before_and_after():
-    found = compute_study(engine(GOOD), "all", scheme="two-shaft")
+    found = compute_study(build_text(GOOD), "all", scheme="two-shaft")
     assert found.before.spectra.force.select_orders([2]).major[0] > 100
     assert found.now.spectra.force.select_orders([2]).balanced[0]
     with pytest.raises(BalcliError, match="there is no scheme 'tow-shaft'"):
-        compute_study(engine(GOOD), "all", scheme="tow-shaft")
+        compute_study(build_text(GOOD), "all", scheme="tow-shaft")
 
 
 def test_the_study_of_factors_takes_planes_alone():
     """In the planes of the end throws the same unbalance of order 1 is left as at every throw."""
     free, ends = (
-        compute_study(engine(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
+        compute_study(build_text(CROSS), "factor", options=SchemeOptions(planes=planes)).factors
         for planes in (None, "ends")
     )
     assert [row.peak_moment_Nm for row in ends] == pytest.approx([row.peak_moment_Nm for row in free], abs=1)
@@ -142,20 +138,20 @@ def test_the_study_of_factors_takes_planes_alone():
         ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
     ):
         with pytest.raises(BalcliError, match=reason):
-            compute_study(engine(CROSS), "factor", **asked)
+            compute_study(build_text(CROSS), "factor", **asked)
 
 
 def test_the_page_of_the_ladder_has_the_loci_of_all_steps():
     """Each with its name and its largest value; `small` says which steps there are."""
     three = changed(("throws = [0, 180, 180, 0]", "throws = [0, 240, 120]"), ("firing_order = [1, 3, 4, 2]", ""))
     for small, last in ((None, "4 shafts at +2 and -2"), (0.3, "3 shaft at -1")):
-        subject = PageSubject(compute_study(engine(three), "ladder", options=SchemeOptions(small=small)))
-        *_, step = find_ladder(engine(three), small or SMALL).steps
+        subject = PageSubject(compute_study(build_text(three), "ladder", options=SchemeOptions(small=small)))
+        *_, step = find_ladder(build_text(three), small or SMALL).steps
         assert list(subject.study.steps)[-1] == last
         page = draw_page(subject, "ladder", "svg").decode()
         assert [name in page for name in subject.study.steps] == [True] * len(subject.study.steps)
         assert f"{last}: {size_text(step.peak_moment_Nm, SI.moment, 4)}" in page
     with pytest.raises(BalcliError, match="--what ladder shows the engine as it is"):
-        compute_study(engine(three), "ladder", scheme="auto")
+        compute_study(build_text(three), "ladder", scheme="auto")
     with pytest.raises(BalcliError, match="--what bank shows the engine as it is: leave --scheme"):
-        compute_study(engine(VEE), "bank", scheme="auto")
+        compute_study(build_text(VEE), "bank", scheme="auto")
