@@ -41,9 +41,7 @@ def errors() -> dict[tuple[str, str], float]:
 
 
 def rounding(task: str) -> float:
-    """What an order's rounding may come to: that of the first order, grown by what is divided
-    by.
-    """
+    """What an order's rounding may come to: that of the first order, grown by what is divided by."""
     return ROUNDING / abs(float(coefficient(ORDERS[task], LAM)))
 
 
@@ -68,9 +66,7 @@ PAGE = DOCS / "accuracy.md"
 
 
 def shown() -> dict[tuple[str, str], str]:
-    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the
-    error).
-    """
+    """Errors on the page, by task (heading) and method (first cell of a row; the last one is the error)."""
     rows, task = {}, ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):

@@ -1,6 +1,4 @@
-"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is
-imported.
-"""
+"""The command line: exit statuses, messages, formats, files, pipes, terminals, and what is imported."""
 
 import csv
 import io
@@ -215,9 +213,7 @@ def test_what_cannot_be_an_engine_goes_by_its_file(balcli, tmp_path, command):
 
 
 def test_several_files_and_a_bad_one_among_them(balcli, good, bad):
-    """One JSON document a line, in order; the bad one is named, the rest is reported, and the
-    status is 2.
-    """
+    """One JSON document a line, in order; the bad one is named, the rest is reported, and the status is 2."""
     status, out, err = balcli("analyze", good, bad, V8, "--format", "json")
     assert status == 2
     assert [json.loads(line)["engine"]["cylinders"] for line in out.splitlines()] == [4, 8]

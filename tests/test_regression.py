@@ -289,9 +289,7 @@ def test_a_change_of_any_leaf_is_noticed(tmp_path, monkeypatch, name):
 
 
 def test_where_all_large_orders_cancel_rounding_is_no_difference(tmp_path):
-    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more
-    than 1e-9 of them.
-    """
+    """The rotary's only forces are millionths of what each cylinder makes: their rounding is more than 1e-9 of them."""
     engine, record = load_example("rotary9"), tmp_path / "expected" / "x.json"
     record.parent.mkdir()
     force = analyze(engine).spectra.force

@@ -1,6 +1,4 @@
-"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of
-engines/.
-"""
+"""Analysis: which orders are shown, what is computed, what balanced means; over all engines of engines/."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -141,9 +139,7 @@ def test_a_small_order_that_is_there_is_not_swallowed(name, order, factor):
 
 
 def test_a_high_order_beside_it_swallows_no_small_one():
-    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by
-    themselves.
-    """
+    """The orders 1 to 4096 of a single cylinder: the first forty are there as they are by themselves."""
     everything, few = (
         analyze(example("single"), range(1, last + 1), only=["force"]).spectra.force for last in (4096, 40)
     )
@@ -207,9 +203,7 @@ def test_cylinders_and_devices_sum_to_the_engine(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_peaks_are_those_of_the_whole_curve(name):
-    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders
-    are shown.
-    """
+    """No sample of the whole curve lies above the peak, and the peak lies on it; whatever orders are shown."""
     e, theta = example(name), np.linspace(0, 2 * np.pi, 2881)
     whole = compute_spectra(e, find_relevant_orders(e), ("force", "moment"))
     for q in ("force", "moment"):

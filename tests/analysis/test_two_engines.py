@@ -1,6 +1,4 @@
-"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what
-mirroring curves gives.
-"""
+"""Two engines on one frame: the sum is what one file with all their cylinders gives, or what mirroring curves gives."""
 
 from dataclasses import replace
 
@@ -64,9 +62,7 @@ def test_two_singles_on_one_pin_are_a_vee():
 
 
 def test_counter_rotating_cranks_side_by_side():
-    """Two equal singles with counterweights: nothing is left across their axes, and the forces
-    along them add up.
-    """
+    """Two equal singles with counterweights: nothing is left across their axes, and the forces along them add up."""
     one = built(more="[[counterweight]]\nunbalance = 70000\nangle = 180\n")
     both = combine_engines(one, one, Arrangement(at_m=(0, 0.2, 0), reverse=True), ORDERS)
     assert np.allclose(both.spectra.force.y, 0, atol=1e-9)
@@ -75,9 +71,7 @@ def test_counter_rotating_cranks_side_by_side():
 
 
 def test_mirrored_turned_and_placed_against_curves():
-    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own
-    crank angle.
-    """
+    """The second engine's curves, mirrored in y, turned by 35 degrees and moved, taken at its own crank angle."""
     first, second = (built(), built("throws = [0, 90]\nspacing = 110", "[layout]\nbank_angle = 50\nstagger = 20\n"))
     how = Arrangement(75, (0.2, -0.3, 0.4), 35, True)
     orders = np.arange(1.0, 40.0)
@@ -146,9 +140,7 @@ SECOND = (
 
 @pytest.mark.parametrize(("reverse", "load"), [(False, "first"), (True, "first"), (True, "second"), (True, "both")])
 def test_kinetic_energies_of_geared_engines_add(reverse, load):
-    """Against energy and angular momentum of all bodies together: what the load takes, the frame
-    does not feel.
-    """
+    """Against energy and angular momentum of all bodies together: what the load takes, the frame does not feel."""
     wanted = together(128, 0.2 - 0.3j, reverse)
     how = Arrangement(45, (0.2, -0.3, 0), 0, reverse, load)
     one, other = (build_text(text) for text in (FIRST, SECOND))

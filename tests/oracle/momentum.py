@@ -52,9 +52,7 @@ PISTON = ("mass", "piston", "pin", "rings", "locks")  # keys of [piston] that ar
 
 @dataclass
 class Body:
-    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning
-    about that centre.
-    """
+    """A part: place of its centre of mass over the crank angle (m, x + iy), mass, and its turning about that centre."""
 
     place: np.ndarray
     z: float
@@ -175,9 +173,7 @@ class Engine:
         return cell["axis"] + math.degrees(math.asin(piston["offset"] / (self.radius + rod["length"])))
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
-        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a
-        cylinder, SI.
-        """
+        """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a cylinder, SI."""
         own, table = cell["own"], self.data.get("articulation")
         hung = table is not None and cell["bank"] != table.get("master", 1) - 1
         rod = dict(table["rod"] if hung and table else self.data["rod"])

@@ -52,9 +52,7 @@ def _foot(engine: momentum.Engine, cell: dict) -> np.ndarray:
 
 
 def _one(engine, cell, gas, on_rod, rate) -> Forces:
-    """Unknown: force on the rod at its foot and at its piston pin (x and y each), and of the wall
-    on the piston.
-    """
+    """Unknown: force on the rod at its foot and at its piston pin (x and y each), and of the wall on the piston."""
     _, piston, rod = engine.cylinders[cell["number"]]
     foot = _foot(engine, cell)
     axis = engine._axis(cell)

@@ -1,6 +1,4 @@
-"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision,
-and its own bound.
-"""
+"""The smallest enclosing circle against exhaustive search, a convex minimiser at high precision, and its own bound."""
 
 import itertools
 import math
@@ -34,9 +32,7 @@ def seen(curve: Phasors, theta: np.ndarray) -> np.ndarray:
 
 
 def smallest_of_points(points: np.ndarray) -> float:
-    """Radius by all triples, in exact fractions: the largest of the smallest circles around three
-    points (Helly).
-    """
+    """Radius by all triples, in exact fractions: the largest of the smallest circles around three points (Helly)."""
 
     def square(p, q) -> Fraction:
         return (p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2
@@ -108,9 +104,7 @@ def test_single_cylinder_at_high_precision(lam, offset):
 
 @cases("oracle/circle", "nothing_near_is_better")
 def test_nothing_near_is_better(tables):
-    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove
-    the radius.
-    """
+    """Convex: if no centre on a small ring is better, none is; and points of the curve alone prove the radius."""
     curve = force(**tables)
     found = circle.enclose_curve(curve)
     samples = seen(curve, np.linspace(0, 2 * np.pi, 20001))

@@ -72,9 +72,7 @@ def _arcsine(j: int) -> mp.mpf:
 
 
 def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
-    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 =
-    0.
-    """
+    """Cosine series of (sum a_n sin n psi)^2 (sign -1) or of (sum a_n cos n psi)^2 (sign 1), a_0 = 0."""
     there = [n for n, c in enumerate(a) if c]
     found = [mp.mpf(0)] * len(a)
     for i in there:
@@ -88,9 +86,7 @@ def squared(a: list[mp.mpf], sign: int) -> list[mp.mpf]:
 # ------------------------------------------------------------------ trapezoidal rule
 @cache
 def of_revolution(lam: float, eps: float = 0.0, highest: int = 64, digits: int = 25) -> dict[str, list[mp.mpc]]:
-    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one
-    revolution.
-    """
+    """Coefficients c_n of `Re c_n e^{i n psi}` for the orders 0 .. highest, by sampling one revolution."""
     steep = mp.mpf(lam) / (1 - abs(mp.mpf(eps)))
     decay = mp.log10((1 + mp.sqrt(1 - steep**2)) / steep)
     least = int(2 * highest + digits / decay)  # aliases are below 10^-digits of order `highest`
@@ -195,9 +191,8 @@ def test_high_orders_lose_a_rounding_an_order(lam):
 
 
 def test_first_coefficients_are_those_of_the_books():
-    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9
-    lambda^5/128, A_8 = -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up
-    to its next term.
+    """A_2 = lambda + lambda^3/4 + 15 lambda^5/128, A_4 = -(lambda^3/4 + 3 lambda^5/16), A_6 = 9 lambda^5/128, A_8 =
+    -5 lambda^7/256; D_1 = lambda (1 + lambda^2/8), D_3 = -3 lambda^3/8, each up to its next term.
     """
     lam = 1e-4
     a = closed_form.piston([1, 2, 3, 4, 6, 8], lam)

@@ -169,9 +169,7 @@ def test_every_engine_that_comes_with_balcli(path):
 
 
 def test_one_cylinder_of_an_articulated_engine_alone():
-    """The share of a master and of an articulated cylinder in what the engine does (`--by
-    cylinder`).
-    """
+    """The share of a master and of an articulated cylinder in what the engine does (`--by cylinder`)."""
     text = BASE.format(crank="", piston="", layout="radial = 5", operation="", more=ARTICULATED)
     oracle, whole = momentum.Engine.read(text), build_text(text)
     for number in (1, 3):

@@ -74,9 +74,7 @@ def test_offset(name, lam, eps):
 @pytest.mark.parametrize(("lam", "eps"), OFFSETS)
 @pytest.mark.parametrize("delta", [1e-3, 1e-2])
 def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
-    """tau itself is good to an ulp, so the travel, which grows as (psi - tau)^2, is good to 2 ulp /
-    delta.
-    """
+    """tau itself is good to an ulp, so the travel, which grows as (psi - tau)^2, is good to 2 ulp / delta."""
     tau = np.arcsin(eps / (1 + lam))
     got = sc.displacement(tau + delta, lam, eps)
     want = oracle("displacement", tau + delta, lam, eps)
@@ -87,9 +85,7 @@ def test_offset_travel_near_its_own_top_dead_centre(lam, eps, delta):
 @pytest.mark.parametrize("clearance", [1e-12, 1e-9, 1e-4])
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_rod_is_accurate_however_near_to_its_lock(lam, clearance, side):
-    """At 90 degrees, where it lies almost across: its cosine is the root of what is left of 1 -
-    lambda - |eps|.
-    """
+    """At 90 degrees, where it lies almost across: its cosine is the root of what is left of 1 - lambda - |eps|."""
     eps = side * (1 - lam - clearance)
     sine, cosine = sc.rod_angle(-side * 1j, lam, eps)
     exact = -side * mp.mpf(lam) - mp.mpf(eps)

@@ -281,9 +281,7 @@ def test_steps_have_the_names_that_the_command_takes(browser, play, tmp_path):
 
 @live
 def test_the_verdict_judges_as_the_command_does(browser, play):
-    """Sizes of each order, and the sentence on small and balanced ones, without directions and
-    cures.
-    """
+    """Sizes of each order, and the sentence on small and balanced ones, without directions and cures."""
     browser.open(play)
     for name in examples.names():
         engine = build(load_example(name).model)

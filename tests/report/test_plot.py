@@ -83,9 +83,7 @@ def test_the_title_says_which_devices_are_fitted():
 
 @pytest.mark.parametrize("name", ["sweep", "torsion", "mounts"])
 def test_curves_of_one_axis_are_told_apart_without_colour(name):
-    """As on paper printed in black and white: the first three of each legend are dashed, dotted or
-    of another width.
-    """
+    """As on paper printed in black and white: the first three of each legend are dashed, dotted or of another width."""
     legends = [ax.get_legend() for ax in SHOWN[name]().axes if ax.get_legend()]
     looks = [[(line.get_linestyle(), line.get_linewidth()) for line in each.get_lines()[:3]] for each in legends]
     assert max(map(len, looks)) > 1

@@ -1,6 +1,4 @@
-"""Studies over the balance factor and the bank angle: what books say of them, and their
-pictures.
-"""
+"""Studies over the balance factor and the bank angle: what books say of them, and their pictures."""
 
 import re
 

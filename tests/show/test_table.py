@@ -1,6 +1,4 @@
-"""Plain text without rich is what rich prints where there is no terminal: the same lay-out, letter
-for letter.
-"""
+"""Plain text without rich is what rich prints where there is no terminal: the same lay-out, letter for letter."""
 
 from io import StringIO
 

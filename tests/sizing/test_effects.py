@@ -44,9 +44,7 @@ def test_sliders_in_two_directions_take_any_ellipse(forward, backward):
 
 
 def test_a_force_and_a_roll_by_shafts_at_three_places():
-    """The roll couples both senses; with a shaft to spare it is cancelled together with the
-    force.
-    """
+    """The roll couples both senses; with a shaft to spare it is cancelled together with the force."""
     slots = [Slot("shaft", 2, sense, 0.0, place) for sense, place in ((1, 0.1 + 0j), (-1, -0.1 + 0.05j), (1, -0.2j))]
     parts = (FORCE, BACK, ROLL)
     asked = residual(forward=1 + 2j, backward=0.5 - 1j, roll=0.3 + 0.1j)
@@ -67,9 +65,7 @@ def test_a_force_and_a_roll_by_shafts_at_three_places():
     ],
 )
 def test_effect_is_what_the_analysis_says(slot):
-    """Moments and roll about a point that is neither on the crank axis nor in the middle of the
-    throws.
-    """
+    """Moments and roll about a point that is neither on the crank axis nor in the middle of the throws."""
     engine = build_text(write_engine(0, 180, 180, 0, frame="reference = [40, -25, 130]"))
     reference = ReferencePoint(complex(*engine.reference_m[:2]), float(engine.reference_m[2]))
     u = cmath.rect(2e-3, 0.4)
@@ -102,9 +98,7 @@ def test_one_slot_does_what_it_can(scale):
 
 
 def test_arms_count_from_the_point_of_reference_in_all_directions():
-    """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at
-    z from there.
-    """
+    """A slot beside the crank on that point's own axis has no arm but along it: u = -(f + m/z)/2 at z from there."""
     asked = residual(forward=1, moment=0.6)._replace(reference=ReferencePoint(0.3 + 0.4j, 0.1))
     fit = size_unbalances([Slot("shaft", 2, 1, 0.3, 0.3 + 0.4j)], asked, (FORCE, MOMENT))
     assert fit.unbalances == pytest.approx([-(1 + 0.6 / 0.2) / 2])

@@ -49,9 +49,7 @@ def test_a_remedy_does_not_depend_on_the_point_of_reference(name, scheme):
 
 
 def test_no_roll_about_the_crank_whatever_the_point_of_reference():
-    """A given first shaft, the second placed for no roll: the same about any point, the force being
-    cancelled.
-    """
+    """A given first shaft, the second placed for no roll: the same about any point, the force being cancelled."""
     options = SchemeOptions(at=(-0.04 + 0.06j,), roll="zero")
     plain, moved = (build_text(SMALL["four"] + frame) for frame in ("", "[frame]\nreference = [30, -20, 170]\n"))
     here, there = (devices(size(e, "two-shaft", options)) for e in (plain, moved))
@@ -157,9 +155,7 @@ def test_sliders_stand_where_the_stronger_part_acts(bank, order):
 @pytest.mark.parametrize("frame", ["", "[frame]\nreference = [30, -20, 170]\n"])
 @pytest.mark.parametrize("order", [1, 2])
 def test_no_roll_by_the_nearest_places(order, frame):
-    """Of all pairs of places that take force and roll, those with the least sum of squares; about
-    the crank axis.
-    """
+    """Of all pairs of places that take force and roll, those with the least sum of squares; about the crank axis."""
     at_crank = build_text(UNEVEN)
     options = SchemeOptions(order=order, roll="zero")
     remedy = size(build_text(UNEVEN + frame), "two-shaft", options)
@@ -175,9 +171,7 @@ def test_no_roll_by_the_nearest_places(order, frame):
 
 @pytest.mark.parametrize(("order", "turning"), [(2, "against"), (4, "with")])
 def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
-    """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3,
-    against it if n + 1 is.
-    """
+    """Of three cylinders in a star, order n turns with the crank if n - 1 is divisible by 3, against it if n + 1 is."""
     engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,

@@ -97,9 +97,7 @@ def test_closed_forms_at_any_lambda(exponent, which, n):
 # ------------------------------------------------------------------ offset and articulated
 # mechanisms
 def revolution(motion, count: int, orders: list[int]) -> list[list[mp.mpc]]:
-    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product
-    takes.
-    """
+    """Coefficients of `Re c_n e^{i n psi}` of each curve, from as many samples as the product takes."""
     turn = [mp.expjpi(mp.mpf(2 * k) / count) for k in range(count)]
     curves = list(zip(*(motion(e) for e in turn), strict=True))
     return [
@@ -131,9 +129,7 @@ NEAR_LOCK = [
 
 @pytest.mark.parametrize(("lam", "eps"), NEAR_LOCK)
 def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
-    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half
-    is never reached.
-    """
+    """lambda + |eps| to 1 - 1e-6: 16 roundings of the root mean square of the curve, of which half is never reached."""
 
     def motion(e):
         sine = ratio * e.imag - offset
@@ -157,9 +153,7 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
 
 
 def test_near_its_lock_an_offset_engine_without_a_resultant_is_exactly_balanced():
-    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 -
-    1.1e-6.
-    """
+    """Three throws at 120 degrees: only orders 3, 6, 9 .. are left, exactly, at lambda + eps = 1 - 1.1e-6."""
     found = three(rod={"ratio": 0.3}, piston={"mass": 1, "offset": 50 / 0.3 * (1 - 1.1e-6 - 0.3)})
     assert list(found.orders[~found.force.balanced]) == list(range(3, 65, 3))
 
@@ -186,9 +180,7 @@ def vee(short: float, master: int = 1) -> Engine:
 
 @pytest.mark.parametrize(("short", "master"), [(0.5, 1), (1e-2, 1), (1e-2, 2), (1e-3, 1)])
 def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master):
-    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the
-    rod's angle.
-    """
+    """16 roundings of the root mean square of the curve, and of its mean by 1/(1 - |sin|) of the rod's angle."""
     c = vee(short, master).cylinders
     row = 1 - int(c.linkage.master[0])
     ratio, chief = (mp.mpf(float(np.broadcast_to(c.lam, 2)[k])) for k in (row, 1 - row))
@@ -262,9 +254,7 @@ def test_throws_that_almost_cancel(off):
 )
 @pytest.mark.parametrize("layout", [{}, {"bank_angle": 72}, {"bank_angle": 72 + 720e6}, {"banks": [36, 36 - 360e6]}])
 def test_whole_turns_and_thirds_cancel_exactly(throws, layout):
-    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as
-    without the turns.
-    """
+    """A million full turns more or less: forces of the orders 3, 6, 9 .. alone, and these as without the turns."""
     found = three(crank={"throws": throws}, layout=layout)
     left = found.orders % 3 == 0
     assert found.force.balanced[~left].all()
@@ -299,9 +289,7 @@ def test_planes_that_almost_coincide(apart):
 @pytest.mark.parametrize("mass", [1e-9, 1.0, 1e9])
 @pytest.mark.parametrize("speed", [1e-3, 1e3, 1e6])
 def test_scale(stroke, mass, speed):
-    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16
-    roundings.
-    """
+    """Forces go with m r omega^2, moments with the length too: bores of a um to a km, to 16 roundings."""
 
     def found(stroke, mass, speed):
         return analyze(
@@ -325,9 +313,7 @@ def test_scale(stroke, mass, speed):
 
 
 def test_a_microgram_beside_a_million_tonnes():
-    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own
-    figures.
-    """
+    """1e-9 and 1e9 kg: the small piston is below the rounding of the sum, but not of its own figures."""
     both = engine(
         crank={"stroke": 100, "throws": [0, 90]}, cylinder={"1": {"piston_mass": 1e-9}, "2": {"piston_mass": 1e9}}
     )

@@ -1,6 +1,4 @@
-"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists
-its cylinders.
-"""
+"""One engine, one result: from run to run, on any number of threads, in whatever order a file lists its cylinders."""
 
 import os
 import subprocess
@@ -37,9 +35,7 @@ def test_runs_and_threads_do_not_matter():
 
 
 def listed(order: list[int]) -> Engine:
-    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the
-    file.
-    """
+    """Eight unequal cylinders on their own throws in two banks, the throws in this order in the file."""
     masses, throws = ([0.3 + 0.17 * k for k in range(8)], [0, 91.7, 183.1, 274.9, 45, 135.3, 222.2, 311.1])
     table = {
         str(place + 1): {
@@ -95,9 +91,7 @@ print(tracemalloc.get_traced_memory()[1] / 1e6)
 
 
 def test_512_cylinders_and_32768_orders_ask_for_less_than_100_mb():
-    """At a time. All at once they would be 16 million complex numbers, 256 MB, for each of some 16
-    arrays.
-    """
+    """At a time. All at once they would be 16 million complex numbers, 256 MB, for each of some 16 arrays."""
     env = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     run = subprocess.run([sys.executable, "-c", LARGEST], env=env, capture_output=True, check=True)
     assert float(run.stdout) < 100

@@ -44,9 +44,7 @@ points = st.lists(places, min_size=2, max_size=2)
 
 @st.composite
 def rods(draw: st.DrawFn) -> Tables:
-    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its
-    ends.
-    """
+    """Long enough to turn with any piston offset of `engines`; by mass and place or weighed at its ends."""
     length = draw(figures(110, 400))
     masses = draw(
         st.one_of(
@@ -207,9 +205,7 @@ def end_to_end(m: Tables) -> None:
 @quick
 @given(engines(), figures(-180, 180))
 def test_a_turned_engine_makes_the_same_turned(model, turn):
-    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar
-    changes.
-    """
+    """Banks, devices and the point of reference about the crank axis: every vector turns, no scalar changes."""
 
     def change(m: Tables) -> None:
         m["layout"]["banks"] = [bank + turn for bank in banks(m["layout"])]
@@ -257,9 +253,8 @@ def test_an_engine_with_its_throws_in_reverse(model):
 @quick
 @given(engines())
 def test_time_reversed(model):
-    """What turns backward through the same angles at the same speeds makes the same forces at each
-    of them; seen from its other end (half a turn about x) it is an engine that turns forward, at
-    crank angle -theta.
+    """What turns backward through the same angles at the same speeds makes the same forces at each of them; seen
+    from its other end (half a turn about x) it is an engine that turns forward, at crank angle -theta.
     """
     one, other = made(model), made(changed(changed(model, in_a_mirror), end_to_end))
     before, after, scale = found(one), found(other), sizes(one)
@@ -328,9 +323,7 @@ def test_a_counterweight_in_two_parts(model, share):
 @quick
 @given(engines(), st.lists(angles, max_size=3), st.lists(places, min_size=9, max_size=9))
 def test_two_engines_on_one_crank_add_up(model, more, where):
-    """One with the devices and one without, whose first pins stand alike; equal but for their
-    throws and places.
-    """
+    """One with the devices and one without, whose first pins stand alike; equal but for their throws and places."""
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
     first, second = model["crank"]["throws"], [model["crank"]["throws"][0], *more]
@@ -350,9 +343,7 @@ def test_two_engines_on_one_crank_add_up(model, more, where):
 @quick
 @given(engines(), figures(0, 1))
 def test_every_mass_in_two_parts(model, share):
-    """All moving masses of the cylinders split in one proportion between two engines at the same
-    place.
-    """
+    """All moving masses of the cylinders split in one proportion between two engines at the same place."""
     model.pop("cylinder", None)
     del model["crank"]["spacing"]
     throws = model["crank"]["throws"]
@@ -390,9 +381,7 @@ def test_a_counterweight_is_a_shaft_on_the_crank_axis(model):
 @quick
 @given(engines())
 def test_a_slider_is_two_shafts_turning_against_each_other(model):
-    """Half its unbalance each: with the crank at direction + angle, against it at direction -
-    angle.
-    """
+    """Half its unbalance each: with the crank at direction + angle, against it at direction - angle."""
 
     def change(m: Tables) -> None:
         (slider,) = m.pop("slider")
@@ -413,9 +402,7 @@ def test_a_slider_is_two_shafts_turning_against_each_other(model):
 @quick
 @given(engines(), figures(0, 1))
 def test_mass_moved_from_the_throw_to_the_big_ends(model, share):
-    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed
-    at its ends.
-    """
+    """What turns with the crank pin is one mass: as throw mass or at the big end of a rod weighed at its ends."""
 
     def change(m: Tables) -> None:
         rods_on_throw = len(banks(dict(m["layout"])))
@@ -441,9 +428,7 @@ def test_everything_grows_with_the_square_of_the_speed(model):
 @quick
 @given(engines(), st.randoms(use_true_random=False))
 def test_numbers_are_names(model, random):
-    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and
-    change no size.
-    """
+    """Other numbers for the same cylinders move the origin of the crank angle to another pin, and change no size."""
     for key in ("cylinder", "counterweight", "shaft", "slider"):
         model.pop(key, None)
     model["operation"].pop("speed_ripple")
@@ -462,9 +447,7 @@ def test_numbers_are_names(model, random):
 @quick
 @given(engines())
 def test_units_of_the_file_do_not_matter(model):
-    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and
-    rpm.
-    """
+    """Inches, pounds, turns, radians a second and so on for millimetres, kilograms, degrees and rpm."""
 
     def change(m: Tables) -> None:
         crank = m["crank"]

@@ -23,9 +23,7 @@ APART = ("auto", "complete", "step", "two-shaft", "eccentric-slider", "oldham") 
 
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:
-    """Largest of what is left of orders 1 and 2, against the largest of the same quantity
-    before.
-    """
+    """Largest of what is left of orders 1 and 2, against the largest of the same quantity before."""
     before, rest = (compute_spectra(engine, [1, 2], quantities), compute_spectra(after, [1, 2], quantities))
     return max(float(getattr(rest, q).major.max() / (getattr(before, q).major.max() or 1)) for q in quantities)
 
@@ -113,9 +111,7 @@ def test_a_gram_next_to_a_hundred_tonnes(light):
 
 @pytest.mark.parametrize("apart", [100, 1, 0.1])
 def test_planes_next_to_each_other(apart):
-    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still
-    nothing is left.
-    """
+    """Planes 1 mm apart in an engine of 200 mm: the unbalances grow a hundredfold, and still nothing is left."""
     engine = build_text(engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nthrow_mass = 2"))
     remedy = size_scheme(engine, "counterweights", planes=(0.05, 0.05 + apart / 1e3))
     before, after = (compute_spectra(e, [1], ("force", "moment")) for e in (engine, fit_devices(engine, remedy)))

@@ -1,6 +1,4 @@
-"""Equal figures stand in the order of the file, or of the search, whatever the last digits of the
-machine.
-"""
+"""Equal figures stand in the order of the file, or of the search, whatever the last digits of the machine."""
 
 from collections.abc import Callable
 from itertools import groupby

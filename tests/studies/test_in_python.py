@@ -1,6 +1,4 @@
-"""Studies in Python: they agree with engines that are varied one by one, and say in words what is
-wrong.
-"""
+"""Studies in Python: they agree with engines that are varied one by one, and say in words what is wrong."""
 
 import io
 import sys

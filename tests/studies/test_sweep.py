@@ -91,9 +91,7 @@ def test_every_variant_is_the_engine_alone(engine: str, vary: tuple[str, ...]) -
 
 @pytest.mark.parametrize("vary", ["counterweight.1.mass=0,0.3", "counterweight.1.radius=0,40"])
 def test_an_unbalance_of_mass_and_radius_varies_by_either(vary: str) -> None:
-    """0 and 0.3 kg at 40 mm (or 0 and 40 mm of 0.3 kg), opposite the first pin of a balanced crank:
-    U omega^2.
-    """
+    """0 and 0.3 kg at 40 mm (or 0 and 40 mm of 0.3 kg), opposite the first pin of a balanced crank: U omega^2."""
     sweep = asked(GOOD + "[[counterweight]]\nmass = 0.3\nradius = 40\n", vary, of="force.1.forward")
     (found,) = evaluate_quantities(sweep.engine(), sweep.quantities)
     assert found == pytest.approx([0, 0.3 * 0.040 * (3000 * math.pi / 30) ** 2], rel=1e-14)

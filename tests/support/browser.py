@@ -15,9 +15,7 @@ CHROMIUM = next(
 
 
 class Browser:
-    """One page. Messages that the page writes to its console, and errors in it, are kept in
-    `complaints`.
-    """
+    """One page. Messages that the page writes to its console, and errors in it, are kept in `complaints`."""
 
     def __init__(self, profile: Path) -> None:
         (ours_in, theirs_out), (theirs_in, ours_out) = os.pipe(), os.pipe()

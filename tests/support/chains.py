@@ -45,9 +45,7 @@ def chain_text(nodes, shafts=(), torques=(), gears=(), **head) -> str:
 
 
 def random_chain(kind: str, seed: int, spread: float = 1.0) -> Chain:
-    """A chain of 3 to 9 nodes with inertias and stiffnesses over `spread` powers of ten either
-    way.
-    """
+    """A chain of 3 to 9 nodes with inertias and stiffnesses over `spread` powers of ten either way."""
     rng = np.random.default_rng([KINDS.index(kind), seed])
     count = int(rng.integers(3, 10))
     inertia = 10 ** rng.uniform(-spread, spread, count)
@@ -109,9 +107,7 @@ def exact_frequencies(chain: Chain):
 
 
 def exact_response(chain: Chain, damping: Damping, w, load, attached=0.0):
-    """Angles (nodes,) and torques of shafts (shafts,) at one frequency, from equations of both,
-    solved at 50 digits.
-    """
+    """Angles (nodes,) and torques of shafts (shafts,) at one frequency, from equations of both, solved at 50 digits."""
     nodes, shafts = len(chain.inertia), len(chain.start)
     with mpmath.workdps(high_precision.DIGITS):
         matrix = mpmath.zeros(nodes + shafts)

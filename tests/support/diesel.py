@@ -44,9 +44,7 @@ speed = 2000
 
 
 def write_diesel(more: str = "", extra: str = "") -> str:
-    """The engine file whose nodes have the published inertias: what the throws lack is the running
-    gear's.
-    """
+    """The engine file whose nodes have the published inertias: what the throws lack is the running gear's."""
     throws = [1e6 * (j - RUNNING_GEAR) for j in INERTIAS[2:8]]
     return f"""{ENGINE}{extra}
 [torsion]

@@ -1,6 +1,4 @@
-"""What several tests need: a good engine file, the same with some text replaced, and small
-engines.
-"""
+"""What several tests need: a good engine file, the same with some text replaced, and small engines."""
 
 from __future__ import annotations
 
@@ -84,9 +82,7 @@ rotary = true
 
 
 def changed(*replacements: tuple[str, str], more: str = "") -> str:
-    """GOOD with each old text (which must be there) replaced by the new one, and `more` at its
-    end.
-    """
+    """GOOD with each old text (which must be there) replaced by the new one, and `more` at its end."""
     text = GOOD
     for old, new in replacements:
         if old not in text:
@@ -102,9 +98,7 @@ VEE = changed(
 
 
 def tables(**parts: dict[str, Any] | list[dict[str, Any]]) -> dict[str, Any]:
-    """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some
-    tables changed.
-    """
+    """A plain engine of one cylinder (lambda 1/4, 1 kg piston, rod without mass, 60 rpm) with some tables changed."""
     plain: dict[str, Any] = {
         "crank": {"stroke": 100},
         "rod": {"length": 200},

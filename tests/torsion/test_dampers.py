@@ -91,9 +91,7 @@ def test_no_other_figure_is_better(kind, key):
 
 @pytest.mark.parametrize("kind", [pytest.param("viscous", marks=pytest.mark.stress), "rubber"])
 def test_no_resonance_hides_between_the_speeds(kind):
-    """The largest stress with and without a damper is that of the range, however far apart the
-    speeds are.
-    """
+    """The largest stress with and without a damper is that of the range, however far apart the speeds are."""
     text = write_diesel().replace("damping = 2\n", "").replace("loss = 0.035", "loss = 0.004")
     coarse, fine = (
         ask_torsion(text, "--speeds", f"3000:4600:{step}", "--damper", kind)["damper"] for step in (400, 10)

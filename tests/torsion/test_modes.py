@@ -69,9 +69,7 @@ def test_a_clamp_holds_all_that_meshes_with_it():
 
 
 def test_a_massless_node_moves_with_its_shafts():
-    """Of two shafts in line the twist divides as their flexibilities; a dangling one does not
-    count.
-    """
+    """Of two shafts in line the twist divides as their flexibilities; a dangling one does not count."""
     chain = join_chain([2, 0, 3, 0], [ChainShaft(0, 1, 30), ChainShaft(1, 2, 60), ChainShaft(2, 3, 5)])
     modes = find_chain_modes(chain)
     assert modes.omega == pytest.approx([0, np.sqrt(20 * (1 / 2 + 1 / 3))])
