@@ -69,7 +69,7 @@ def test_files_that_would_take_too_much():
         assert mistakes_in(text) == nested, text[:9]
     assert mistakes_in("#" * (LARGEST_FILE_BYTES + 1)) == "has more than 6 MB; no engine file needs that"
     devices = GOOD + "[[shaft]]\nratio = 1\nunbalance = 1\n" * 1001
-    assert mistakes_in(devices) == "shaft: stands 1001 times; at most 1000 are taken"
+    assert mistakes_in(devices) == "shaft: is given 1001 times; at most 1000 are read"
     flood = changed(("[0, 180, 180, 0]", "[" + "[]," * 20_000 + "]"))
     assert mistakes_in(flood).startswith("10000 mistakes")
     for digits in ("9" * 5000, "9_9" * 4000, "-" + "9" * 4400):

@@ -46,7 +46,7 @@ def test_too_many_of_anything_is_refused():
         parse_runs('planes = ["a"]\n' + '[[run]]\nreadings = ["x"]\n' * 30)
     assert caught.value.more == 10
     runs = 'planes = ["a"]\n' + '[[run]]\nreadings = ["1 @ 0"]\n' * 501
-    assert mistakes(runs) == ["run: stands 501 times; at most 500 are taken"]
+    assert mistakes(runs) == ["run: is given 501 times; at most 500 are read"]
     planes = ", ".join(f'"p{k}"' for k in range(51))
     assert "planes" in mistakes(f'planes = [{planes}]\n[[run]]\nreadings = ["1 @ 0"]\n')[0]
     assert mistakes("planes = [")[0].startswith("is not valid TOML")

@@ -105,7 +105,7 @@ def test_a_rubber_ring_is_inertia_enough():
 
 
 def test_sizes_are_limited():
-    assert mistakes(chain_text({str(k): 1 for k in range(201)})) == ["node: stands 201 times; at most 200 are taken"]
+    assert mistakes(chain_text({str(k): 1 for k in range(201)})) == ["node: is given 201 times; at most 200 are read"]
 
 
 def test_the_schema_knows_all_keys():

@@ -43,7 +43,7 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
     Args:
         spectra: Spectra to show.
-        single: Size of each kind for one cylinder; of a kind that is not in it, none is small.
+        single: Size of each kind for one cylinder; kinds not in it are never small.
     """
     return [
         float(order)
@@ -119,7 +119,7 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
     Args:
         result: Analysis to show.
         system: System of units.
-        every_order: Whether orders were given, which need not be those that roll has.
+        every_order: Whether orders were given; roll may lack them.
     """
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll

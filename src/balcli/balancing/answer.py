@@ -40,7 +40,7 @@ from ..sizing.schemes import FIT, KNUCKLES, LADDER, SCHEMES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Tools, find_practical
 
-_UNEVEN = "sized for steady mean speed; before and after are those of the uneven one"
+_UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -219,7 +219,7 @@ def permit_unbalance(
     return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
 
 
-# Options of the command line are fields of the two arguments here.
+# Options of the command line are fields of `SchemeOptions` and `Tools`.
 balance = tell_arguments(
     **{name: name for name in dict.fromkeys((*SchemeOptions._fields, *Tools._fields))}
 )(balance_engine)
@@ -228,7 +228,7 @@ balance.__module__ = __name__  # where pickle finds it
 
 
 _STEP_DEG = 1e-3  # for the slope
-_STAYS_DEG = 1e-9  # what a pin is turned by less is rounding
+_STAYS_DEG = 1e-9  # smaller turns of a pin are rounding
 _FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # what knuckles can make even: degrees; metres
 
@@ -255,9 +255,9 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
     even.
 
-    "dead-centres": every articulated piston is at the top when the crank pin stands as the master
-    piston's did; "strokes": every stroke is the master piston's. Both at once would also need a
-    radius for each pin. A bank of several rows is set by the first of them. Banks that no angle
+    "dead-centres": every articulated piston is at the top when the crank pin stands to its bank as
+    to the master's at the master piston's top; "strokes": every stroke is the master piston's. Both
+    at once would also need a radius for each pin. A bank of several rows is set by the first of them. Banks that no angle
     within 30 degrees makes even keep their angle.
 
     Raises:
@@ -359,7 +359,7 @@ def _explain(
         result = "top dead centres as even as the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
-    reasons = [f"knuckle pins {turned}: {result}"]
+    reasons = [f"knuckle pins {turned}: {result}"] * bool(np.any(hung & done))
     if left := [str(bank + 1) for bank in np.flatnonzero(hung & ~done)]:
         reasons.append(
             f"no angle makes bank {', '.join(left)} even: the knuckle pin stays where it is"
@@ -372,7 +372,8 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     angles.
 
     Args:
-        text: of the file, UTF-8. file: its name in messages.
+        text: Text of the file, UTF-8.
+        file: Its name in messages.
 
     Raises BalcliError if no engine file can describe the remedy.
     """

@@ -119,7 +119,7 @@ def select_tables(
 
     Raises:
         BalcliError: There is no such table or range, the table does not take an option, or a range
-            has no name of a table.
+            comes without the name of a table.
     """
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None

@@ -2,8 +2,8 @@
 
 `F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`, planar vectors being
 complex numbers x + iy. A scalar (couple, torque, roll) is the special case `backward =
-conj(forward)`. Order 0 holds its mean in `forward`. Arrays have the orders first, then any trailing
-axes (crank angles, variants of a sweep).
+conj(forward)`. Order 0 holds its mean in `forward`. Figures by order have the orders first, then
+any trailing axes (crank angles, variants of a sweep).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-# As arrays without axes, which numpy takes up quicker than Python's numbers.
+# Arrays without axes: numpy is quicker with them than with Python's numbers.
 _STEP = np.array(15.0)  # degrees
 _STEPS_A_TURN = np.array(24)
 _RADIANS_A_DEGREE = np.array(np.pi / 180)
@@ -105,7 +105,7 @@ class Phasors:
     orders: Array
     vectors: Complex
     noise: Array
-    __array_ufunc__ = None  # array * phasors is ours to answer
+    __array_ufunc__ = None  # array * phasors calls our __rmul__
 
     @classmethod
     def of(cls, orders: Array, forward: Complex, backward: Complex, noise: Array) -> Phasors:
@@ -154,7 +154,7 @@ class Phasors:
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
         """Return the phasors scaled, or scaled and turned where the factor is complex."""
-        size: Any = abs(factor)  # of a number, that is quicker than numpy's
+        size: Any = abs(factor)  # quicker than np.abs for a plain number
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
     def about(self, p: complex | Complex) -> Phasors:

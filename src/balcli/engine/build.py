@@ -5,7 +5,7 @@ common crank pin, unless each has a throw or pin of its own. `build` makes it in
 function of the stages before it. `engine.parts` makes a stage when it is first needed:
 
 1. plan: which cylinders there are, on which bank and throw (`plan_cylinders`),
-2. gears: piston and rod of each, from the keys that a file may use for them (`find_gears`),
+2. running gears: piston and rod of each, from the keys that a file may use for them (`find_gears`),
 3. pins: axes of the cylinders and angles of their crank pins, from the throws that the file gives
    or from its firing order (`set_pins`),
 4. masses: what a workshop would weigh (`weigh_cylinders`),
@@ -14,8 +14,8 @@ function of the stages before it. `engine.parts` makes a stage when it is first 
 
 An engine has to keep rules: a rod lets its crank turn, every cylinder is at top dead centre when it
 fires, and so on. The groups of `RULES` go from early stages to late ones; the first group with
-mistakes ends the search. A file with mistakes in tables that do not make the engine is checked by
-the same rules, so that the user sees all mistakes at once (`engine.parse`).
+mistakes ends the search, because later rules presuppose earlier ones. A file with mistakes in
+tables that do not make the engine is checked by the same rules (`engine.parse`).
 
 Variants take the same way: `varied` puts arrays in place of figures of the file, and every stage
 works on arrays as it does on numbers.
@@ -65,7 +65,7 @@ def build(
         model: Engine file, each table of it checked.
         varied: Arrays, which broadcast against each other, in place of some figures, by dotted name
             (`rod.ratio`, `crank.throws.2`). With given throws and without [gas], the firing order
-            does not count then.
+            is then ignored.
         rank: Least number of trailing axes. A figure that does not vary along one has length 1
             there, and so has everything that is computed from it.
         gas: Gas of the engine, if it is known already.
@@ -136,7 +136,7 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
 
 
 # ------------------------------------------------------------------ rules between the stages
-# Tables without whose figures no contradiction between tables can be found.
+# Tables needed to find contradictions between tables.
 _NEEDED = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"})
 
 
@@ -316,7 +316,7 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
     different, samples = c.count_all_samples()
     if samples > MOST_SAMPLES:
         told = f"{different} different mechanisms need {samples} samples of a revolution; at most "
-        told += f"{MOST_SAMPLES} are taken: make rods near their lock longer, or more of them equal"
+        told += f"{MOST_SAMPLES} are taken: make the shortest rods longer, or more of them equal"
         yield Problem("cylinder", told)
 
 
@@ -341,10 +341,10 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
 
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
-    # plan and gears
+    # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
     (check_knuckles,),  # pins
-    (check_numbering,),  # firing
+    (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
     (check_gas,),
 )

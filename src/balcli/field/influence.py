@@ -4,13 +4,13 @@ At each speed the readings V depend on the weights U by `V = V0 + alpha U` (Good
 86, 1964, 273). The coefficients alpha and the readings as found V0 are fitted to all runs by least
 squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
 
-A run that comes after the coefficients are determined, with weights that no earlier run had, has a
-*correction* in: balancing goes on from the last of them. A repeated run is none.
+A run after the coefficients are determined, with weights that no earlier run had, is a *correction
+run*: balancing goes on from the last of them. A repeated run is not one.
 
 All complex numbers here turn in the sense in which phases of readings count.
 
-All readings are taken to have errors of one size. The fit shows it: by the readings that the
-coefficients do not give, and by the readings that no weights cancel. To first order the errors e
+All readings are taken to have errors of one size. It is estimated from what the fit and the weights
+leave. To first order the errors e
 move the weights by `B h e`: h is the share of each run in the readings to cancel, B the inverse of
 the coefficients. With nu complex degrees of freedom the square of such a distance over its
 estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
@@ -179,7 +179,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step
     factors = runs.factors
-    gains = []  # square of an error of a reading to cancel, over that of an error of a run
+    gains = []  # squared error ratio: reading to cancel over run
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
         design, readings = _design(series), series.readings
         if series.given is not None:

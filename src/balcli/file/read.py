@@ -43,7 +43,7 @@ T = TypeVar("T", bound=FileTable)
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
     """Return mistakes as one error that lists the first ones and the number of the others. A
-    missing key is not listed if it is misspelt.
+    key that is only misspelt is not listed as missing.
 
     Args:
         problems: all mistakes of a file.
@@ -61,7 +61,7 @@ class TableReader:
 
     Args:
         file_kind: what the file is, in words: "a chain file".
-        describe: one of pydantic's findings in a table with this path, in words.
+        describe: Puts one of pydantic's findings in a table with this path into words.
         is_engine: whether tables are those of an engine file, which has synonyms and hints.
 
     Attributes:
@@ -92,10 +92,10 @@ class TableReader:
         """
         if not isinstance(value, list):
             wanted = f"write [[{key}]] in double brackets, once for each {key}"
-            self.add(key, f"is one of several; {wanted}")
+            self.add(key, f"may be given several times; {wanted}")
             return None
         if len(value) > most:
-            self.add(key, f"stands {len(value)} times; at most {most} are taken")
+            self.add(key, f"is given {len(value)} times; at most {most} are read")
             return None
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
@@ -109,7 +109,7 @@ class TableReader:
             table: Keys that it may have.
         """
         if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
-            self.add(path, f"stands once, in single brackets: [{path}]")
+            self.add(path, f"is given once, in single brackets: [{path}]")
             return None
         if not isinstance(value, Mapping):
             hint = f"write {format_heading(path)} and its keys below it"
@@ -138,7 +138,7 @@ class TableReader:
         """
         place = join_path(path, [key])
         self._unknown += 1
-        if self._unknown > MOST_MISTAKES_SHOWN:  # of these only how many there are is told
+        if self._unknown > MOST_MISTAKES_SHOWN:  # only the number of these is told
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
@@ -177,7 +177,7 @@ class TableReader:
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not (  # a list whose members have findings of their own was not counted in full
+            elif not (  # members with findings of their own were not counted
                 finding["type"] == "too_short"
                 and len(finding["input"]) >= finding["ctx"]["min_length"]
             ):
@@ -191,9 +191,9 @@ class Draft(NamedTuple):
     """The readable part of an engine file.
 
     Attributes:
-        model: the file. Tables with mistakes are replaced by their defaults, or left out.
-        readable: tables and keys at the head of the file that were read, or are certainly not
-            given: no misspelt one stands for them.
+        model: the file. A table with mistakes has its default, or is left out.
+        readable: tables and keys at the head of the file that were read, or that are absent and
+            not misspelt.
         problems: mistakes of the text.
     """
 
@@ -221,11 +221,11 @@ def check_tables(
     data: Mapping[str, object], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
     """Return the readable part of the tables of a file; pydantic compiles only tables that are
-    there.
+    present.
 
     Args:
         data: as TOML is read.
-        folder: in which the files are that they name.
+        folder: Folder of the files that it names.
         name: of their own file, for messages.
         bare: as of `read_tables`.
 
@@ -263,7 +263,7 @@ def check_tables(
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:
-    """Return the value of a key at the head of the file; None: it has mistakes."""
+    """Return the value of a key at the head of the file; None where it cannot be used."""
     if key in TEXTS:
         return _read_text(reader, key, value)
     if key == "cylinder":

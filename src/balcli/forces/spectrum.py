@@ -2,7 +2,7 @@
 
 An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
 repeat after each revolution and have whole orders. What happens once in a four-stroke cycle (gas
-pressure, and a crank speed that is uneven by it) has half orders as well. All orders are therefore
+pressure, and a crank speed made uneven by it) has half orders as well. All orders are therefore
 multiples of 1/2, which are exact as floating-point numbers.
 
 Inertia: `compute_spectra` sums the series of all mechanisms (`core.loads`); at uneven speed it
@@ -131,15 +131,15 @@ def compute_spectra(
 
     Args:
         engine: Engine, at steady or uneven speed; without trailing axes for `each` cylinder. With
-            trailing axes, phasors have these after their own.
+            trailing axes, phasors have them last.
         orders: Multiples of 1/2, ascending, not negative, shape (orders,).
         kinds: Names of KINDS, and of GAS_KINDS for an engine with gas.
         each: Phasors of each cylinder as if no other one had a mass, shape (orders, cylinders), in
             the order of `engine.numbers`; devices are left out.
 
     Raises:
-        BalcliError: The engine has no gas, and a kind of gas is asked for; or more than
-            MOST_LOADS_APART orders of cylinders are.
+        BalcliError: The engine has no gas, and a kind of gas is asked for; or orders
+            times cylinders are more than MOST_LOADS_APART.
     """
     wanted = np.asarray(orders, float)
     if each:
@@ -165,8 +165,8 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
     if orders * loads > most:
         raise BalcliError(
             f"{orders} orders of {loads} cylinders and counterweights one by one are "
-            f"{orders * loads} forces, and at most {most} are kept: an engine farther from its "
-            "lock has fewer orders"
+            f"{orders * loads} forces, and at most {most} are kept: an engine with longer "
+            "rods has fewer orders"
         )
 
 
@@ -206,7 +206,7 @@ def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
 
 
 def with_only(engine: Engine, moving: ArrayLike) -> Engine:
-    """Return the engine with the masses of some cylinders alone, and without devices.
+    """Return the engine with masses in some cylinders only, and without devices.
 
     Args:
         engine: Engine.
@@ -253,7 +253,7 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    # `crank.inertia` beyond the unbalanced masses of the throws, which turn with the pins
+    # `crank.inertia` less that of the unbalanced masses of the throws, which turn with the pins
     found, crank = {}, engine.crank_inertia
     if crank is None or engine.rotary:
         crank = 0.0
@@ -272,8 +272,8 @@ def _compute_inertia(
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Return the coefficients of the speed (`ripple.find_speed`), and the orders that it mixes into
-    these: dense ones at uneven speed, at steady speed these themselves.
+    """Return the coefficients of the speed (`ripple.find_speed`), and the orders needed for these:
+    all up to the highest at uneven speed, else these themselves.
     """
     if not engine.ripple:
         return np.ones(1, complex), orders
@@ -322,7 +322,7 @@ def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> A
         raise BalcliError(f"orders must be multiples of 1/2 from 0 to {HIGHEST_ORDER}, not {named}")
     halves = ", ".join(f"{n:g}" for n in asked if n % 1)
     if halves and engines and all(engine.cycle_revolutions == 1 for engine in engines):
-        told = "half orders take [gas] and four strokes; ask for whole orders"
+        told = "half orders need [gas] and four strokes; ask for whole orders"
         raise BalcliError(f"orders {halves}: {told}")
     return np.array(asked, float)
 
@@ -345,8 +345,8 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """Return the orders 1 .. n above which nothing exceeds rounding errors, shape (orders,); 0 .. n
-    at uneven speed, with half orders if its lines have some.
+    """Return the orders 1 .. n, above which all is rounding errors, shape (orders,); 0 .. n at
+    uneven speed, with half orders if its lines have some.
     """
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
@@ -404,8 +404,8 @@ def merge_orders(*several: Iterable[float]) -> Array:
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
 
-_LEAST = 24  # harmonics that are computed at least, so that the largest is among them
-_QUADRATURE = 8 * EPS  # error of a coefficient, of the largest
+_LEAST = 24  # fewest harmonics computed; the largest is among them
+_QUADRATURE = 8 * EPS  # error of a coefficient relative to the largest
 
 
 def take_gas(engine: Engine) -> EngineGas:

@@ -4,9 +4,8 @@ Motion is six numbers about the centre of gravity along the engine's axes: displ
 and rotation about x, y, z (rad). Loads match: forces (N) and moments about the centre of gravity
 (N m). By order both are complex, frequencies in rad/s of any shape; see `vibration`.
 
-Motions of a rigid body in words.
-
-A body as pictures show it: an even block of its mass and moments of inertia, seen askew.
+`name_motion` puts motions of a rigid body into words. Pictures show the body as an even block with
+its mass and moments of inertia.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from ..core.vibration import ROUNDING, Complex, Modes, Real, find_modes
 from ..file.fields import join_words
 
 _NO_SHARE = 1e-14  # of a mode's energy, which is 1
-_UNCOUPLED = 1e-14  # of the stiffness of both motions
+_UNCOUPLED = 1e-14  # share of the stiffness of both motions: a smaller coupling is rounding
 _FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
 
 
@@ -100,7 +99,7 @@ def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
 
     Args:
         motion: Motion, shape (6,).
-        centre: Center of gravity, m, shape (3,).
+        centre: Centre of gravity, m, shape (3,).
 
     Returns:
         Unit vector along the axis, its largest component positive, and the point of the axis that

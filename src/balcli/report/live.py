@@ -104,7 +104,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     parts = Parts(model)
     numbers = list(_list_numbers(model))
     speed = float(engine.speed_rpm)
-    throws: dict[int, int] = {}  # cylinder by whose firing a throw stands
+    throws: dict[int, int] = {}  # throw: the cylinder whose firing sets its angle
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
@@ -348,8 +348,8 @@ def _find_forms(
     """Return the linear forms of axes, crank pins (deg) and positions (mm) of the cylinders, and of
     the positions of the throws: a constant, and coefficients by the name of a number.
 
-    Pins are without the angles of top dead centre that an offset adds where a throw stands as a
-    cylinder fires.
+    Pins leave out the dead-centre angles due to offsets where the firing of a cylinder sets the
+    throw.
     """
     start = _measure(parts, throws)
     moving = [

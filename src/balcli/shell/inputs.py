@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..file.model import EngineFile
 
 
-# What says something of moments besides them, of all that can be asked for.
+# What can be asked for and includes moments, among other things.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
@@ -58,7 +58,7 @@ def read_engine(
         speed_rpm: crank speed of the engine instead of the file's.
         asked: names of requested quantities and tables; None: all that the command shows. Without
             moments among them, no warning of unknown moments is printed.
-        prepare: Function of the file to the file of which the engine is built.
+        prepare: Changes the file before the engine is built.
 
     Raises:
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
@@ -167,8 +167,8 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
 
 
 def find_expected(paths: Sequence[Path]) -> list[Path]:
-    """Return files where `check` has its records, of those paths that are folders and folders
-    within.
+    """Return the files of records of `check` in those paths that are folders, and in their
+    subfolders.
     """
     files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
     return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})

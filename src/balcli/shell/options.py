@@ -82,7 +82,7 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show; default: 1, 2 and all that are not negligible; with gas also to 12.",
+        "Orders to show; default: 1, 2 and all that are not negligible; with gas all up to 12.",
         "--orders",
     ),
 ]
@@ -107,7 +107,7 @@ OnlyParts = Annotated[
 ]
 Small = Annotated[
     str | None,
-    optional("5%", "Leave parts below this share of one cylinder's order 1."),
+    optional("5%", "Ignore parts below this share of one cylinder's order 1."),
 ]
 Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")
@@ -116,7 +116,7 @@ Misfire = Annotated[
     list[int] | None,
     optional(
         "N",
-        "A cylinder without gas, not even compressed ([cylinder.N] heat = 0 compresses); may be "
+        "A cylinder without gas or compression (with compression: [cylinder.N] heat = 0); may be "
         "given again.",
     ),
 ]

@@ -134,7 +134,7 @@ def _write(value: float, digits: int) -> str:
         return UNKNOWN
     if value == 0:
         return "0"
-    # the last digits, which are the machine's, do not decide to which side a half is rounded
+    # rounded first, so that machine noise does not decide to which side a half goes
     value = float(f"{value:.{max(digits, 12)}g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:

@@ -3,7 +3,7 @@
 Counterweights in the end planes cancel the part of order 1 that turns with the crank;
 counterweights at every throw cancel it where it arises, so that main bearings do not carry it;
 shafts cancel the part that turns against the crank, and order 2. A step is listed if the part that
-it cancels is not small compared with one cylinder.
+it cancels, or the main bearing load that it saves, is not small compared with one cylinder.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Scale:
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
-        moment_Nm: This force at the length of the engine; left out where positions are not known.
+        moment_Nm: This force times the length of the engine; left out where positions are unknown.
     """
 
     force_N: float
@@ -94,7 +94,7 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class LeftOut:
-    """A step that would cancel a part that is too small to be listed.
+    """A step too small to be listed.
 
     Attributes:
         step: Name of the step.
@@ -157,7 +157,7 @@ class Ladder:
     def _explain(self, out: LeftOut) -> str:
         """Return the effect of an omitted step, and the option that lists it, if there is one."""
         share, fall = self.measure(out), out.main_bearing_N
-        does, hint = "take", f"; --small {math.floor(share)}% lists it"
+        does, hint = "cancel", f"; --small {math.floor(share)}% lists it"
         if fall is not None:
             does = f"{'lower' if fall > 0 else 'raise'} the largest main bearing load by"
             hint = hint if fall > 0 else ""
@@ -175,9 +175,9 @@ class Ladder:
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a weight at every throw, against the forward force of order 1 of its
-    cylinders and of the counterweights of the file that are nearest to it. If a force or moment
-    remains (stagger, weights of the file), the smallest addition cancels it.
+    """Return the fitting with a weight at every throw. It cancels the forward force of order 1 of
+    the throw's cylinders and of the counterweights of the file that are nearest to it. If a force or
+    moment remains (stagger, weights of the file), the smallest addition cancels it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -306,7 +306,7 @@ def _leave_out(
 
 
 def _make_step(name: str, engine: Engine, fitting: Fitting) -> Step:
-    """Return the figures of the engine, as drawn, with the devices of a fitting."""
+    """Return the figures of the engine with the devices of a fitting."""
     remedy = fitting.remedy
     fitted = fit_devices(engine, remedy)
     kinds = ("force", "moment") if engine.places_known else ("force",)

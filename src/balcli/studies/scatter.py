@@ -42,8 +42,8 @@ from .quantity_names import ENGINE, MOUNTS, TORSION
 RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
 CHUNK, AT_ONCE = 8_192, 400_000  # samples at a time; deviations at a time
 _EQUAL = 1e-8  # of the largest effect: effects that differ by less are equal
-_ROUNDING = 1e-12  # of a figure: a smaller change of it is none
-_LEAST = -0.99  # relative deviation: a normal one makes no mass and no spring negative
+_ROUNDING = 1e-12  # share of a figure: a smaller change counts as none
+_LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
 # What varies, in words, and an option with a tolerance, by chapter.
 _VARIED = {

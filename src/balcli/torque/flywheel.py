@@ -63,7 +63,8 @@ def find_flywheel(
     moving: Function | None = None,
     fluctuation: float | None = None,
 ) -> Flywheel | None:
-    """Return inertia and fluctuation of speed; None if neither is known or requested.
+    """Return inertia and fluctuation of speed; None without a known inertia or a
+    requested fluctuation.
 
     Args:
         torque: Torque of gas or a given curve, less an uneven load, N m.
@@ -79,7 +80,9 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
+    course = resolved(
+        moving or np.zeros_like, torque.breaks
+    )  # a resolved curve is quicker than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:

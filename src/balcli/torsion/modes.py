@@ -29,8 +29,8 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(0.25j * np.pi)  # where no pole can be: off both axes, and it would grow
-_INFINITE = 1e-6  # share of the largest: eigenvalues below are a double 0, but for rounding
+_SIGMA = np.exp(0.25j * np.pi)  # no pole is here: it would grow
+_INFINITE = 1e-6  # share of the largest: smaller eigenvalues are a double 0
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -98,7 +98,7 @@ def chain_loss(
 
 def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
-    the chain at rest between others that turn against each other; of wheels that mesh the first.
+    the chain at rest between others that turn against each other; for meshed wheels, the first.
 
     Args:
         chain: Inertias and shafts.
@@ -218,7 +218,7 @@ def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
     """Return the poles (poles,) of the damped system, rad/s, as of `find_chain_poles`.
 
     Args:
-        system: Its rings in oil become nodes, each on a shaft that is a dashpot alone.
+        system: Its rings in oil become nodes, each behind a pure dashpot.
         order: Order at which pendulums have their inertia; None: they are left out.
     """
     chain, damping, rings = system.chain, system.damping, system.rings
