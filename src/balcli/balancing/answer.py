@@ -257,8 +257,8 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
 
     "dead-centres": every articulated piston is at the top when the crank pin stands to its bank as
     to the master's at the master piston's top; "strokes": every stroke is the master piston's. Both
-    at once would also need a radius for each pin. A bank of several rows is set by the first of them. Banks
-    that no angle within 30 degrees makes even keep their angle.
+    at once would also need a radius for each pin. A bank of several rows is set by the first of
+    them. Banks that no angle within 30 degrees makes even keep their angle.
 
     Raises:
         BalcliError: the engine has no articulated rods, or this is no goal.

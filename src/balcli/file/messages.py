@@ -87,7 +87,9 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         message = f"{shown} has {counted(len(value), 'value')}; give {most} {finding['ctx'][bound]}"
         message += f": {these}" if these else ""
     elif kind == "tuple_type" and field and find_table(field.annotation):
-        found = "may be given several times" if isinstance(value, Mapping) else f"{shown} is no table"
+        found = (
+            "may be given several times" if isinstance(value, Mapping) else f"{shown} is no table"
+        )
         message = f"{found}; write [[{place}]] in double brackets"
     elif kind == "tuple_type":
         example = shorten(document.example or [0, 180])
