@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -78,11 +79,13 @@ def until(happened: Callable[[], bool]) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_leaves_the_older_file_and_what_others_wrote(engine: str, tmp_path: Path) -> None:
     target, other = write(tmp_path / "x.json", "old"), write(tmp_path / "x.json.part", "mine")
+    heeded = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # jobs in the background ignore it
     process = start_command(
         *("sweep", engine, "-q", "force.2.major", "-f", "json", "-o", target),
         *("--vary", "rod.ratio=0.2:0.3:0.00001", "--vary", "crank.stroke=80:90:0.001"),
         stderr=subprocess.PIPE,
         encoding="utf-8",
+        preexec_fn=heeded,
     )
     until(lambda: process.poll() is not None or any(p.stat().st_size > HEAD for p in tmp_path.glob(".x.json*")))
     process.send_signal(signal.SIGINT)
