@@ -119,7 +119,7 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
     Args:
         result: Analysis to show.
         system: System of units.
-        every_order: Whether orders were given; roll may lack them.
+        every_order: Whether the caller chose the orders.
     """
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll

@@ -43,7 +43,7 @@ def unit(degrees: ArrayLike) -> Complex:
     degrees, however many turns.
 
     The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating
-    point), the rest turned on.
+    point), then turned by the remainder.
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)

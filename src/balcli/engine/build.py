@@ -1,7 +1,7 @@
 """Engine file -> engine: the page to read first.
 
-An engine is a crankshaft with throws, and cylinders in banks: the cylinders of one throw have a
-common crank pin, unless each has a throw or pin of its own. `build` makes it in stages, each a
+An engine is a crankshaft with throws, and cylinders in banks: the cylinders of one throw share
+a crank pin, unless it is split. `build` makes it in stages, each a
 function of the stages before it. `engine.parts` makes a stage when it is first needed:
 
 1. plan: which cylinders there are, on which bank and throw (`plan_cylinders`),

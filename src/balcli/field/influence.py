@@ -9,8 +9,8 @@ run*: balancing goes on from the last of them. A repeated run is not one.
 
 All complex numbers here turn in the sense in which phases of readings count.
 
-All readings are taken to have errors of one size. It is estimated from what the fit and the weights
-leave. To first order the errors e
+All readings are taken to have errors of one size. It is estimated from the residuals of the fit
+and of the correction. To first order the errors e
 move the weights by `B h e`: h is the share of each run in the readings to cancel, B the inverse of
 the coefficients. With nu complex degrees of freedom the square of such a distance over its
 estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
@@ -179,7 +179,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step
     factors = runs.factors
-    gains = []  # squared error ratio: reading to cancel over run
+    gains = []  # variance of a reading to cancel over that of one run
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
         design, readings = _design(series), series.readings
         if series.given is not None:

@@ -192,8 +192,8 @@ class Draft(NamedTuple):
 
     Attributes:
         model: the file. A table with mistakes has its default, or is left out.
-        readable: tables and keys at the head of the file that were read, or that are absent and
-            not misspelt.
+        readable: tables and keys at the head of the file that were read without mistakes, or
+            are really absent.
         problems: mistakes of the text.
     """
 

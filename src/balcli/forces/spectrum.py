@@ -253,7 +253,7 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    # `crank.inertia` less that of the unbalanced masses of the throws, which turn with the pins
+    # `crank.inertia` minus the throws' inertia, which is counted with the pins
     found, crank = {}, engine.crank_inertia
     if crank is None or engine.rotary:
         crank = 0.0
@@ -272,8 +272,8 @@ def _compute_inertia(
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Return the coefficients of the speed (`ripple.find_speed`), and the orders needed for these:
-    all up to the highest at uneven speed, else these themselves.
+    """Return the coefficients of the speed (`ripple.find_speed`), and the orders needed to get the
+    given ones: all up to the highest at uneven speed, just the given ones at steady speed.
     """
     if not engine.ripple:
         return np.ones(1, complex), orders

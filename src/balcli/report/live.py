@@ -348,8 +348,8 @@ def _find_forms(
     """Return the linear forms of axes, crank pins (deg) and positions (mm) of the cylinders, and of
     the positions of the throws: a constant, and coefficients by the name of a number.
 
-    Pins leave out the dead-centre angles due to offsets where the firing of a cylinder sets the
-    throw.
+    Where the firing of a cylinder sets the throw, pins exclude the angle of top dead centre that
+    is due to its offset.
     """
     start = _measure(parts, throws)
     moving = [

@@ -116,8 +116,8 @@ Misfire = Annotated[
     list[int] | None,
     optional(
         "N",
-        "A cylinder without gas or compression (with compression: [cylinder.N] heat = 0); may be "
-        "given again.",
+        "A cylinder without gas pressure, may be given again. If it still compresses, give "
+        "[cylinder.N] heat = 0 in the file.",
     ),
 ]
 GuideHeight = Annotated[

@@ -41,7 +41,7 @@ NOTHING, UNKNOWN = "balanced", "–"  # a force or moment of 0, and one that is 
 
 class Grid(NamedTuple):
     """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
-    column) stand out, and the columns in `words` are read, not compared: they stand to the left.
+    column) stand out, and the columns in `words` are read, not compared: they are left-aligned.
     """
 
     title: str

@@ -177,7 +177,7 @@ class Ladder:
 def add_at_throws(fitting: Fitting) -> Fitting:
     """Return the fitting with a weight at every throw. It cancels the forward force of order 1 of
     the throw's cylinders and of the counterweights of the file that are nearest to it. If a force
-    or moment remains (stagger, weights of the file), the smallest addition cancels it.
+    or moment remains (stagger, weights of the file), the smallest additional unbalances cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]

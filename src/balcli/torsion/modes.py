@@ -29,8 +29,8 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(0.25j * np.pi)  # no pole is here: it would grow
-_INFINITE = 1e-6  # share of the largest: smaller eigenvalues are a double 0
+_SIGMA = np.exp(0.25j * np.pi)  # a shift at which there is no pole: what lies there would grow
+_INFINITE = 1e-6  # share of the largest: smaller eigenvalues are zeros, double ones and so inexact
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -98,7 +98,7 @@ def chain_loss(
 
 def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
-    the chain at rest between others that turn against each other; for meshed wheels, the first.
+    the chain at rest between others that turn against each other; of meshed wheels only the first.
 
     Args:
         chain: Inertias and shafts.
