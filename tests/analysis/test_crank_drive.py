@@ -1,11 +1,13 @@
 """Torque along the crankshaft against the sum of single cylinders; masses against a uniform rod."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 from support.commands import ask, ask_json, refusal
 from support.engines import GOOD, build_text, changed
+from support.paths import ENGINES
 
 from balcli import analyze, analyze_torque, curves, load_example
 from balcli.analysis.crank_drive import find_journals, list_masses
@@ -106,3 +108,16 @@ def test_words_of_only(tmp_path):
     assert "Masses" not in table
     rows = ask("analyze", tmp_path / "four.toml", "--only", "masses", "-f", "csv")
     assert "masses,,piston_kg,0.5,kg" in rows
+
+
+def test_tables_have_the_units_and_the_defaults_that_count():
+    """Masses in pounds, and what the gas assumes above the torques that follow from it."""
+    masses = ask("analyze", ENGINES / "i4_wiebe.toml", "--only", "masses", "--units", "imperial")
+    assert re.search(rf"^piston, lb +{0.51 / 0.45359237:.4g}$", masses, re.MULTILINE)
+    assert "gas.compression_index = 1.32" in ask("analyze", ENGINES / "i4_wiebe.toml", "--only", "journals")
+
+
+def test_the_crank_of_a_rotary_engine_gives_no_torque_off():
+    assert "journals: the crank of a rotary engine stands still" in refusal(
+        "analyze", ENGINES / "rotary9.toml", "--only", "journals"
+    )

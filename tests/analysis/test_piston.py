@@ -96,12 +96,14 @@ def test_the_command_in_all_formats(tmp_path):
     table = ask("piston", tmp_path / "four.toml")
     assert "mean speed, m/s" in table
     assert "two-term" in table
+    assert "mean speed, ft/s" in ask("piston", tmp_path / "four.toml", "--units", "imperial")
     one = json.loads(ask("piston", tmp_path / "four.toml", "--cylinder", "3", "-f", "json"))
     assert one["format"] == "balcli.piston/1"
     assert [each["cylinders"] for each in one["mechanisms"]] == [[3]]
     rows = ask_csv("piston", tmp_path / "four.toml")
     stroke = next(row for row in rows if row["figure"] == "stroke_m")
     assert (stroke["cylinders"], stroke["unit"]) == ("1 2 3 4", "m")
+    assert next(row for row in rows if row["figure"] == "mean_speed_m_per_s")["unit"] == "m/s"
     assert "cylinder 7" in refusal("piston", tmp_path / "four.toml", "--cylinder", "7")
     with pytest.raises(BalcliError):
         choose_cylinder(analyze_pistons(build_text(GOOD)), 9)

@@ -9,7 +9,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from support.browser import CHROMIUM, Browser
+from support.browser import live
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import write
@@ -29,18 +29,6 @@ pytestmark = pytest.mark.slow
 VECTORS, SCALARS = ("force_N", "moment_Nm"), ("couple_Nm", "inertia_torque_Nm", "roll_Nm")
 WANTED = ("force", "moment", "couple", "torque", "roll", "peak", "ladder")
 HOSTILE = '</script><img src=x onerror=alert(1)> & "quoted" {{ 7 * 7 }} 发动机'
-
-
-def live(test):
-    """A test that needs a browser."""
-    return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    it = Browser(tmp_path_factory.mktemp("profile"))
-    yield it
-    it.close()
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from support.browser import CHROMIUM, Browser
+from support.browser import live
 from support.commands import ask
 from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
@@ -105,18 +105,6 @@ def test_unusual_engines_have_a_page(text):
 
 
 # ------------------------------------------------------------------ in a browser
-def live(test):
-    """A test that needs a browser."""
-    return pytest.mark.browser(pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")(test))
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    it = Browser(tmp_path_factory.mktemp("profile"))
-    yield it
-    it.close()
-
-
 @pytest.fixture
 def show(browser, tmp_path):
     def opened(text: str = GOOD, **how):

@@ -26,16 +26,16 @@ from ..core.cylinder_pressure import crank_torque
 from ..core.peaks import find_swing
 from ..core.phasors import Array, Complex
 from ..core.piecewise import resolved
-from ..core.records import list_figures, to_document
+from ..core.records import find_unit, list_figures, to_document
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from ..errors import BalcliError
-from ..file.fields import join_words
 from ..forces.crankshaft import place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
+from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Grid, degrees, number
-from ..show.units import System
+from ..show.units import SI, ShownUnit, System, name_with_unit
 from .records import Journal, JournalTorque, Masses, ShearStress
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
@@ -52,7 +52,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
         BalcliError: The crank of a rotary engine stands still.
     """
     if engine.rotary:
-        raise BalcliError("--only journals: the crank of a rotary engine stands still")
+        raise BalcliError("journals: the crank of a rotary engine stands still")
     throws = np.array(engine.joined_throw_of_rows)
     count, places = int(throws.max()) + 1, engine.joined_throws_m
     bearings = place_bearings(places) if engine.places_known else None
@@ -236,31 +236,39 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
 
 
 _LABELS = {
-    "piston_kg": ("piston, g", 1e3),
-    "crosshead_kg": ("crosshead, g", 1e3),
-    "rod_kg": ("rod, g", 1e3),
-    "rod_small_end_kg": ("rod at the small end, g", 1e3),
-    "rod_big_end_kg": ("rod at the big end, g", 1e3),
-    "reciprocating_kg": ("reciprocating, g", 1e3),
-    "rotating_kg": ("rotating without throw, g", 1e3),
-    "throw_kg": ("share of the throw, g", 1e3),
-    "rod_inertia_kg_m2": ("inertia of the rod, kg·mm²", 1e6),
-    "radius_of_gyration_m": ("its radius of gyration, mm", 1e3),
-    "couple_constant_kg_m2": ("H, kg·mm²", 1e6),
-    "reduced_length_m": ("reduced length, mm", 1e3),
+    "piston_kg": "piston",
+    "crosshead_kg": "crosshead",
+    "rod_kg": "rod",
+    "rod_small_end_kg": "rod at the small end",
+    "rod_big_end_kg": "rod at the big end",
+    "reciprocating_kg": "reciprocating",
+    "rotating_kg": "rotating without throw",
+    "throw_kg": "share of the throw",
+    "rod_inertia_kg_m2": "inertia of the rod",
+    "radius_of_gyration_m": "its radius of gyration",
+    "couple_constant_kg_m2": "H",
+    "reduced_length_m": "reduced length",
 }
 
 
-def lay_out_masses(masses: Sequence[Masses]) -> Grid:
-    """Return a table: a figure a row, cylinders with equal parts a column."""
-    heads = ["", *(f"cylinder {join_words([str(n) for n in one.cylinders])}" for one in masses)]
+def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
+    """Return a table: a figure a row, cylinders with equal parts a column.
+
+    Args:
+        masses: Masses of each distinct set of parts.
+        system: System of units.
+    """
+    units = {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
+    if system is SI:
+        units |= {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6)}
+    heads = ("", *(name_cylinders(one.cylinders) for one in masses))
     rows = []
-    for key, (label, factor) in _LABELS.items():
-        values = [getattr(one, key) for one in masses]
+    for key, label in _LABELS.items():
+        values, unit = [getattr(one, key) for one in masses], units[find_unit(key)]
         if any(values):
-            cells = ("–" if value is None else number(factor * value) for value in values)
-            rows.append((label, *cells))
-    return Grid("Masses", tuple(heads), tuple(rows))
+            cells = (UNKNOWN if value is None else number(unit.of(value)) for value in values)
+            rows.append((name_with_unit(label, unit.name), *cells))
+    return Grid("Masses", heads, tuple(rows))
 
 
 def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:

@@ -9,7 +9,6 @@ their extremes are found on these series.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
@@ -20,15 +19,14 @@ from ..core.mechanisms.linkage import Articulated
 from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
-from ..core.records import HIDDEN, list_figures, remove_unit, to_document
+from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
 from ..engine.engine import Engine, check_engine, find_row
-from ..file.fields import join_words
 from ..show.csv import Rows
-from ..show.engine_facts import tell_speed
+from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer
 from ..show.result import Result
 from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
-from ..show.units import System
+from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 
 # Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
@@ -104,7 +102,7 @@ class PistonMotion:
         swept_volume_m3: Swept volume of one cylinder; left out without a bore.
         outer_dead_center_own_deg: Crank angle at which the piston is farthest from the crank.
         inner_dead_center_own_deg: Crank angle at which it is nearest.
-        inward_stroke_deg: Crank angle from the outer to the inner dead center.
+        inward_stroke_deg: Crank angle from the outer to the inner dead centre.
         outward_stroke_deg: The rest of a revolution.
         mean_speed_m_per_s: Mean piston speed.
         velocity: Largest velocities.
@@ -287,24 +285,32 @@ _TWO_TERM = {  # figures of the two terms, by those of the exact motion
 
 
 def sheet(result: Pistons, system: System) -> Sheet:
-    """Return a table: a figure a row, a mechanism a column, and next to it the two terms."""
-    del system
+    """Return a table: a figure a row, a mechanism a column, and next to it the two terms.
+
+    Args:
+        result: Motion of the pistons.
+        system: System of units.
+    """
     columns: list[tuple[str, dict[str, str]]] = []
     notes = []
     for each in result.mechanisms:
-        numbers = join_words([str(n) for n in each.cylinders])
-        columns.append((f"cylinder{'s' * (len(each.cylinders) > 1)} {numbers}", _write(each)))
+        found = {
+            name: UNKNOWN if value is None else _write(name, float(value), system)
+            for name, value, _ in list_figures(to_document(each), ("cylinders", "two_term"))
+        }
+        columns.append((name_cylinders(each.cylinders), found))
         if each.two_term is not None:
             terms = to_document(each.two_term)
-            columns.append(("two-term", {k: number(terms[v]) for k, v in _TWO_TERM.items()}))
+            two = {name: _write(name, terms[key], system) for name, key in _TWO_TERM.items()}
+            columns.append(("two-term", two))
             if each.two_term.type != each.acceleration.type:
                 notes.append(
                     f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; "
                     f"by two terms above {_TWO_TERM_LIMIT}."
                 )
+    names = dict.fromkeys(name for _, cells in columns for name in cells)
     rows = tuple(
-        (label, *(cells.get(name, "") for _, cells in columns))
-        for name, label in _list_labels(columns)
+        (_label(name, system), *(cells.get(name, "") for _, cells in columns)) for name in names
     )
     if result.engine.ripple:
         notes.append("At the steady mean speed, though the file has an uneven one.")
@@ -314,24 +320,24 @@ def sheet(result: Pistons, system: System) -> Sheet:
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 
 
-def _write(each: PistonMotion) -> dict[str, str]:
-    """Return the figures of a mechanism as text, by path."""
-    found = {}
-    for name, value, _ in list_figures(to_document(each), ("cylinders", "two_term")):
-        factor = 1e3 if name == "stroke_m" else 1e6 if name.endswith("_m3") else 1.0
-        found[name] = UNKNOWN if value is None else number(float(value) * factor)
-    return found
+def _choose_unit(name: str, system: System) -> ShownUnit:
+    """Return the unit in which people read a figure, by its path."""
+    unit = find_unit(name)
+    shown = {"m": system.length, "m³": system.volume}
+    if system is IMPERIAL:
+        shown |= {"m/s": ShownUnit("ft/s", 12 * INCH), "m/s²": ShownUnit("ft/s²", 12 * INCH)}
+    return shown.get(unit, ShownUnit(unit, 1))
 
 
-def _list_labels(columns: list[tuple[str, dict[str, str]]]) -> Iterator[tuple[str, str]]:
-    """Yield path and label, with unit, of every figure of a table."""
-    for name in dict.fromkeys(name for _, cells in columns for name in cells):
-        unit = {"stroke_m": "mm", "swept_volume_m3": "cm³"}.get(name, "")
-        plain = name.replace(".", " ").replace("_own", "").replace("_m_per_s2", ", m/s²")
-        plain = plain.replace("_m_per_s", ", m/s").replace("_deg", ", deg")
-        plain = remove_unit(plain) if unit else plain
-        plain = plain.replace("center", "centre").replace("type", "minima")
-        yield name, f"{plain.replace('_', ' ')}{', ' * bool(unit)}{unit}"
+def _write(name: str, value: float, system: System) -> str:
+    return number(_choose_unit(name, system).of(value))
+
+
+def _label(name: str, system: System) -> str:
+    """Return the label of a figure, with its unit."""
+    plain = remove_unit(name).removesuffix("_own").replace("center", "centre")
+    plain = plain.replace("type", "minima").replace(".", " ").replace("_", " ")
+    return name_with_unit(plain, _choose_unit(name, system).name)
 
 
 def rows(result: Pistons, system: System) -> Rows:

@@ -16,10 +16,20 @@ from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
 from ..show.formats import Renderer
-from ..show.sheet import IN_BRIEF, NAMELESS, Facts, Grid, Sheet, Text, View, sentence
+from ..show.sheet import (
+    IN_BRIEF,
+    NAMELESS,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    View,
+    assumed_facts,
+    sentence,
+)
 from ..show.units import System
 from . import sections
-from .answer import Analysis, Sizing
+from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
     cylinder_table,
@@ -65,6 +75,8 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
     elif view.parts - TEXTS:
         yield speed_facts(result.engine)
+        if view.parts.intersection(EXTRAS):
+            yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
     if view.parts or view.whole:
@@ -92,7 +104,7 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.journals is not None:
         yield from _import_seldom().lay_out_journals(result.journals, system)
     if result.masses is not None:
-        yield _import_seldom().lay_out_masses(result.masses)
+        yield _import_seldom().lay_out_masses(result.masses, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
 

@@ -55,6 +55,8 @@ UNITS = {
     "Nms_per_rad": "N·m·s/rad",
     "Nm_per_rad": "N·m/rad",
     "N_per_m": "N/m",
+    "m_per_s2": "m/s²",
+    "m_per_s": "m/s",
     "kg_m2": "kg·m²",
     "kg_m": "kg·m",
     "g_mm": "g·mm",

@@ -4,6 +4,7 @@ layout, other tables. tomlkit does the work; its result is read back before anyo
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -12,7 +13,7 @@ from typing import Any
 
 from ..core.records import Node
 
-_HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$", re.MULTILINE)
+HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$", re.MULTILINE)
 
 
 def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> str:
@@ -82,15 +83,15 @@ def rewrite(data: Mapping[str, object], reason: str) -> str:
 
 
 def format_value(value: object) -> str:
-    """Return a number, a text, or lists and tables of them, as TOML has it in one line: the
-    shortest decimals that read back to the same number.
+    """Return a number, a text, a truth value, or lists and tables of them, as TOML has it in one
+    line: the shortest decimals that read back to the same number.
     """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
     if isinstance(value, Mapping):
         inner = ", ".join(f"{key} = {format_value(part)}" for key, part in value.items())
         return f"{{ {inner} }}"
-    return f'"{value}"' if isinstance(value, str) else repr(value)
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool)) else repr(value)
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
@@ -100,7 +101,7 @@ def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
     path, _, number = table.rpartition(".")
     in_list = number.isdigit() and path != "cylinder"
     name, place = (path, int(number)) if in_list else (table, 1)
-    headers = list(_HEADER.finditer(text))
+    headers = list(HEADER.finditer(text))
     ends = [*(header.start() for header in headers[1:]), len(text)]
     own = [k for k, header in enumerate(headers) if header[1] == name]
     if len(own) >= place:

@@ -9,7 +9,6 @@ file by their dotted names.
 
 from __future__ import annotations
 
-import json
 import math
 import re
 import tomllib
@@ -28,6 +27,7 @@ from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import MOMENTS_UNKNOWN
 from ..file import examples
+from ..file.edit import HEADER, format_value
 from ..file.fields import Number
 from ..file.model import EngineFile
 from ..file.units import (
@@ -263,10 +263,10 @@ def _is_plain(text: str) -> bool:
     change them line by line.
     """
     data, lines = tomllib.loads(text), text.splitlines()
-    starts = [k for k, line in enumerate(lines) if _HEADER.match(line)]
+    starts = [k for k, line in enumerate(lines) if HEADER.match(line)]
     ends = [*starts[1:], len(lines)]
     for name, table, place in _list_tables(data):
-        named = [k for k in starts if _HEADER.match(lines[k])[1] == name]  # type: ignore[index]
+        named = [k for k in starts if HEADER.match(lines[k])[1] == name]  # type: ignore[index]
         if len(named) <= place:
             return False
         section = lines[named[place] + 1 : ends[starts.index(named[place])]]
@@ -275,9 +275,6 @@ def _is_plain(text: str) -> bool:
             if len(rows) != 1 or not _says(rows[0], {key: value}):
                 return False
     return True
-
-
-_HEADER = re.compile(r"\s*\[{1,2}\s*([\w.-]+)\s*\]{1,2}\s*(?:#.*)?$")
 
 
 def _says(line: str, wanted: Node) -> bool:
@@ -313,19 +310,10 @@ def _write_plainly(text: str) -> str:
         (f"[[{k}]]", v) for k, each in others.items() if isinstance(each, list) for v in each
     ]
     written = (
-        "\n".join(filter(None, (head, *(f"{k} = {_format(v)}" for k, v in table.items()))))
+        "\n".join(filter(None, (head, *(f"{k} = {format_value(v)}" for k, v in table.items()))))
         for head, table in blocks
     )
     return "\n\n".join(filter(None, written)) + "\n"
-
-
-def _format(value: object) -> str:
-    """Return a value as TOML has it in one line."""
-    if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{key} = {_format(part)}' for key, part in value.items())} }}"
-    if isinstance(value, list):
-        return f"[{', '.join(map(_format, value))}]"
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, (str, bool)) else repr(value)
 
 
 def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
@@ -338,7 +326,7 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     banks = sorted({cell.bank for cell in parts.plan.cells})
     rows = [[cell.number for cell in parts.plan.cells if cell.bank == bank] for bank in banks]
     keys: Node = {"firing_order": "none", "firing_intervals": "none"}
-    return keys | ({} if layout.numbering is not None else {"numbering": _format(rows)})
+    return keys | ({} if layout.numbering is not None else {"numbering": format_value(rows)})
 
 
 # ------------------------------------------------------------------ axes, pins and places

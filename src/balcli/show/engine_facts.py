@@ -11,7 +11,7 @@ import numpy as np
 from ..core.cylinders import find_travel
 from ..core.phasors import Figure
 from ..engine.engine import Engine, SilentCylinders
-from ..file.fields import count_lambda_digits
+from ..file.fields import count_lambda_digits, join_words
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
 from .sheet import Facts, get_digits, given, number, tell_assumed
@@ -25,6 +25,11 @@ EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 def speed_facts(engine: Engine) -> Facts:
     """Return the crank speed, and which cylinders have no gas, or burn nothing."""
     return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
+
+
+def name_cylinders(numbers: Sequence[int]) -> str:
+    """Return cylinders in words, such as "cylinders 1 and 4"."""
+    return f"cylinder{'s' * (len(numbers) > 1)} {join_words([*map(str, numbers)])}"
 
 
 def tell_pivot(engine: Engine) -> str:
