@@ -30,7 +30,7 @@ from ..core.records import find_unit, list_figures, to_document
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from ..errors import BalcliError
-from ..forces.crankshaft import place_bearings
+from ..forces.crankshaft import find_shear_stress, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
@@ -138,8 +138,7 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
     diameter = None if table is None else getattr(table, f"{kind}_diameter")
     if diameter is None:
         return None
-    outer, inner = diameter / 1e3, getattr(table, f"{kind}_bore") / 1e3
-    per_torque = 16 * outer / (math.pi * (outer**4 - inner**4))
+    per_torque = find_shear_stress(diameter / 1e3, getattr(table, f"{kind}_bore") / 1e3)
     return ShearStress(
         mean_Pa=per_torque * (torque.max_Nm + torque.min_Nm) / 2,
         amplitude_Pa=per_torque * torque.range_Nm / 2,

@@ -14,6 +14,7 @@ of shaft and block add up to those of inertia alone, with the block's own device
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -454,3 +455,14 @@ def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Comple
     """
     refuse_too_many_forces(engine, len(angles))
     return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]
+
+
+def find_shear_stress(diameter: float, bore: float) -> float:
+    """Return the nominal shear stress at the surface of a round shaft for 1 N m, Pa: `16 D/(pi (D^4
+    - d^4))`.
+
+    Args:
+        diameter: Outer diameter D, m.
+        bore: Inner diameter d, m.
+    """
+    return 16 * diameter / (math.pi * (diameter**4 - bore**4))

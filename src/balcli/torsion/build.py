@@ -40,6 +40,7 @@ from ..file.torsion_tables import (
     find_shaft_inertia,
     find_stiffness,
 )
+from ..forces.crankshaft import find_shear_stress
 from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
@@ -146,9 +147,9 @@ def assemble_system(
 
 
 def _find_stress(table: ShaftKeys) -> float:
-    """Return the stress at the surface for 1 N m, Pa, `16 D/(pi (D^4 - d^4))`; 0 without D."""
+    """Return the stress at the surface for 1 N m, Pa; 0 without a diameter."""
     outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
-    return 16 * outer / (math.pi * (outer**4 - inner**4)) if outer else 0.0
+    return find_shear_stress(outer, inner) if outer else 0.0
 
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:
