@@ -426,6 +426,8 @@ def test_a_quick_shaft_is_not_sampled(show):
         ("#operation.speed=0", "operation.speed: 0 is not above 0"),
         ("#shaft.1.ratio=1.5", "give a whole number"),
         ("#counterweight.9=none", "counterweight.9: is not there"),
+        ("#piston.mass=none", "piston.mass: cannot be left out"),
+        ("#operation.speed=none", "operation.speed: cannot be left out"),
     ],
 )
 def test_bad_parts_leave_the_engine_and_the_rest(show, address, message):

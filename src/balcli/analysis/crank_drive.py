@@ -184,7 +184,8 @@ def _grid(
             cells.append(UNKNOWN if shear is None else number(system.stress.fit(1e9).of(shear)))
         rows.append(tuple(cells))
     widest = max(zip(torques, journals, strict=True), key=lambda pair: pair[0].range_Nm)[1]
-    return Grid(title, tuple(heads), tuple(rows), f"The range is largest in {widest.place}.")
+    note = f"The range is largest in {widest.place}." if any(t.range_Nm for t in torques) else ""
+    return Grid(title, tuple(heads), tuple(rows), note)
 
 
 def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
@@ -264,7 +265,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     rows = []
     for key, label in _LABELS.items():
         values, unit = [getattr(one, key) for one in masses], units[find_unit(key)]
-        if any(values):
+        if any(value is not None for value in values) and (key != "crosshead_kg" or any(values)):
             cells = (UNKNOWN if value is None else number(unit.of(value)) for value in values)
             rows.append((name_with_unit(label, unit.name), *cells))
     return Grid("Masses", heads, tuple(rows))

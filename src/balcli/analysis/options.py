@@ -105,6 +105,8 @@ class Request(NamedTuple):
                 raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")
             if self.over_speed:
                 raise BalcliError(f"{option}: is of one speed; give one, such as --speed 3000")
+        if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):
+            warn("--guide-height changes guide-force moments alone; --only guide shows them")
         return self
 
 

@@ -312,10 +312,8 @@ def sheet(result: Pistons, system: System) -> Sheet:
     rows = tuple(
         (_label(name, system), *(cells.get(name, "") for _, cells in columns)) for name in names
     )
-    if result.engine.ripple:
-        notes.append("At the steady mean speed, though the file has an uneven one.")
     heads = ("", *(head for head, _ in columns))
-    facts = Facts((("speed", tell_speed(result.engine)),))
+    facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
     grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 

@@ -74,7 +74,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         higher = result.has_higher_orders
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
     elif view.parts - TEXTS:
-        yield speed_facts(result.engine)
+        yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
         if view.parts.intersection(EXTRAS):
             yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:

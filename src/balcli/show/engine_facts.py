@@ -22,9 +22,14 @@ THROWS_SHOWN = 12
 EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
 
 
-def speed_facts(engine: Engine) -> Facts:
-    """Return the crank speed, and which cylinders have no gas, or burn nothing."""
-    return Facts((("speed", tell_speed(engine)), *list_silent(engine.silent)))
+def speed_facts(engine: Engine, *, steady: bool = False) -> Facts:
+    """Return the crank speed, and which cylinders have no gas, or burn nothing.
+
+    Args:
+        engine: Engine at this speed.
+        steady: Whether the figures are those in which an uneven speed does not count.
+    """
+    return Facts((("speed", tell_speed(engine, steady=steady)), *list_silent(engine.silent)))
 
 
 def name_cylinders(numbers: Sequence[int]) -> str:

@@ -111,7 +111,10 @@
     }
     return { next, wrong };
   }
+  // The state without a device, or without its mass and radius, in place of which it has an unbalance.
   function without(state, name) {
+    const [, kind, , key = "mass"] = name.match(DEVICE) || [];
+    if (!kind || !["mass", "radius"].includes(key)) throw new Error(`${name.slice(0, 60)}: cannot be left out`);
     const next = Object.fromEntries(Object.entries(state).filter(([key]) => key !== name && tableOf(key) !== name));
     if (Object.keys(next).length === Object.keys(state).length) throw new Error(`${name.slice(0, 60)}: is not there`);
     return next;
