@@ -45,7 +45,7 @@ def test_figures_are_converted_once():
     assert system.chain.stiffness == pytest.approx([24.17e6 * force * inch])
     assert system.damping.nodes == pytest.approx([18 * force * inch, 0])
     outer, inner = 3 * inch, 0.02
-    stress = 16 * diameter / (math.pi * (outer**4 - inner**4))
+    stress = 16 * outer / (math.pi * (outer**4 - inner**4))
     assert system.stress_by_torque == pytest.approx([stress])
     assert system.pendulums[0] == pytest.approx((1, 3 * pound, 0.06, inch))
 
