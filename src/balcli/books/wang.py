@@ -25,17 +25,21 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
     over the whole revolution.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
-    lams, k0, alpha0 = (
-        as_numbers(printed.column(head)).tolist() for head in ("lambda", "k0", "alpha0_deg")
-    )
+    stub = ranges.lam or printed.column("lambda")
+    words = printed.align_cells(stub, columns)
+    lams = as_numbers(stub).tolist()
     searches = [_half_cycle(lam) for lam in lams]
     rows: list[Row] = []
-    for lam, search, k, alpha in zip(lams, searches, k0, alpha0, strict=True):
-        size, theta = max(_stationary(lam, k * np.exp(1j * np.radians(alpha))))
-        rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
+    for lam, search, (_, _, k0, alpha0, *_) in zip(lams, searches, words, strict=True):
+        followed: Row = (None, None)
+        if k0 is not None and alpha0 is not None:
+            k, alpha = as_numbers((k0, alpha0))
+            size, theta = max(_stationary(lam, k * np.exp(1j * np.radians(alpha))))
+            followed = (size, theta % 360 % 360)
+        rows.append((lam, *_true(lam), *search, *followed))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    return printed.compare(columns, rows, explanations=[Explanation(SEARCH, search_rows)])
+    return printed.compare(columns, rows, words, [Explanation(SEARCH, search_rows)])
 
 
 def _true(lam: float) -> Row:
