@@ -11,23 +11,33 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.extrema import find_least
+from ..errors import BalcliError
 from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers
 
 SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
 )
 SEARCH = "half-cycle search, theta to 180 deg only: larger forces follow"
+_MOST_RATIOS = 1000  # each takes a search of 40,000 forces
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
     """Return the true optimum, the printed search, and the force that the printed choice leaves
     over the whole revolution.
+
+    Raises:
+        BalcliError: there are too many crank ratios.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     stub = ranges.lam or printed.column("lambda")
     words = printed.align_cells(stub, columns)
     lams = as_numbers(stub).tolist()
+    if len(lams) > _MOST_RATIOS:
+        raise BalcliError(
+            f"{len(lams)} crank ratios are to be searched, and at most {_MOST_RATIOS} can be: take "
+            "larger steps of --lambda"
+        )
     searches = [_half_cycle(lam) for lam in lams]
     rows: list[Row] = []
     for lam, search, (_, _, k0, alpha0, *_) in zip(lams, searches, words, strict=True):
