@@ -52,7 +52,9 @@ def test_radii_of_two_shafts_over_the_bank_angle(order):
     study = compute_study(build_text(text), "bank", scheme="two-shaft", options=options)
     with_crank, against, ratio = study.banks.find_radii()
     for angle in (20, 50, 75, 130, 170):
-        found = size_scheme(build_text(text.replace("= 75", f"= {angle}")), "two-shaft", order=order, at=(0.04 + 0.07j,))
+        found = size_scheme(
+            build_text(text.replace("= 75", f"= {angle}")), "two-shaft", order=order, at=(0.04 + 0.07j,)
+        )
         (other,) = (d.at for d in found.devices if d.ratio == -order)
         (own,) = (d.at for d in found.devices if d.ratio == order)
         radii = float(np.hypot(*own) / np.hypot(*other))

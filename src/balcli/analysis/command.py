@@ -130,7 +130,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
 
 Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
-SumOrders = Annotated[str | None, optional("1-8|1,3|2", "Only the sum of these orders.", "--orders")]
+SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
     SeriesFormat | None,
     format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),

@@ -279,7 +279,7 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
 
 
 def _settle(values: Array, most: float | None = None) -> Array:
-    """Return values in which rounding errors next to the largest value, or next to `most`, are 0."""
+    """Return values in which rounding errors next to the largest value, or to `most`, are 0."""
     largest = np.abs(values).max(initial=0) if most is None else most
     return np.where(np.abs(values) <= _ROUNDING * largest, 0.0, values)
 

@@ -25,7 +25,7 @@ from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
-from . import kvasnikov, liu, series, tsinghua, wang, worked_examples
+from . import liu, series, tsinghua, wang, worked_examples
 from .recomputed import (
     Erratum,
     ErratumClass,
@@ -93,7 +93,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "wang-1": wang.tabulate_optimum,
     "kvasnikov-1": series.tabulate_piston,
     "kvasnikov-2": series.tabulate_rod,
-    "kvasnikov-statements": kvasnikov.tabulate_statements,
+    "kvasnikov-statements": series.tabulate_kvasnikov_statements,
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series.tabulate_series,
