@@ -157,9 +157,9 @@ _REASONS = {
 
 
 def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
-    """Return the figures of statements on sizes of orders and on the orders that stars, vees and rows
-    leave, computed by analyzing an engine of each layout, made of equal cylinders. Rotating masses
-    are left out: counterweights can cancel them.
+    """Return the figures of statements on sizes of orders, and on the orders that stars, vees and
+    rows leave, computed by analyzing an engine of each layout, made of equal cylinders. Rotating
+    masses are left out: counterweights can cancel them.
     """
     books = {layout: _analyze(layout) for layout in _LAYOUTS}
     layouts, quantities = printed.column("layout"), printed.column("quantity")
@@ -185,7 +185,7 @@ def _analyze(name: str) -> Textbook:
 
 
 def _find_order(book: Textbook, kind: str, place: int) -> float:
-    """Return the lowest order (place 0) of a force or moment, or the next ones; 0: there is none."""
+    """Return the lowest order (place 0) of a force or moment, or the next ones; 0: none."""
     found = book.reciprocating[kind]
     orders = [*found.orders[~found.balanced].tolist(), 0.0, 0.0, 0.0]
     return float(orders[place])

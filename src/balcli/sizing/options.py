@@ -107,6 +107,10 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
             )
+        self._check_choices()
+
+    def _check_choices(self) -> None:
+        """Raise BalcliError for a word that is no choice, and for a ratio that is no share."""
         if self.ratio is not None and not 0 <= self.ratio <= 1:
             raise BalcliError(f"--ratio {100 * self.ratio:g} %: give a share from 0 to 100 %")
         for name, choices in _CHOICES.items():
