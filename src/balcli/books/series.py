@@ -8,6 +8,7 @@ the series; and his statements on orders.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -128,7 +129,6 @@ def _sum(terms: series.Series, lam: Array, count: int) -> Array:
 # ------------------------------------------------------------------ statements
 Values: TypeAlias = dict[str, object]
 
-_CYLINDER = "single"  # example engine with one cylinder
 _ORDERS = np.arange(1.0, 21.0)
 _LAYOUTS: dict[str, tuple[tuple[float, ...], Values, Values]] = {  # throws, [layout], [rod]
     "one cylinder, mu = 1/6": ((0,), {}, {"length": 252.0}),
@@ -150,9 +150,7 @@ _PAIRS = "of throws at different, equal angles; in a four-stroke engine two have
 _REASONS = {
     "star of 5": "the sums of cos k gamma belong to the orders k - 1 and k + 1",
     "vee of 4, gamma = 45 deg": "along y: cos 2 gamma is 0, sin 2 gamma is not",
-    "row of 4, four-stroke": _PAIRS,
-    "row of 6, four-stroke": _PAIRS,
-    "row of 8, four-stroke": _PAIRS,
+    **{f"row of {count}, four-stroke": _PAIRS for count in (4, 6, 8)},
 }
 
 
@@ -178,7 +176,7 @@ def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
 
 def _analyze(name: str) -> Textbook:
     throws, layout, rod = _LAYOUTS[name]
-    file = parse((folder() / f"{_CYLINDER}.toml").read_text(encoding="utf-8"), name)
+    file = parse((folder() / "single.toml").read_text(encoding="utf-8"), name)
     file = file.with_table("crank", throws=throws, spacing=100.0).with_table("rod", **rod)
     engine = build(file.with_table("layout", **layout) if layout else file)
     return find_textbook(engine, _ORDERS, ("force", "moment", "couple"))
@@ -205,11 +203,8 @@ def _find_force(book: Textbook, order: int, axis: str) -> float:
 
 
 _QUANTITIES: dict[str, Callable[[Textbook], float]] = {
-    "force of order 2": lambda book: _find_share(book, "force", 2),
-    "force of order 4": lambda book: _find_share(book, "force", 4),
-    "force of order 6": lambda book: _find_share(book, "force", 6),
-    "moment M_z of order 3": lambda book: _find_share(book, "couple", 3),
-    "moment M_z of order 5": lambda book: _find_share(book, "couple", 5),
+    **{f"force of order {n}": partial(_find_share, kind="force", order=n) for n in (2, 4, 6)},
+    **{f"moment M_z of order {k}": partial(_find_share, kind="couple", order=k) for k in (3, 5)},
     "lowest order of force": lambda book: _find_order(book, "force", 0),
     "lowest order of force above 1": lambda book: _find_order(book, "force", 1),
     "next order of force": lambda book: _find_order(book, "force", 2),

@@ -116,10 +116,7 @@ class SchemeOptions(NamedTuple):
         for name, choices in _CHOICES.items():
             if getattr(self, name) not in (None, *choices):
                 wrong = f"{getattr(self, name)}"[:60]
-                right = f"choose from {', '.join(choices)}"
-                if len(choices) == 1:
-                    right = f'only "{choices[0]}" can be asked for'
-                raise BalcliError(f'--{name} "{wrong}": {right}')
+                raise BalcliError(f'--{name} "{wrong}": choose from {", ".join(choices)}')
 
     def _check_numbers(self) -> None:
         """Raise TypeError for a value that is no number, BalcliError for a place that is farther
