@@ -55,8 +55,8 @@ def test_radii_of_two_shafts_over_the_bank_angle(order):
         found = size_scheme(
             build_text(text.replace("= 75", f"= {angle}")), "two-shaft", order=order, at=(0.04 + 0.07j,)
         )
-        (other,) = (d.at for d in found.devices if d.ratio == -order)
-        (own,) = (d.at for d in found.devices if d.ratio == order)
+        (other,) = (d.at for d in found.devices if getattr(d, "ratio", 0) == -order)
+        (own,) = (d.at for d in found.devices if getattr(d, "ratio", 0) == order)
         radii = float(np.hypot(*own) / np.hypot(*other))
         assert abs(ratio[angle]) == pytest.approx(radii, abs=1e-12)
         assert with_crank[angle] / against[angle] == pytest.approx(ratio[angle])

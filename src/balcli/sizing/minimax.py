@@ -181,7 +181,9 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
         NothingToBalanceError: No force turns against the crank.
     """
     if options.direction is None or options.ratio is None:
-        raise BalcliError("ellipse: give the force to leave: --direction and --ratio, such as 90 and 50%")
+        raise BalcliError(
+            "ellipse: give the force to leave: --direction and --ratio, such as 90 and 50%"
+        )
     fitting = Fitting.start(engine, "ellipse", 1)
     residual = fitting.find_residual(1)
     against = residual.force(-1)
