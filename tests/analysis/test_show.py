@@ -89,6 +89,7 @@ def test_couples_of_single_cylinders():
     asked = ("analyze", ENGINES / "twin180.toml", "--orders", "1,3", "--by", "cylinder")
     found = [line.split() for line in run_here(*asked, "--only", "couple").out.splitlines()]
     first, third = ([line[1:] for line in found if line[:1] == [order]][-2:] for order in ("1", "3"))
+    assert first[0][2] == "90.0"  # H omega^2 D_1 sin theta
     for (size, _, at), (other_size, _, other_at) in (first, third):
         assert size == other_size
         assert abs(float(at) - float(other_at)) == 180
