@@ -40,7 +40,8 @@ WHAT = (
     "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
     "two-shaft the radii of its shafts; inner: along the crankshaft; with [gas]: pressure, p-v, "
     "torque (with its surplus areas), pin and main (polar diagrams of bearing loads); "
-    "modes, campbell, response, waterfall: of its torsion. Several: pages of one PDF, or a file each (v8-pin.svg)."
+    "modes, campbell, response, waterfall: of its torsion. Several: "
+    "pages of one PDF, or a file each (v8-pin.svg)."
 )
 
 
