@@ -10,6 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 from support.cases import cases
+from support.commands import run_here
 from support.engines import GOOD, RADIAL, build_text, inline_engine
 from support.paths import ENGINES
 
@@ -81,6 +82,18 @@ def test_inner_and_guide_as_rows():
     assert found["0", "guide_h", "2", "sin"] == (str(h["sin"]), "N·m")
     assert found["0", "guide_x", "1", "balanced"] == ("true", "")
     assert not [key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
+
+
+def test_couples_of_single_cylinders():
+    """They are shown where they are named; opposite throws make opposite couples of odd orders."""
+    asked = ("analyze", ENGINES / "twin180.toml", "--orders", "1,3", "--by", "cylinder")
+    found = [line.split() for line in run_here(*asked, "--only", "couple").out.splitlines()]
+    first, third = ([line[1:] for line in found if line[:1] == [order]][-2:] for order in ("1", "3"))
+    assert first[0][2] == "90.0"  # H omega^2 D_1 sin theta
+    for (size, _, at), (other_size, _, other_at) in (first, third):
+        assert size == other_size
+        assert abs(float(at) - float(other_at)) == 180
+    assert "about the crank" not in run_here(*asked).out
 
 
 def test_strokes_and_reasons_as_rows():

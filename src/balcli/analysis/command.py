@@ -130,6 +130,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
 
 Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
+SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
     SeriesFormat | None,
     format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
@@ -140,6 +141,7 @@ def curves(
     path: EnginePath,
     cylinder: Cylinder = None,
     step: Step = "1",
+    orders: SumOrders = None,
     speed: Speed = None,
     form: Form = None,
     output: Output = None,
@@ -152,13 +154,15 @@ def curves(
     Examples:
       balcli curves i4.toml --step 5 -o curves.csv
       balcli curves i4.toml --cylinder 1
+      balcli curves i4.toml --orders 2
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
     from . import curves as chapter
 
+    asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    found = chapter.compute_curves_by_step(engine, cylinder, read_angle("--step", step))
+    found = chapter.compute_curves_by_step(engine, cylinder, step_deg, asked)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])

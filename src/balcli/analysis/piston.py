@@ -31,6 +31,11 @@ from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 # Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
+_USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and Table 1-5
+    "Usual rod ratios of car engines: {:.3f} to {:.3f}; mean speed of high-speed engines: above {} "
+    "(Lu and Meng, 1990)."
+)
+_HIGH_SPEED = 9.0  # m/s
 _SAMPLES = 32  # of each period of the highest order, to count minima
 
 
@@ -314,6 +319,9 @@ def sheet(result: Pistons, system: System) -> Sheet:
     )
     heads = ("", *(head for head, _ in columns))
     facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
+    speed = _choose_unit("mean_speed_m_per_s", system)
+    high_speed = f"{number(speed.of(_HIGH_SPEED))} {speed.name}"
+    notes.append(_USUAL.format(1 / 3.8, 1 / 3.2, high_speed))
     grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 

@@ -32,7 +32,7 @@ from . import sections
 from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
-    cylinder_table,
+    cylinder_tables,
     direction_tables,
     gas_grid,
     order_tables,
@@ -85,7 +85,8 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _order_parts_in_brief(result, system, view)
     for share in result.cylinders or ():
         spectra = share.spectra.with_moment_if(result.moments_known)
-        yield cylinder_table(share.cylinder, spectra, system)
+        about_crank = view.whole or bool(view.parts)
+        yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
     yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
     if result.ladder is not None:
         yield ladder_grid(result.ladder, result.engine, system)

@@ -29,7 +29,14 @@ from ..shell.options import (
 )
 from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show, write_file
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
-from ..shell.values import optional, read_length, read_mass, read_number
+from ..shell.values import (
+    optional,
+    read_angle,
+    read_length,
+    read_mass,
+    read_number,
+    read_share,
+)
 from ..show.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, SCHEMES
@@ -112,6 +119,12 @@ Target = Annotated[
         'What devices with unbalance = "fit" cancel: force, moment, roll, roll_total; default: '
         "force,moment.",
     ),
+]
+Direction = Annotated[str | None, optional("DEG", "Direction of the force to leave, from x.")]
+Ratio = Annotated[str | None, optional("SHARE", "Smallest over largest force to leave: 50%.")]
+Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
+Criterion = Annotated[
+    str | None, optional("largest|mean", "Force that it makes small; default: largest.")
 ]
 Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
@@ -220,6 +233,10 @@ def balance(
     step: Step = None,
     small: Small = None,
     target: Target = None,
+    direction: Direction = None,
+    ratio: Ratio = None,
+    design: Design = None,
+    criterion: Criterion = None,
     radius: Radius = None,
     thickness: Thickness = None,
     disc: Disc = None,
@@ -257,7 +274,13 @@ def balance(
     options = parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units, small
     )
-    options = options._replace(step=step)
+    options = options._replace(
+        step=step,
+        direction=None if direction is None else read_angle("--direction", direction),
+        ratio=None if ratio is None else read_share("--ratio", ratio, "a share such as 50%"),
+        design=design,
+        criterion=criterion,
+    )
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
     grade_mm_s = parse_grade(grade)

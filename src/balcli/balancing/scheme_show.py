@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from ..core.records import Node, find_unit, remove_unit
 from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
-from ..show.units import System
+from ..show.units import ShownUnit, System
 from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
 from ..sizing.factor import name_one_cylinder
 from ..sizing.planes import measure_direction
@@ -54,7 +54,7 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     if remedy.needs:
         yield _needs_grid(remedy.needs, system)
     if remedy.card:
-        yield _card_grid(remedy.card)
+        yield _card_grid(remedy.card, system)
     if remedy.sweep:
         known = result.before.moments_known
         rows = (row if known else replace(row, peak_moment_Nm=nan) for row in remedy.sweep)
@@ -153,7 +153,7 @@ def _show(figure: _Figure, system: System) -> str:
         words = isinstance(value[0], str)
         return ", ".join(value) if words else f"{', '.join(map(degrees, value))} deg"
     if figure.key.endswith("_g"):
-        return f"{number(value)} g"
+        return f"{number(system.scales.of(value / 1e3))} {system.scales.name}"
     if unit == "deg":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     if not unit:
@@ -205,39 +205,41 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
     return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
 
 
-def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
-    """Return quantity x each = sum, in grams as a balancing shop's scales show, in either system;
-    equal pins stand in one column.
-    """
+def _card_grid(card: tuple[Bobweight, ...], system: System) -> Grid:
+    """Return quantity x each = sum; equal pins stand in one column."""
+    unit = system.scales
     columns = group_equal_pins(card)
     weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)
     labels = list(dict.fromkeys(line.part for line in weighed))
-    rows = [(part, *(_line_cell(pins[0], part) for pins in columns)) for part in labels]
+    rows = [(part, *(_line_cell(pins[0], part, unit) for pins in columns)) for part in labels]
     sums = {
         "rotating": "rotating_g",
         "reciprocating": "reciprocating_g",
         f"bobweight ({percent(card[0].factor)})": "bobweight_g",
     }
     for name, key in sums.items():
-        rows.append((name, *(number(getattr(pins[0], key), 5) for pins in columns)))
+        sizes = (unit.of(getattr(pins[0], key) / 1e3) for pins in columns)
+        rows.append((name, *(number(size, 5) for size in sizes)))
     heads = ("", *map(name_pins, columns))
-    return Grid("Bobweight card, g for each pin", heads, tuple(rows))
+    return Grid(f"Bobweight card, {unit.name} for each pin", heads, tuple(rows))
 
 
-def _line_cell(bobweight: Bobweight, part: str) -> str:
+def _line_cell(bobweight: Bobweight, part: str, unit: ShownUnit) -> str:
     line = next((line for line in bobweight.lines if line.part == part), None)
-    return "–" if line is None else f"{multiply(line)} = {number(line.sum_g, 5)}"
+    if line is None:
+        return "–"
+    return f"{multiply(line, unit)} = {number(unit.of(line.sum_g / 1e3), 5)}"
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     force, moment = system.force, system.moment
     unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    weight = ("bobweight, g", f"weight, {unbalance.name}")
+    weight = (f"bobweight, {system.scales.name}", f"weight, {unbalance.name}")
     heads = ("factor", *weight, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
     rows = tuple(
         (
             percent(row.factor),
-            number(row.bobweight_g),
+            number(system.scales.of(row.bobweight_g / 1e3)),
             number(unbalance.of(row.counterweight_kg_m)),
             *(number(force.of(v)) for v in (row.peak_force_N, row.along_N, row.across_N)),
             number(moment.of(row.peak_moment_Nm)),

@@ -86,12 +86,14 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "tsinghua-1-4": tsinghua.tabulate_extremes,
     "tsinghua-1-5": tsinghua.tabulate_mean_speeds,
     "tsinghua-1-6": tsinghua.tabulate_acceleration,
+    "tsinghua-two-terms": tsinghua.tabulate_two_terms,
     "liu-1": liu.tabulate_paths,
     "liu-2": liu.tabulate_vectors,
     "liu-3": liu.tabulate_sliders,
     "wang-1": wang.tabulate_optimum,
     "kvasnikov-1": series.tabulate_piston,
     "kvasnikov-2": series.tabulate_rod,
+    "kvasnikov-statements": series.tabulate_kvasnikov_statements,
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series.tabulate_series,
@@ -100,8 +102,11 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
 }
 NAMES = tuple(TABLES)
 TAKES = {  # the tables of other ranges than the printed ones, by option
-    "lambda": (*(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)), "kvasnikov-1", "kvasnikov-2"),
-    "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6"),
+    "lambda": (
+        *(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)),
+        *("tsinghua-two-terms", "wang-1", "kvasnikov-1", "kvasnikov-2"),
+    ),
+    "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6", "liu-1", "liu-2", "liu-3"),
     "power": ("series",),
 }
 
@@ -114,7 +119,7 @@ def select_tables(
     Args:
         name: Name; None: all tables.
         lam: Range of crank ratios as text, `0.20:0.40:0.01`.
-        angle: Range of crank angles as text, deg.
+        angle: Range of crank or bank angles as text, deg.
         power: Highest power of the crank ratio.
 
     Raises:
@@ -151,7 +156,8 @@ def tables(
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
         ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
             table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Other crank angles than the printed ones, deg, in the same form.
+        angles: Other angles than the printed ones, deg, in the same form: crank angles, in the
+            tables of liu bank angles.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
     Returns:

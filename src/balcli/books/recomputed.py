@@ -315,7 +315,7 @@ class Ranges(NamedTuple):
 
     Attributes:
         lam: columns: crank radius over rod length, as headings.
-        angle: rows: crank angles in degrees, as headings.
+        angle: crank angles as rows, or bank angles, in degrees, as headings.
         power: the highest power of lambda.
     """
 

@@ -37,10 +37,11 @@ WHAT = (
     "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
     "crank angle; all: loci, bars and curves on one page; "
     "ladder: loci with what balances the engine, step by step; "
-    "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
-    "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
-    "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
-    "torsion. Several: pages of one PDF, or a file each (v8-pin.svg)."
+    "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
+    "two-shaft the radii of its shafts; inner: along the crankshaft; with [gas]: pressure, p-v, "
+    "torque (with its surplus areas), pin and main (polar diagrams of bearing loads); "
+    "modes, campbell, response, waterfall: of its torsion. Several: "
+    "pages of one PDF, or a file each (v8-pin.svg)."
 )
 
 

@@ -32,6 +32,7 @@ from ..show.engine_facts import tell_pivot
 from ..show.plane import FINE, draw_loci, draw_locus, draw_order, draw_paths
 from ..show.plot_style import (
     BLUE,
+    GREEN,
     INK,
     RED,
     fit_name,
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+_LARGEST_RATIO = 10.0  # of radii that are drawn
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -65,6 +67,50 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     draw_paths(ax, dict(zip(labels, paths, strict=True)), FORCE.name_components(None), s.name)
     ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
     put_legend_above(ax, len(_BANKS_DEG))
+
+
+def draw_radii(ax: Axes, banks: Banks) -> None:
+    """Draw the radii of two shafts that cancel the force without a roll moment, and their ratio,
+    over the bank angle (Liu, figure 4).
+    """
+    with_crank, against, ratio = banks.find_radii()
+    angles = banks.angles_deg
+    ax.plot(angles, with_crank, color=BLUE, label="with the crank")
+    ax.plot(angles, against, color=RED, linestyle=(0, (5, 1.5)), label="against it")
+    drawn = np.abs(ratio) < _LARGEST_RATIO
+    ax.plot(angles[drawn], ratio[drawn], color=GREEN, linestyle=":", label="ratio")
+    ax.axhline(0, color=INK, linewidth=0.7)
+    ax.set(
+        xlim=(0, 180),
+        xticks=_BANKS_DEG,
+        xlabel="bank angle, deg (dotted: this engine)",
+        ylabel="radius over the longest; ratio",
+    )
+    if banks.own_deg <= 180:
+        ax.axvline(banks.own_deg, color=INK, linewidth=0.9, linestyle=":")
+    ax.set_title(f"Shafts at +{banks.order:g} and -{banks.order:g}: radii without a roll")
+    put_legend_above(ax, 3)
+
+
+def draw_radius_roses(ax: Any, banks: Banks) -> None:
+    """Draw the same as radii in the directions of both banks, over a whole turn: a circle, a rose,
+    and for a flat-plane V8 the four-leaved rose of Liu (figure 8), thick where it counts.
+    """
+    half = np.radians(banks.angles_deg) / 2
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    ratio = np.abs(banks.find_radii()[2])
+    drawn = ratio < _LARGEST_RATIO
+    for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
+        width = 1.0 if start else 2.4
+        ax.plot(start + sense * half[drawn], ratio[drawn], color=GREEN, linewidth=width)
+    both = np.concatenate([-half[::-1], half])
+    for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
+        ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
+    marks = np.arange(0, 360, 30)
+    angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
+    ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
+    ax.set_title("The same in the directions of the banks", pad=6)
 
 
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
@@ -300,6 +346,10 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
         size = size_text(largest, unit, 2)
         return f"Force of order {banks.order:g}: negligible ({size}), whatever the bank angle"
+    if subject.study.pair:
+        draw_radii(fig.add_subplot(1, 2, 1), banks)
+        draw_radius_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks)
+        return ""
     draw_end_curves(fig.add_subplot(1, 2, 1), banks, unit)
     draw_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks, unit)
     return ""

@@ -76,9 +76,10 @@ def plot(
         what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
             spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "ladder" (loci, step by step), "bank" (a vee over its bank angle), "factor" (over the
-            balance factor); with gas "pressure", "p-v", "torque", "pin", "main"; of torsion "all",
-            "modes", "campbell", "response", "waterfall". Other answers have one picture.
+            "ladder" (loci, step by step), "bank" (a vee over its bank angle, with scheme
+            "two-shaft" the radii of its shafts), "factor" (over the balance factor); with gas
+            "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes", "campbell",
+            "response", "waterfall". Other answers have one picture.
         orders: of an engine, which are drawn; default: all that are not negligible.
         scheme: of an engine, a balance scheme to compare with.
         speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.

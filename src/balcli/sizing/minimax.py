@@ -1,5 +1,6 @@
 """The scheme `minimax`: the counterweight with which the largest force over a revolution is as
-small as a weight on the crankshaft can make it.
+small as a weight on the crankshaft can make it; and `ellipse`: the counterweight that leaves order
+1 a wanted direction and shape.
 
 Smallest circle that encloses a closed curve, found on the analytic curve itself.
 
@@ -166,6 +167,43 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
         **({} if options.orders is not None else _compare_with_half(fitting.engine, circle)),
     )
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
+
+
+def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Return the counterweight with which the force of order 1 runs on an ellipse whose major axis
+    has the given direction, and whose axes have the given ratio (Wang, conclusion 5).
+
+    A counterweight changes V+ alone. The axis lies at (arg V+ + arg V-)/2, the axes are |V-| + |V+|
+    and |V-| - |V+|; the other solution, |V+| > |V-|, has larger axes.
+
+    Raises:
+        BalcliError: Direction or ratio is missing, or the given planes cannot take the moment.
+        NothingToBalanceError: No force turns against the crank.
+    """
+    if options.direction is None or options.ratio is None:
+        raise BalcliError(
+            "ellipse: give the force to leave: --direction and --ratio, such as 90 and 50%"
+        )
+    fitting = Fitting.start(engine, "ellipse", 1)
+    residual = fitting.find_residual(1)
+    against = residual.force(-1)
+    if not against:
+        raise NothingToBalanceError(
+            "no force of order 1 turns against the crank, so it runs on a circle, and "
+            "counterweights can cancel all of it"
+        )
+    with_crank = against.conjugate() * unit(2 * options.direction)
+    wanted = complex(with_crank) * (1 - options.ratio) / (1 + options.ratio)
+    slots, unbalances = _split(engine, options, fitting, wanted - residual.force(1))
+    largest = 2 * abs(against) / (1 + options.ratio) * residual.newtons_per_kg_m
+    reason = (
+        "The force of order 1 keeps its part that turns against the crank; the weight makes the "
+        "other part such that both add up in the wanted direction, and to the wanted ratio across"
+    )
+    fitting = fitting.add(slots, unbalances, reason)
+    return fitting.remedy.add_details(
+        order_1_largest_N=largest, order_1_smallest_N=largest * options.ratio
+    )
 
 
 def _split(

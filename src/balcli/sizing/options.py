@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, cast
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
-from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
+from .schemes import CRITERIA, DESIGNS, FIT, KNUCKLES, NAMES, SCHEMES
 
 # Of each option with numbers: their kind, and what is right.
 _NUMBERS: dict[str, tuple[type, str]] = {
@@ -23,7 +23,10 @@ _NUMBERS: dict[str, tuple[type, str]] = {
     "orders": (Real, "orders, such as (1, 2)"),
     "small": (Real, "a share, such as 0.05"),
     "radius": (Real, "a length in m, such as 0.03"),
+    "direction": (Real, "an angle in degrees, such as 90"),
+    "ratio": (Real, "a share, such as 0.5"),
 }
+_CHOICES = {"roll": ("zero",), "design": DESIGNS, "criterion": CRITERIA}
 _SEVERAL = ("at", "planes", "factor", "orders")
 
 
@@ -46,6 +49,10 @@ class SchemeOptions(NamedTuple):
         step: name or number of a step of the ladder (scheme step).
         radius: of the weights on shafts that turn unevenly or drive couplings; default: the crank
             radius.
+        direction: of the largest force of order 1 that is to remain, deg from x.
+        ratio: smallest over largest force of order 1 that is to remain.
+        design: of shafts that turn unevenly, one of `schemes.DESIGNS`.
+        criterion: by which these are sized, one of `schemes.CRITERIA`.
     """
 
     order: int | None = None
@@ -59,6 +66,10 @@ class SchemeOptions(NamedTuple):
     small: float | None = None
     step: str | int | None = None
     radius: float | None = None
+    direction: float | None = None
+    ratio: float | None = None
+    design: str | None = None
+    criterion: str | None = None
 
     def read_small(self) -> float:
         """Return the share below which a part is small."""
@@ -96,8 +107,16 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
             )
-        if self.roll not in (None, "zero"):
-            raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
+        self._check_choices()
+
+    def _check_choices(self) -> None:
+        """Raise BalcliError for a word that is no choice, and for a ratio that is no share."""
+        if self.ratio is not None and not 0 <= self.ratio <= 1:
+            raise BalcliError(f"--ratio {100 * self.ratio:g} %: give a share from 0 to 100 %")
+        for name, choices in _CHOICES.items():
+            if getattr(self, name) not in (None, *choices):
+                wrong = f"{getattr(self, name)}"[:60]
+                raise BalcliError(f'--{name} "{wrong}": choose from {", ".join(choices)}')
 
     def _check_numbers(self) -> None:
         """Raise TypeError for a value that is no number, BalcliError for a place that is farther

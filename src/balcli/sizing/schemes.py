@@ -9,14 +9,19 @@ SCHEMES: dict[str, tuple[str, ...]] = {
     "counterweights": ("order", "planes"),
     "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position", "orders"),
+    "ellipse": ("direction", "ratio", "planes", "position"),
     "single-shaft": ("order", "at", "position", "planes"),
     "two-shaft": ("order", "at", "position", "roll"),
     "four-shaft": ("at", "position"),
     "couple-shaft": ("order", "at", "planes"),
     "slider": ("order", "at", "position"),
-    "eccentric-slider": ("radius",),
+    "eccentric-slider": ("design", "criterion", "radius"),
     "oldham": ("radius",),
 }
+
+
+DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")  # remaining force of shafts that turn unevenly
 
 
 LADDER = ("auto", "step")  # steps of it
@@ -39,6 +44,7 @@ MEANINGS = {
     "counterweights": "rotating masses, and the part of order 1 that turns with the crank",
     "factor": "the shop's balance factor, with the bobweight card",
     "minimax": "the counterweight that leaves the smallest peak force",
+    "ellipse": "the counterweight that leaves order 1 a wanted direction and shape",
     "single-shaft": "one shaft against the crank, and counterweights for the rest",
     "two-shaft": "two shafts turning against each other: force of one order",
     "four-shaft": "two such pairs, for the forces of orders 1 and 2",

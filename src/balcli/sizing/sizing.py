@@ -20,7 +20,7 @@ from .fitting import (
     size_unbalances,
 )
 from .ladder import add_at_throws, find_ladder, size_complete
-from .minimax import size_minimax
+from .minimax import size_ellipse, size_minimax
 from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
@@ -164,6 +164,7 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "counterweights": size_counterweights,
     "factor": size_by_factor,
     "minimax": size_minimax,
+    "ellipse": size_ellipse,
     "single-shaft": size_single_shaft,
     "two-shaft": size_two_shaft,
     "four-shaft": size_four_shaft,
