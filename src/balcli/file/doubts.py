@@ -253,6 +253,8 @@ def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
             yield f"torsion.{end}.{number}.loss", part.loss
             if part.damper is not None:
                 yield f"torsion.{end}.{number}.damper.loss", part.damper.loss
+    for number, on_throw in enumerate(model.torsion.throw, 1):
+        yield f"torsion.throw.{number}.damper.loss", on_throw.damper.loss
 
 
 def _has_crosshead(model: EngineFile) -> bool:

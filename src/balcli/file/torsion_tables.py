@@ -10,7 +10,7 @@ from pydantic import Field
 
 from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, as_written, counted, shorten
+from .fields import RIGID, Number, OneOf, Whole, as_written, counted, shorten
 from .table import FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
@@ -61,6 +61,7 @@ StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
+_PendulumOrder = Annotated[float, Number(PLAIN, above=0, most=1e3)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
@@ -122,8 +123,9 @@ class ShaftKeys(FileTable):
 _KEYS_OF_KIND = {
     "viscous": ("inertia", "damping"),
     "rubber": ("inertia", "stiffness", "loss"),
-    "pendulum": ("mass", "radius", "length"),
+    "pendulum": ("mass", "radius"),
 }
+_TUNINGS = "length", "order"  # of a pendulum: one of them
 
 
 class Damper(FileTable):
@@ -146,11 +148,28 @@ class Damper(FileTable):
     """From the axis to where a pendulum hangs. Example: 60"""
     length: Size | None = None
     """Of a pendulum, from there to its centre of mass. Example: 2.4"""
+    order: _PendulumOrder | None = None
+    """Instead of length: the order, per turn of the node, that the pendulum cancels;
+    length = radius/order^2. Example: 4.5"""
+
+    @property
+    def swinging_length(self) -> float:
+        """Length of a pendulum, mm; 0 for a damper of another kind."""
+        if self.order is not None and self.radius is not None:
+            return self.radius / self.order**2
+        return self.length or 0.0
 
     def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
         given = self.model_fields_set - {"kind"}
-        if missing := [key for key in wanted if key not in given]:
+        missing = [key for key in wanted if key not in given]
+        if self.kind == "pendulum":
+            tuning = given.intersection(_TUNINGS)
+            given -= tuning
+            missing += ["length (or order)"] * (not tuning)
+            if len(tuning) > 1:
+                yield "has length and order; leave one of them out"
+        if missing:
             yield f"is {self.kind} and lacks {' and '.join(missing)}"
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
@@ -253,7 +272,17 @@ class Part(ShaftKeys, NodeKeys):
     """Of the part against ground, as water damps a propeller. Example: 5"""
 
 
+class ThrowDamper(FileTable):
+    """A damper on a throw of the crankshaft; a throw may have several."""
+
+    throw: Annotated[int, Whole(least=1, most=MOST_TORSION_NODES)]
+    """Number of the throw. Example: 6"""
+    damper: Damper
+    """The damper. Example: { kind = 'pendulum', mass = 3.6, radius = 62, order = 4.5 }"""
+
+
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
+_ThrowDampers = Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
 class Torsion(ChainKeys):
@@ -275,6 +304,8 @@ class Torsion(ChainKeys):
     """Parts before the first throw, outward."""
     rear: _Parts = ()
     """Parts behind the last throw, outward."""
+    throw: _ThrowDampers = ()
+    """Dampers on throws."""
 
     def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (

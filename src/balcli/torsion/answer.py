@@ -23,7 +23,7 @@ from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
 from .build import NO_DAMPERS
-from .dampers import FIGURES, DamperAsked, SizedDamper, size_damper
+from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -37,8 +37,6 @@ from .system import TorsionalSystem
 BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
 BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
 ASTOUNDING = 45.0  # deg: engines have fractions of a degree, on soft couplings some
-WIDE_SWING = 20.0  # deg; on a circle its frequency is 0.8 % low there, by swing^2/16
-
 _ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
 
 

@@ -136,7 +136,7 @@ def _list_response(response: Node) -> Iterator[Line]:
     swings = [("pendulums", each["node"], each["worst"]) for each in pendulums]
     swings += [("free_end", "", response["free_end_worst"])] if response else []
     for key, name, worst in swings:
-        head = Line("worst", None, worst["speed_rpm"], name=name)
+        head = Line("worst", None, worst["speed_rpm"], worst.get("order"), name=name)
         yield from _put(head, [Figure(key, worst["half_swing_deg"], "deg")])
 
 
@@ -351,9 +351,12 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
 
 def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
     """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
-    swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
-    swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
-    parts = [(f"{what} by ±{number(w.half_swing_deg)} deg", w.speed_rpm) for what, w in swings]
+    free_end, speed = response.free_end_worst.half_swing_deg, response.free_end_worst.speed_rpm
+    parts = [(f"{result.system.free_end} swings by ±{number(free_end)} deg", speed)]
+    for pendulums in response.pendulums or ():
+        largest = pendulums.worst
+        swing = f"swing by ±{number(largest.half_swing_deg)} deg, most in order {largest.order:g},"
+        parts.append((f"The pendulums of {pendulums.node} {swing}", largest.speed_rpm))
     for each in response.dampers or ():
         heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
         parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))
