@@ -19,7 +19,7 @@ FIRED = (ENGINES / "i3.toml").read_text(encoding="utf-8") + "[gas]\ncycle = 'ott
 
 
 def fit(scheme: str):
-    options = SchemeOptions(step=1) if scheme == "step" else None
+    options = {"step": SchemeOptions(step=1), "compensator": SchemeOptions(position=3.0)}.get(scheme)
     return balance(build_text(engine_text(operation="speed = 3000")), scheme, options)
 
 

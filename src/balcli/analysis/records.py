@@ -268,6 +268,7 @@ class Shaft(NamedTuple):
         at_mm: Place of its axis: x, y.
         position_mm: Place along the crank.
         free: Whether it may stand anywhere.
+        role: Compensator; left out of balancer shafts.
     """
 
     ratio: int
@@ -276,6 +277,7 @@ class Shaft(NamedTuple):
     at_mm: tuple[float, ...]
     position_mm: float
     free: bool
+    role: str | None = None
 
 
 class Slider(NamedTuple):
@@ -340,14 +342,20 @@ def describe_devices(remedy: Remedy) -> Devices:
     )
     return Devices(
         tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
-        tuple(Shaft._make([*_list_values(d, Shaft), free]) for d, free in shafts),
+        tuple(_describe_shaft(shaft, free) for shaft, free in shafts),
         tuple(Slider(*_list_values(d, Slider)) for d in remedy.sliders),
     )
 
 
+def _describe_shaft(shaft: model.Shaft, free: bool) -> Shaft:
+    role = None if shaft.role == "balancer" else shaft.role
+    return Shaft._make([*_list_values(shaft, Shaft), free, role])
+
+
 def _list_values(device: DeviceTable, record: Any) -> list[Any]:
     """Return the values of a record's attributes, named as the fields of the file with units."""
-    return [find_value(device, remove_unit(key)) for key in record._fields if key != "free"]
+    others = ("free", "role")
+    return [find_value(device, remove_unit(key)) for key in record._fields if key not in others]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:

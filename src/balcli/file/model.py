@@ -350,6 +350,9 @@ class Shaft(Device):
     """Of the eccentric at crank angle 0, from the x axis. Example: 90"""
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
+    role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
+    """Compensator: far from the engine, its force makes a moment and is meant to remain.
+    Example: 'balancer'"""
 
 
 class Slider(Device):
