@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Reached, WrittenAs, remove_unit
+from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -416,6 +416,42 @@ class Journal(NamedTuple):
     position_mm: float | None = None
     total: JournalTorque | None = None
     stress: ShearStress | None = None
+
+
+def write_need(need: str | None) -> str | None:
+    """Return the need of a compensator."""
+    return need
+
+
+class RelatedMoment(NamedTuple):
+    """Power related unbalance of an order.
+
+    Attributes:
+        order: Order.
+        moment_Nm: Largest free moment; null where it is not known.
+        Nm_per_kW: This moment over the power; null where it is not known.
+        need: Need of a compensator; null where the moment is not known.
+    """
+
+    order: int
+    moment_Nm: Annotated[float, HIDDEN]
+    Nm_per_kW: float
+    need: Annotated[str | None, WrittenAs(write_need, "class")]
+
+
+class PowerRelatedUnbalance(NamedTuple):
+    """Free moments over the power, as builders of marine engines list them.
+
+    Attributes:
+        power_W: Power.
+        power_kind: Source of the power: file (the brake power that it gives), or brake or indicated
+            power of the gas.
+        orders: Orders 1 and 2.
+    """
+
+    power_W: float
+    power_kind: str
+    orders: tuple[RelatedMoment, ...]
 
 
 class Masses(NamedTuple):

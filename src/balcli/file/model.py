@@ -35,6 +35,7 @@ from .table import (
     NumbersOfBanks,
     Period,
     Place,
+    Power,
     RippleOrder,
     RodRatio,
     ShaftRatio,
@@ -254,6 +255,8 @@ class Operation(FileTable):
 
     speed: Speed = 1000.0
     """Crank speed (mean over the angle). Example: 3000"""
+    power: Power | None = None
+    """Brake power at this speed, for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
     """Uneven crank speed, by orders: whole ones, or halves of a four-stroke engine."""
 
