@@ -307,9 +307,9 @@ def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
         BalcliError: No power is known.
     """
     power, kind = 0.0, "file"
-    if engine.rated is not None:
-        engine = replace(engine, speed_rpm=engine.rated.speed_rpm)
-        power = engine.rated.power_W or 0.0
+    if (rated := engine.rated) is not None:
+        engine = replace(engine, speed_rpm=rated.speed_rpm)
+        power = rated.power_W or 0.0
     if not power and engine.gas is not None:
         efficiency = engine.mechanical_efficiency
         torque = find_torque_curves(replace(engine, ripple=())).gas.mean
