@@ -22,6 +22,7 @@ LEFT = 1e-12
 APART = (
     "auto",
     "complete",
+    "compensator",
     "step",
     "two-shaft",
     "ellipse",

@@ -44,6 +44,7 @@ from .records import (
     Journal,
     Masses,
     PeaksAndOrders,
+    PowerRelatedUnbalance,
     Stroke,
     describe_guide,
     describe_inner,
@@ -52,7 +53,7 @@ from .records import (
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide", "journals", "masses")  # computed only when they are named
+EXTRAS = ("inner", "guide", "journals", "masses", "pru")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
@@ -76,6 +77,7 @@ class Analysis(Result):
             all cylinders are plain slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
+        power_related_unbalance: Free moments over the power.
         why: Whether the orders shown are balanced by symmetry.
         small: Share of what one cylinder makes below which a part is small.
     """
@@ -94,6 +96,7 @@ class Analysis(Result):
     travel: tuple[Stroke, ...] | None = None
     journals: tuple[Journal, ...] | None = None
     masses: tuple[Masses, ...] | None = None
+    power_related_unbalance: PowerRelatedUnbalance | None = None
     why: Symmetry | None = None
     small: Annotated[float, HIDDEN] = SMALL
 
@@ -182,8 +185,8 @@ def analyze(
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
         only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses and gas, or a text of them with commas between; default: all but those
-            after peak.
+            journals, masses, pru and gas, or a text of them with commas between; default: all but
+            those after peak.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -244,14 +247,20 @@ def analyze(
 
 def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
     """Return results that are seldom asked for; their modules are loaded for them alone."""
-    if not {"journals", "masses"}.intersection(wanted):
+    if not {"journals", "masses", "pru"}.intersection(wanted):
         return {}
     from . import crank_drive
 
     return {
+        "power_related_unbalance": crank_drive.relate_to_power(engine) if "pru" in wanted else None,
         "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
         "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
     }
+
+
+def has_power(engine: Engine) -> bool:
+    """Return whether the power of an engine is known, from its file or from its gas."""
+    return bool(engine.rated and engine.rated.power_W) or engine.gas is not None
 
 
 def _check_height(guide_height_m: float | None) -> None:

@@ -1,5 +1,5 @@
 """Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
-`--only masses`).
+`--only masses`). Also free moments over the power (`--only pru`).
 
 The crankshaft is rigid, turns at the steady mean speed and gives its torque off at the flywheel
 end. With T_i the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque
@@ -26,17 +26,25 @@ from ..core.cylinder_pressure import crank_torque
 from ..core.peaks import find_swing
 from ..core.phasors import Array, Complex
 from ..core.piecewise import resolved
-from ..core.records import find_unit, list_figures, to_document
+from ..core.records import find_unit, list_figures, to_document, write_each
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
 from ..errors import BalcliError
 from ..forces.crankshaft import find_shear_stress, place_bearings
+from ..forces.curves import find_torque_curves
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
-from ..show.sheet import UNKNOWN, Grid, degrees, number
+from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
 from ..show.units import SI, ShownUnit, System, name_with_unit
-from .records import Journal, JournalTorque, Masses, ShearStress
+from .records import (
+    Journal,
+    JournalTorque,
+    Masses,
+    PowerRelatedUnbalance,
+    RelatedMoment,
+    ShearStress,
+)
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
 _ROUNDING = 1e-12  # of the sum of all cylinders' amplitudes: less is no torque
@@ -276,3 +284,75 @@ def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
     for one in masses:
         for name, value, unit in list_figures(to_document(one), ("cylinders",)):
             yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)
+
+
+# ------------------------------------------------------------------ power related unbalance
+# Need of a compensator, and the power related unbalance up to which it holds, N m/kW, as project
+# guides of marine engines (MAN) class it
+_NEEDS = (
+    (60, "not relevant"),
+    (120, "unlikely"),
+    (220, "likely"),
+    (math.inf, "most likely"),
+)
+
+
+def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
+    """Return the largest free moments of orders 1 and 2 over the power, at the speed of the file.
+
+    Args:
+        engine: Engine without trailing axes.
+
+    Raises:
+        BalcliError: No power is known.
+    """
+    power, kind = 0.0, "file"
+    if (rated := engine.rated) is not None:
+        engine = replace(engine, speed_rpm=rated.speed_rpm)
+        power = rated.power_W or 0.0
+    if not power and engine.gas is not None:
+        efficiency = engine.mechanical_efficiency
+        torque = find_torque_curves(replace(engine, ripple=())).gas.mean
+        power = torque * float(engine.omega) * (efficiency or 1.0)
+        kind = "indicated" if efficiency is None else "brake"
+    if power <= 0:
+        raise BalcliError("pru needs operation.power, or [gas]")
+    moments = compute_spectra(engine, [1, 2], ("moment",))["moment"].major.tolist()
+    orders = []
+    for order, moment in enumerate(moments, 1):
+        size = moment if engine.places_known else math.nan
+        related = 1e3 * size / power
+        need = next((need for most, need in _NEEDS if related <= most), None)
+        orders.append(RelatedMoment(order, size, related, need))
+    return PowerRelatedUnbalance(power, kind, tuple(orders))
+
+
+def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
+    """Return a table of the power related unbalance, with the need of a compensator.
+
+    Args:
+        related: Power related unbalance.
+        system: System of units.
+    """
+    kind = "" if related.power_kind == "file" else f"{related.power_kind} "
+    title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
+    unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
+    rows = tuple(
+        (
+            order_name(each.order),
+            UNKNOWN if each.need is None else size_cell(each.moment_Nm, unit),
+            UNKNOWN if each.need is None else number(each.Nm_per_kW),
+            each.need or UNKNOWN,
+        )
+        for each in related.orders
+    )
+    heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
+    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))
+
+
+def list_related(related: PowerRelatedUnbalance) -> Iterator[FigureRow]:
+    """Yield CSV of the power related unbalance, SI."""
+    for each in write_each(related.orders):
+        order = each.pop("order")
+        for name, value, unit in list_figures(each):
+            yield FigureRow(0, "pru", order, name, value, unit)

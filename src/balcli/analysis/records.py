@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Reached, WrittenAs, remove_unit
+from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -268,6 +268,7 @@ class Shaft(NamedTuple):
         at_mm: Place of its axis: x, y.
         position_mm: Place along the crank.
         free: Whether it may stand anywhere.
+        role: Compensator; left out of balancer shafts.
     """
 
     ratio: int
@@ -276,6 +277,7 @@ class Shaft(NamedTuple):
     at_mm: tuple[float, ...]
     position_mm: float
     free: bool
+    role: str | None = None
 
 
 class Slider(NamedTuple):
@@ -340,14 +342,20 @@ def describe_devices(remedy: Remedy) -> Devices:
     )
     return Devices(
         tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
-        tuple(Shaft._make([*_list_values(d, Shaft), free]) for d, free in shafts),
+        tuple(_describe_shaft(shaft, free) for shaft, free in shafts),
         tuple(Slider(*_list_values(d, Slider)) for d in remedy.sliders),
     )
 
 
+def _describe_shaft(shaft: model.Shaft, free: bool) -> Shaft:
+    role = None if shaft.role == "balancer" else shaft.role
+    return Shaft._make([*_list_values(shaft, Shaft), free, role])
+
+
 def _list_values(device: DeviceTable, record: Any) -> list[Any]:
     """Return the values of a record's attributes, named as the fields of the file with units."""
-    return [find_value(device, remove_unit(key)) for key in record._fields if key != "free"]
+    others = ("free", "role")
+    return [find_value(device, remove_unit(key)) for key in record._fields if key not in others]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
@@ -408,6 +416,42 @@ class Journal(NamedTuple):
     position_mm: float | None = None
     total: JournalTorque | None = None
     stress: ShearStress | None = None
+
+
+def write_need(need: str | None) -> str | None:
+    """Return the need of a compensator."""
+    return need
+
+
+class RelatedMoment(NamedTuple):
+    """Power related unbalance of an order.
+
+    Attributes:
+        order: Order.
+        moment_Nm: Largest free moment; null where it is not known.
+        Nm_per_kW: This moment over the power; null where it is not known.
+        need: Need of a compensator; null where the moment is not known.
+    """
+
+    order: int
+    moment_Nm: Annotated[float, HIDDEN]
+    Nm_per_kW: float
+    need: Annotated[str | None, WrittenAs(write_need, "class")]
+
+
+class PowerRelatedUnbalance(NamedTuple):
+    """Free moments over the power, as builders of marine engines list them.
+
+    Attributes:
+        power_W: Power.
+        power_kind: Source of the power: file (the brake power that it gives), or brake or indicated
+            power of the gas.
+        orders: Orders 1 and 2.
+    """
+
+    power_W: float
+    power_kind: str
+    orders: tuple[RelatedMoment, ...]
 
 
 class Masses(NamedTuple):

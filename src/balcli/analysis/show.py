@@ -53,7 +53,7 @@ TEXTS = frozenset(
     {"verdict", "sizing", "ladder", "textbook"}
 )  # parts that need no crank speed beside them
 TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
+    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses", "pru"}
 )  # without a verdict
 
 
@@ -103,15 +103,17 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom().lay_out_journals(result.journals, system)
+        yield from import_seldom().lay_out_journals(result.journals, system)
     if result.masses is not None:
-        yield _import_seldom().lay_out_masses(result.masses, system)
+        yield import_seldom().lay_out_masses(result.masses, system)
+    if result.power_related_unbalance is not None:
+        yield import_seldom().lay_out_related(result.power_related_unbalance, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
 
 
-def _import_seldom() -> ModuleType:
-    """Return the module of parts that are seldom asked for: journals and masses."""
+def import_seldom() -> ModuleType:
+    """Return the module of parts that are seldom asked for."""
     from . import crank_drive
 
     return crank_drive
@@ -252,9 +254,11 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.guide is not None:
         yield from sections.list_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom().list_journal_rows(result.journals)
+        yield from import_seldom().list_journal_rows(result.journals)
     if result.masses is not None:
-        yield from _import_seldom().list_mass_rows(result.masses)
+        yield from import_seldom().list_mass_rows(result.masses)
+    if result.power_related_unbalance is not None:
+        yield from import_seldom().list_related(result.power_related_unbalance)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

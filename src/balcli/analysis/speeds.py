@@ -37,7 +37,7 @@ from ..show.sheet import (
     size_text,
 )
 from . import sections, show as analysis_show
-from .answer import Analysis, analyze
+from .answer import Analysis, analyze, has_power
 from .comparison import (
     Line,
     analyze_alike,
@@ -48,7 +48,7 @@ from .comparison import (
     show_sizes,
 )
 from .devices_show import ladder_grid
-from .records import Includes, name_included
+from .records import Includes, PowerRelatedUnbalance, name_included
 from .sections import define_guide_moments
 
 if TYPE_CHECKING:
@@ -187,6 +187,7 @@ class MarineSheet:
         assumed: Values taken because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
         lines: Amplitudes by order and figure, with a value a speed.
+        related: Power related unbalance at the rated speed; None without a power.
         every_order: Whether tables show negligible orders as well.
     """
 
@@ -198,6 +199,7 @@ class MarineSheet:
     assumed: tuple[str, ...] | None = None
     speeds: tuple[MarineSpeed, ...]
     lines: Annotated[tuple[Line, ...], HIDDEN]
+    related: Annotated[PowerRelatedUnbalance | None, HIDDEN] = None
     every_order: Annotated[bool, HIDDEN] = False
 
     @property
@@ -228,9 +230,8 @@ def find_marine_sheet(
         BalcliError: orders that are none or too high.
     """
     torque = TORQUE if engine.gas is None else TORQUE_TOTAL
-    ask = partial(
-        analyze, only=("force", "moment", "guide", torque.name), guide_height_m=guide_height_m
-    )
+    words = ["force", "moment", "guide", torque.name, *(["pru"] if has_power(engine) else [])]
+    ask = partial(analyze, only=words, guide_height_m=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
     guide = found[0].guide
@@ -242,6 +243,7 @@ def find_marine_sheet(
         assumed=found[0].assumed,
         speeds=tuple(map(MarineSpeed, speeds, listed)),
         lines=_list_lines(found, listed),
+        related=found[0].power_related_unbalance,
         every_order=every_order or orders is not None,
     )
 
@@ -382,6 +384,8 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
             speeds, whole = result.speeds_rpm, result.every_order
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
+    if result.related is not None:
+        parts.append(analysis_show.import_seldom().lay_out_related(result.related, system))
     notes = (_AXES, define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 

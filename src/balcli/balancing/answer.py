@@ -26,7 +26,7 @@ from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import EngineFile
+from ..file.model import EngineFile, Shaft
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
@@ -442,4 +442,6 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 def _list_entries(device: DeviceTable) -> Node:
     """Return keys and values of a device as TOML has them."""
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
+    if isinstance(device, Shaft) and device.role != "balancer":
+        values["role"] = device.role
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}

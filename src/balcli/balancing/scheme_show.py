@@ -13,7 +13,7 @@ from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
 from ..sizing.factor import name_one_cylinder
-from ..sizing.planes import measure_direction
+from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
 from .bobweight_page import group_equal_pins, multiply, name_pins, percent
 
@@ -51,6 +51,8 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
             (_name(each), f"{_show(each, system)}{remarks.get(each.key, '')}") for each in details
         )
         yield Facts(tuple(pairs), "Details")
+    if compensators := tuple(_tell_compensators(result, system)):
+        yield Facts(compensators, "Compensators")
     if remedy.needs:
         yield _needs_grid(remedy.needs, system)
     if remedy.card:
@@ -61,6 +63,18 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
         yield _sweep_grid(tuple(rows), system)
     if optima := remedy.details.get("optima"):
         yield _optima_grid(optima)
+
+
+def _tell_compensators(result: Balance, system: System) -> Iterator[tuple[str, str]]:
+    """Yield place, force and masses of each compensator."""
+    remedy = result.remedy
+    for each in remedy.details.get("compensators", ()):
+        pair = [shaft for shaft in remedy.shafts if shaft.position == each["position_mm"]]
+        mass = size_text(find_unbalance(pair[0]), system.unbalance)
+        angles = " and ".join(f"{shaft.angle:.4f} deg (at {shaft.ratio:+d})" for shaft in pair)
+        place = f"{number(system.length.of(each['position_mm'] / 1e3))} {system.length.name}"
+        force = size_text(each["force_N"], system.force)
+        yield f"at z = {place}", f"force of {force}; 2 masses of {mass} at {angles}"
 
 
 def tell_change(result: Balance, system: System) -> str:
@@ -101,7 +115,7 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
     for key, value in result.remedy.details.items():
         if isinstance(value, dict) and key != "best":
             yield from (_Figure(key, name, figure) for name, figure in value.items())
-        elif key not in ("best", "optima", "change"):
+        elif key not in ("best", "optima", "change", "compensators"):
             yield _Figure("", key, value)
     if result.speed_note:
         yield _Figure("", "speed", result.speed_note)
@@ -119,7 +133,11 @@ def _choose_figures(result: Balance) -> list[_Figure]:
             each = each._replace(value=nan)
         if result.before.engine.gas is not None and each.key in _ROLLS[0]:
             each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
-        if {"left", "before"}.intersection(each.key.split("_")) and order and not each.group:
+        if (
+            {"left", "before", "after"}.intersection(each.key.split("_"))
+            and order
+            and not each.group
+        ):
             each = each._replace(group=f"order {order}")  # others may leave more
         chosen.append(each)
     return chosen
@@ -159,7 +177,7 @@ def _show(figure: _Figure, system: System) -> str:
     if not unit:
         return percent(value) if figure.key.startswith("factor") else number(value)
     shown = system.unbalance if unit == "kg·m" else system.instead_of(unit)
-    return f"{number(shown.of(value / 1e3 if unit == 'mm' else value))} {shown.name}"
+    return size_text(value / 1e3 if unit == "mm" else value, shown)
 
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:

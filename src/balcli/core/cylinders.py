@@ -129,6 +129,7 @@ class Device(NamedTuple):
         place: Position x + iy of its axis, m.
         z: Position along the crank, m.
         kind: Kind of the device.
+        compensates: Whether it is there for its moment, and its force is meant to remain.
     """
 
     order: int
@@ -137,6 +138,7 @@ class Device(NamedTuple):
     place: complex | Complex
     z: Figure
     kind: DeviceKind = DeviceKind.OTHER
+    compensates: bool = False
 
 
 _STEPS = 720

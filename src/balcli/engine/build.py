@@ -40,7 +40,7 @@ from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices
-from .engine import Bearings, Engine
+from .engine import Bearings, Engine, Rating
 from .figures import FileFigures, divide
 from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
@@ -78,7 +78,7 @@ def build(
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
-    bearings = None
+    bearings, power = None, model.operation.power
     if (table := model.bearing) is not None:
         pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
         bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
@@ -103,6 +103,7 @@ def build(
         crank_inertia=divide(inertia, 1e6),
         flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
         bearings=bearings,
+        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )

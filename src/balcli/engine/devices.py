@@ -54,7 +54,8 @@ def build_device(
     place = place_in_plane(x / 1e3, y / 1e3)
     if isinstance(table, Shaft):
         forward, backward = (turning, 0j) if table.ratio > 0 else (0j, turning)
-        return Device(abs(table.ratio), forward, backward, place, z, DeviceKind.SHAFT)
+        order, compensates = abs(table.ratio), table.role == "compensator"
+        return Device(order, forward, backward, place, z, DeviceKind.SHAFT, compensates)
     # The displacement `U cos(n theta + angle)` is two vectors of half the size, one each way.
     half = unit(take(f"{path}.direction", table.direction)) / 2
     forward, backward = half * turning, half * np.conj(turning)

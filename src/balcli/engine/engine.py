@@ -39,6 +39,13 @@ class Bearings(NamedTuple):
     main_m2: float | None = None
 
 
+class Rating(NamedTuple):
+    """Speed of the file, rpm, and the brake power at it, W; None where the file gives none."""
+
+    speed_rpm: float
+    power_W: float | None = None
+
+
 class SilentCylinders(NamedTuple):
     """Numbers of the cylinders that do not fire.
 
@@ -88,6 +95,7 @@ class Engine:
             kg m2; None where the file gives none.
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None likewise.
         bearings: Bearings of the crankshaft; None where the file gives none.
+        rated: Speed of the file, and brake power at it.
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
@@ -113,6 +121,7 @@ class Engine:
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
+    rated: Rating | None = None
     up_deg: float | None = None
     inferred: tuple[str, ...] = ()
     model: EngineFile | None = None

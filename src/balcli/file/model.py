@@ -35,6 +35,7 @@ from .table import (
     NumbersOfBanks,
     Period,
     Place,
+    Power,
     RippleOrder,
     RodRatio,
     ShaftRatio,
@@ -254,6 +255,8 @@ class Operation(FileTable):
 
     speed: Speed = 1000.0
     """Crank speed (mean over the angle). Example: 3000"""
+    power: Power | None = None
+    """Brake power at this speed, for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
     """Uneven crank speed, by orders: whole ones, or halves of a four-stroke engine."""
 
@@ -350,6 +353,9 @@ class Shaft(Device):
     """Of the eccentric at crank angle 0, from the x axis. Example: 90"""
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
+    role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
+    """Compensator: far from the engine, its force makes a moment and is meant to remain.
+    Example: 'balancer'"""
 
 
 class Slider(Device):

@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Flag, Label, Number, Whole
-from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
+from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, POWER, SPEED, TIME, UNBALANCE
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -46,6 +46,8 @@ FIT = "fit"  # in place of an unbalance: `balance` finds it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
+
+Power = Annotated[float, Number(POWER, above=0, most=1e9)]
 
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 

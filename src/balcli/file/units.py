@@ -165,6 +165,7 @@ TORSIONAL_DAMPING = Dimension(
 DENSITY = Dimension("g/cm^3", "a density", ("7.85 g/cm^3", "7850 kg/m^3"))
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
+POWER = Dimension("kW", "a power", ("3820 kW", "5200 hp"))
 PLAIN = Dimension("", "a plain number")
 # Below this, a figure with exactly three decimals is rather one with a point between thousands.
 _LEAST_WITH_DECIMALS = {SPEED: 100, STIFFNESS: 1, TORSIONAL_STIFFNESS: 1000}

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 # What can be asked for and includes moments, among other things.
-ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "xy", "textbook", "verdict"})
+ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "pru", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
 T = TypeVar("T")

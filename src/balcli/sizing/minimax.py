@@ -26,7 +26,13 @@ from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_crank_middle, measure_direction, read_planes
+from .planes import (
+    SAME_PLACE,
+    find_crank_middle,
+    measure_direction,
+    read_planes,
+    read_position,
+)
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
@@ -213,7 +219,7 @@ def _split(
     planes such that no moment of order 1 that turns with the crank is left.
     """
     if options.planes is None:
-        z = find_crank_middle(engine) if options.position is None else options.position
+        z = find_crank_middle(engine) if options.position is None else read_position(options)
         return [Slot("counterweight", 1, 1, z)], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)

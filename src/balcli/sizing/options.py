@@ -38,7 +38,7 @@ class SchemeOptions(NamedTuple):
         order: the order to balance; default: the lowest with a part that the scheme cancels.
         at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
             the crank.
-        position: z of new devices.
+        position: z of new devices; of compensators one z, or two (fore and aft).
         planes: "ends", "throws", or places z of new devices.
         factor: shares of the reciprocating mass, of which the best is fitted; default: 0.5.
         measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
@@ -57,7 +57,7 @@ class SchemeOptions(NamedTuple):
 
     order: int | None = None
     at: tuple[complex, ...] | None = None
-    position: float | None = None
+    position: float | tuple[float, ...] | None = None
     planes: str | tuple[float, ...] | None = None
     factor: tuple[float, ...] | None = None
     measured: float | None = None
@@ -126,7 +126,8 @@ class SchemeOptions(NamedTuple):
             given = getattr(self, name)
             if given is None or (name == "planes" and isinstance(given, str)):
                 continue
-            values = given if name in _SEVERAL else (given,)
+            several = name in _SEVERAL or (name == "position" and isinstance(given, tuple))
+            values = given if several else (given,)
             if not _are(values, kind, name not in ("factor", "radius")):
                 raise wrong_type(f"SchemeOptions: {name}", given, f"give {right}")
             if name in ("at", "position", "planes"):

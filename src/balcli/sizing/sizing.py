@@ -42,7 +42,13 @@ from .residual import (
     choose_residual,
     find_residual,
 )
-from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
+from .shafts import (
+    size_compensator,
+    size_couple_shaft,
+    size_four_shaft,
+    size_single_shaft,
+    size_two_shaft,
+)
 from .single_cylinder import size_eccentric_slider, size_oldham
 
 
@@ -169,6 +175,7 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "two-shaft": size_two_shaft,
     "four-shaft": size_four_shaft,
     "couple-shaft": size_couple_shaft,
+    "compensator": size_compensator,
     "slider": size_sliders,
     "eccentric-slider": size_eccentric_slider,
     "oldham": size_oldham,
