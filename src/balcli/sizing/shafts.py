@@ -51,11 +51,11 @@ _COMPENSATES = (
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit one shaft at -N for the part of order N that turns against the crank; for N = 1 also
-    counterweights for the part that turns with it.
+    counterweights for the part that turns with the crank.
 
-    One eccentric cancels the force. Its axial distance from the force leaves a couple, which the
-    details list; without a given place it stands where that couple is smallest. Two eccentrics in
-    given planes cancel the moment as well.
+    By default, one eccentric cancels the force. Its axial distance from the force leaves a couple,
+    which the details list; unless a position is given, it is where this couple is smallest. Two
+    eccentrics in given planes also cancel the moment.
     """
     two = options.planes is not None
     if two and options.position is not None:
@@ -85,8 +85,8 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit shafts at +N and -N, each with two opposite eccentrics in two planes, for the moment of
-    order N; only one of them where the moment turns in one sense alone.
+    """Fit shafts at +N and -N for the moment of order N, each with two opposite eccentrics in two
+    planes. If the moment turns in only one sense, fit only one shaft.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
@@ -107,8 +107,8 @@ Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit shafts at +N and -N for the force of order N, placed such that no roll is added, or such
-    that none is left (option `roll`).
+    """Fit shafts at +N and -N for the force of order N. They are placed such that they add no roll,
+    or (option `roll`) such that no inertia roll remains.
     """
     try:
         residual = choose_residual(engine, options, ("force",))
@@ -120,7 +120,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
-        if not residual.has("force", (1, -1)):  # nothing reciprocates: the counterweights do it
+        if not residual.has("force", (1, -1)):  # no reciprocating mass: counterweights suffice
             return fitting.remedy
     return _add_pair(fitting, residual, options).remedy
 
@@ -207,8 +207,8 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
-    """Return the fitting with shafts at +N and -N for the force of this order; where it turns in
-    one sense alone, with one shaft or its two halves.
+    """Return the fitting with shafts at +N and -N for the force of this order. If the force turns
+    in only one sense, add one shaft, or its two halves.
     """
     places = _choose_places(residual, options)
     for sense, standing in places.items():
@@ -225,13 +225,13 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Return the places of the shafts of each sense: the given ones, the others such that the pair
-    adds no roll, or with `roll` such that none is left.
+    """Return the positions of the shafts that turn in each sense. Positions that are not given are
+    chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
 
-    A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
-    (docs/theory.md). Without a given place, the places nearest to the crank are chosen (least
-    squares). A force that turns in one sense alone needs one shaft on the crank axis, or two halves
-    at the given place and opposite to it.
+    A pair cancels a roll (kg m^2) if `conj(p_B) V+ - p_A conj(V-) = i roll` (docs/theory.md). If no
+    position is given, those nearest to the crank are chosen (least squares). A force that turns in
+    only one sense needs one shaft on the crank axis, or two halves, at the given position and
+    opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
@@ -249,7 +249,7 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         raise BalcliError("--roll zero places the second shaft; give one --at")
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    here = residual.reference.place  # the roll is wanted about the crank axis
+    here = residual.reference.place  # the roll to cancel is that about the crank axis
     moved = here.conjugate() * forward - here * backward.conjugate()
     wanted = 1j * residual.roll + moved if options.roll else 0j
     against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
@@ -259,13 +259,13 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
 
 def _describe_places(places: Places) -> dict[str, float]:
     """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
-    of the distances (with the crank : against it).
+    of distances (shaft with the crank : shaft against it).
     """
     details = {}
     for sense, name in ((1, "with_crank"), (-1, "against_crank")):
         for place in places.get(sense, ())[:1]:
             details[f"radius_{name}_mm"] = 1e3 * abs(place)
-            if place:  # on the crank axis there is no direction
+            if place:  # a shaft on the crank axis has no direction
                 details[f"direction_{name}_deg"] = math.degrees(cmath.phase(place))
     if len(places) == 2 and (against := abs(places[-1][0])):
         details["radius_ratio"] = abs(places[1][0]) / against
