@@ -12,9 +12,7 @@ from __future__ import annotations
 from .names import PUBLIC, import_name
 from .version import __version__
 
-TYPE_CHECKING = (
-    False  # importing typing is slow, and Ctrl-C shows a traceback meanwhile
-)
+TYPE_CHECKING = False  # importing typing is slow, and Ctrl-C shows a traceback meanwhile
 if TYPE_CHECKING:
     from .analysis.answer import Analysis, analyze
     from .analysis.comparison import Comparison, compare

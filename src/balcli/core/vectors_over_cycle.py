@@ -32,7 +32,7 @@ class Panels:
     """Panels of a cycle on which all forces are short series.
 
     Attributes:
-    breaks: Rising breakpoints, rad; the last is one period after the first.
+        breaks: Rising breakpoints, rad; the last is one period after the first.
     """
 
     breaks: Array
