@@ -8,10 +8,10 @@ keys of the file, every cylinder is within 1 deg of its dead centre when it fire
 
 - If the file gives throws, numbering bank by bank is used if it fits.
 - Otherwise the usual numberings are tried in three tiers, from the most usual on; the first tier
-    with a numbering that fits decides. If this is the first tier and it means one engine, that is
-    used. Otherwise the user has to choose among the engines.
+  with a numbering that fits decides. If this is the first tier and it means one engine, that is
+  used. Otherwise the user has to choose among the engines.
 - Two numberings describe the same engine if the firing angles of all places (throw, bank) differ by
-    the same shift.
+  the same shift.
 
 A numbering that the file gives is taken as true; if it does not fit, changes of other keys are
 proposed.
@@ -50,7 +50,7 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
-NARROW_DEG = 30.0  # largest angle between the banks of a block with one head; their axes miss the crank
+NARROW_DEG = 30.0  # largest bank angle of a block with one head, whose axes miss the crank
 FREE_END = (
     "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
     "the other way round."
