@@ -237,7 +237,9 @@ def use_balcli(engine: Engine, orders: list[int]) -> Complex:
 
 
 def _sample(points: int, force_of: Callable[[Array, float, float, float], Complex]) -> Way:
-    """Return a method that samples the cylinders' forces over a turn and takes the FFT of the sums."""
+    """Return a method that samples the cylinders' forces over a turn and takes the FFT of the
+    sums.
+    """
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         reciprocating, rotating, axis, phase, z = _list_columns(engine)

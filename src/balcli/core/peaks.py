@@ -148,7 +148,9 @@ def largest_of_ellipse(phasors: Complex) -> Real:
 
 
 def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real, Real]:
-    """Return the highest values (or, `squared`, lengths) and their first angles, shape (*curves)."""
+    """Return the highest values (or, `squared`, lengths) and their first angles, shape
+    (*curves).
+    """
     halves = 2 * np.asarray(orders, float)
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
     there |= not np.any(there)

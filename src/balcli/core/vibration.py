@@ -145,7 +145,9 @@ def find_resonances(
 
 
 def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Complex) -> bool:
-    """Return whether the load of one order, shape (speeds, dof), drives the mode at its frequency."""
+    """Return whether the load of one order, shape (speeds, dof), drives the mode at its
+    frequency.
+    """
     speed = modes.omega[mode] / order
     if not speeds[0] * (1 - _UNMOVED) <= speed <= speeds[-1] * (1 + _UNMOVED):
         return False

@@ -155,7 +155,9 @@ def _set_up(
 
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
-    """Return the table with a fitted unbalance (kg m): one value if its angle is given, else two."""
+    """Return the table with a fitted unbalance (kg m): one value if its angle is given, else
+    two.
+    """
     angle = measure_direction(complex(*values)) if values.any() else 0.0
     if len(values) == 1:
         opposite = complex(unit(table.angle + 180))

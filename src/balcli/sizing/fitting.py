@@ -141,7 +141,9 @@ def find_effect(
 def find_effects(
     devices: Iterable[Device], parts: Sequence[ResidualPart], reference: ReferencePoint
 ) -> Array:
-    """Return the effects of devices, real and imaginary parts in turn, shape (2 x parts, devices)."""
+    """Return the effects of devices, real and imaginary parts in turn, shape (2 x parts,
+    devices).
+    """
     return np.array([find_effect(one, parts, reference) for one in devices]).view(float).T
 
 
@@ -175,7 +177,7 @@ def solve_exactly(
     """Return unbalances that cancel these parts completely, up to rounding.
 
     Raises:
-        BalcliError: These slots cannot produce the parts (the text is `reason`), or are too similar.
+        BalcliError: These slots cannot produce the parts (its text is `reason`), or are too alike.
     """
     fit = size_unbalances(slots, residual, parts)
     weights = _weigh(slots, residual, parts)
@@ -326,7 +328,9 @@ def _size_total_roll(engine: Engine, order: int) -> float:
 
 
 def explain_counterweights(residual: Residual) -> str:
-    """Return the reason for counterweights against the part of order 1 that turns with the crank."""
+    """Return the reason for counterweights against the part of order 1 that turns with the
+    crank.
+    """
     both = "both" if residual.force(1) and residual.moment(1) else "it"
     turn = "counterweights turn with it too and cancel"
     return f"{_name(residual, 1)} turning with the crank: {turn} {both}"

@@ -116,7 +116,9 @@ class SchemeOptions(NamedTuple):
                     raise BalcliError(f"{told}; at most {FARTHEST_DEVICE_M:g} m")
 
     def read_place(self) -> complex:
-        """Return the given position x + iy, by default 0 (the crank axis); BalcliError for several."""
+        """Return the given position x + iy, by default 0 (the crank axis); BalcliError for
+        several.
+        """
         at = self.at or (0j,)
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
