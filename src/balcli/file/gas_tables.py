@@ -38,12 +38,13 @@ class Gas(FileTable):
     phase: Angle = 0.0
     """Added to the angles of the diagram. Example: -0.5"""
     pressure: Annotated[str, OneOf("absolute", "gauge")] = "absolute"
-    """Gauge pressures are measured above an atmosphere of 1.01325 bar. Example: 'gauge'"""
+    """Kind of the diagram's pressures; gauge: above an atmosphere of 1.01325 bar. Example: 'gauge'
+    """
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """A computed cycle, by how it burns. Example: 'wiebe'"""
     compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
-    """Largest over smallest volume of the cylinder; with a diagram, only for the volumes. Example:
-    10.5
+    """Largest over smallest volume of the cylinder; with a diagram, it only serves to state
+    volumes. Example: 10.5
     """
     compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
     """Index n of the compression, p V^n = const. Example: 1.35"""

@@ -459,7 +459,7 @@ class Articulation(FileTable):
     """Distance from the crank pin to the knuckle pins. Example: 55"""
     knuckle_angles: Angles | None = None
     """Angle of each bank's knuckle pin from the master rod's axis (0 for the master's bank); left
-    out: the angles between the banks. Example: [0, 72, 144, 216, 288]
+    out: the bank angles from the master's bank. Example: [0, 72, 144, 216, 288]
     """
     rod: ArticulatedRod
     """The articulated rods."""
