@@ -109,7 +109,7 @@ class Problem(NamedTuple):
 
         Args:
             path: Dotted name of the key.
-            hint: Why it is needed, or what to write.
+            hint: Reason why it is needed, or an example of a value.
         """
         return cls(path, f"is missing; {hint}", (path,))
 

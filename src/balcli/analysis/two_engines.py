@@ -90,8 +90,8 @@ class Arrangement:
             in its file (y with opposite sign), so that angles in the file still count in its own
             sense of rotation.
         load: Crank with flywheel and load, which carries the whole inertia torque; "both": each
-            carries its own, and the gears none. If both cranks turn alike, the choice makes no
-            difference.
+            crank carries its own torque, and the gears carry none of it. If both cranks turn alike,
+            the choice makes no difference.
     """
 
     phase_deg: float = 0.0

@@ -96,7 +96,7 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     The list is empty if every unknown is determined.
 
     Args:
-        matrix: shape (readings, unknowns).
+        matrix: Effect of each unknown on each reading, shape (readings, unknowns).
     """
     sizes = np.linalg.norm(matrix, axis=0)
     directions = matrix / np.where(sizes > 0, sizes, 1.0)

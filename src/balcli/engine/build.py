@@ -309,7 +309,9 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
 
 
 def check_samples(parts: Parts) -> Iterator[Problem]:
-    """Check that not too many different mechanisms can barely turn: they would take too long."""
+    """Check that not too many different mechanisms are close to locking, because these need many
+    samples.
+    """
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
         return

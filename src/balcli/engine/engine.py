@@ -70,12 +70,12 @@ class Engine:
         fires_deg: Crank angle at which each cylinder fires, counted from the first, by cylinder
             number in the firing order; empty without a firing order.
         strokes: 2 or 4.
-        bore_m: Cylinder bore; nan where the file gives none.
+        bore_m: Cylinder bore; nan if the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
-        up_deg: Direction that points up, deg from x; None where the file gives none.
+        up_deg: Direction that points up, deg from x; None if the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
@@ -84,9 +84,9 @@ class Engine:
         gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
             (orders,); None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
-            kg m2; None where the file gives none.
+            kg m2; None if the file gives none.
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
-        bearings: Bearings of the crankshaft; None where the file gives none.
+        bearings: Bearings of the crankshaft; None if the file gives none.
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are used (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.

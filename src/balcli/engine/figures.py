@@ -132,7 +132,7 @@ class PendulumTest(NamedTuple):
 
 
 class RodFigures(NamedTuple):
-    """Figures of a rod by the keys of [rod], in m, kg, kg m2; None where the file gives none."""
+    """Figures of a rod by the keys of [rod], in m, kg, kg m2; None if the file gives none."""
 
     length: Figure | None = None
     ratio: Figure | None = None

@@ -25,7 +25,7 @@ class CylinderGas(NamedTuple):
         nominal_deg: Crank angle, in [0, 720) or [0, 360), at which the crank pin points along the
             axis of the cylinder when it fires.
         share: Factor of the gas force; 0 is a misfire.
-        heat: Heat supplied in a computed cycle, J; None where the file gives none.
+        heat: Heat supplied in a computed cycle, J; None if the file gives none.
         like: Row of the first cylinder with an equal mechanism, diagram and heat. The two differ
             at most in `nominal_deg` and `share`.
     """
@@ -62,8 +62,8 @@ class EngineGas:
     Attributes:
         cylinders: Gas of each row of `Engine.cylinders`.
         cycle_deg: Length of a cycle: 720, or 360 for a two-stroke engine.
-        mechanical_efficiency: Brake work over indicated work; None where the file gives none.
-        compression_ratio: Compression ratio; None where the file gives none.
+        mechanical_efficiency: Brake work over indicated work; None if the file gives none.
+        compression_ratio: Compression ratio; None if the file gives none.
         doubts: Warnings, each with its path in the file.
     """
 

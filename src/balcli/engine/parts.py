@@ -448,7 +448,7 @@ class Parts:
         return tuple(lines)
 
     def find_knuckle_angles(self) -> tuple[Figure, ...] | None:
-        """Return the angle of each bank's knuckle pin, deg; None where the file gives none."""
+        """Return the angle of each bank's knuckle pin, deg; None if the file gives none."""
         table = self.model.articulation
         if table is None or table.knuckle_angles is None:
             return None

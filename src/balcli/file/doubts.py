@@ -272,7 +272,7 @@ def _weigh_piston(model: EngineFile) -> float:
 
 
 def _weigh_rod(model: EngineFile) -> float:
-    """Return the mass of a rod, kg; 0 where the file gives none."""
+    """Return the mass of a rod, kg; 0 if the file gives none."""
     rod = model.rod
     return rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
 

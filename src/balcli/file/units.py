@@ -84,7 +84,7 @@ PREFIXED = {
 
 def find_near_name(name: str) -> str:
     """Return the unit that was probably meant; empty if none is near."""
-    from difflib import get_close_matches  # after a mistake alone
+    from difflib import get_close_matches  # needed only after a mistake
 
     usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
     units = (*usual, *_SYMBOLS.split(), *DEFINITIONS)

@@ -236,8 +236,8 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
     Args:
         loads: Phasors of shape (orders, loads).
         weights: Weights, shape (places, loads).
-        size: Bounds of the weights' rounding, relative to EPS: the terms of which they are
-            differences, in the same shape.
+        size: Sizes of the terms of which the weights are differences, in the same shape; they bound
+            the rounding errors.
     """
     noise = loads.noise @ np.abs(size).T
     return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()

@@ -57,7 +57,7 @@ class Spectra:
 
     Attributes:
         orders: Orders, ascending, shape (orders,).
-        up_deg: Direction that points up, deg from x; None where the file gives none.
+        up_deg: Direction that points up, deg from x; None if the file gives none.
         force: Free force, N.
         moment, couple, torque, roll: Free moment, couple, inertia torque on the crank, and roll, N
             m.

@@ -3,7 +3,7 @@ cylinder's, and whether an order is balanced by symmetry or by chance.
 
 Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
 = m_rec r omega^2`, and moments as multiples of `F_n a`, a being the smallest distance of
-neighbouring throws. The cylinder is number 1, or that of its master rod if its rod is articulated.
+neighbouring throws. The cylinder is number 1; if its rod is articulated, that of its master rod.
 Textbooks consider only reciprocating masses, each in the plane of its throw, because counterweights
 balance rotating masses. Source: Bosch, Automotive Handbook, "Free forces and moments of the 1st and
 2nd order".
