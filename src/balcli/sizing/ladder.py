@@ -67,7 +67,8 @@ class Scale:
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """The engine with the devices of a step and of all steps before it.
+    """The engine with the devices of a step and of earlier steps; counterweights at every throw
+    replace those in the end planes.
 
     Attributes:
         step: Name of the step.
