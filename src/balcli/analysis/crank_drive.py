@@ -7,11 +7,11 @@ all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + 
 bearing before the throw takes half of the tangential force, at the arm r from the pin. The nominal
 shear stress of a hollow journal under the torque T is `16 T D/(pi (D^4 - d^4))`.
 
-A rod of length l and mass m, whose centre of mass is a from the piston pin and b from the crank
-pin, is represented by the masses m b/l at the small end and m a/l at the big end. About the centre
-of mass, these have the moment of inertia m a b and the rod has J; their difference is H = m a b -
-J. A rod that swings about the piston pin has the reduced length (J + m a^2)/(m a), which is l if H
-= 0.
+Let l be the length of a rod, m its mass, a the distance of its centre of mass from the piston pin,
+and b that from the crank pin. The rod is represented by the masses m b/l at the small end and m a/l
+at the big end. About the centre of mass, these have the moment of inertia m a b and the rod has J;
+their difference is H = m a b - J. A rod that swings about the piston pin has the reduced length (J
++ m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations

@@ -122,10 +122,10 @@ class Combined(Result):
 
     Geared one to one, the kinetic energies add. So the inertia torque at the first crank is T1 +
     T2, each in the sense of its own crank, whichever way they turn. The torque that the load takes
-    does not act on the frame. The roll is therefore C - (T1 + T2) with the load on the first crank,
-    C + (T1 + T2) with the load on a second crank that turns against it, and C - T1 + T2 if each has
-    its own load. Gas torques add in the same way, with the orders of both cycles; an engine without
-    gas has none.
+    does not act on the frame. With the load on the first crank, the roll is therefore C - (T1 +
+    T2). With the load on a second crank that turns against it, the roll is C + (T1 + T2). If each
+    crank has its own load, the roll is C - T1 + T2. Gas torques add in the same way, with the
+    orders of both cycles; an engine without gas has none.
 
     Attributes:
         engines: Both engines, in the given order.

@@ -58,9 +58,9 @@ class Loads:
 
     @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m: the sum of `H (-beta'')` of each rod, of each
-        piston's force times its offset, `-m_rec e (-s'')`, of the couples of a linkage's masses,
-        and of the moments of all forces that act away from the point of reference.
+        """Free transverse couple about z, N m. It is the sum of `H (-beta'')` of each rod and of
+        each piston's force times its offset, `-m_rec e (-s'')`. The couples of a linkage's masses
+        are added, and the moments of forces that act away from the point of reference.
         """
         c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
         if np.count_nonzero(c.couple):

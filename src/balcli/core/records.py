@@ -4,8 +4,8 @@ A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A r
 records. JSON and its schema derive from the attributes. CSV lists the figures of the JSON document,
 unless a chapter has rows of its own; a DataFrame has the same rows, unless a renderer makes columns
 (`show.result`). The name of an attribute is its key in JSON and its path in CSV
-(`worst.speed_rpm`), the end of the name is its unit, the annotation is its type, and its line in
-the docstring's `Attributes:` is its description in the JSON Schema.
+(`worst.speed_rpm`); the end of the name is its unit. The annotation is its type. Its line in the
+docstring's `Attributes:` is its description in the JSON Schema.
 
     to_document(record)       the JSON object
     list_figures(document)    the numbers and words outside lists, for the lines of CSV

@@ -267,11 +267,11 @@ class Engine:
     def joined_throws(self) -> tuple[tuple[int, ...], ...]:
         """Throws of the file (from 0), grouped into throws of the crank, from the free end on.
 
-        Throws at the same angle form one throw of the crank if they have the same position, or if
-        they are neighbours less than half a bore apart with rods of different banks, as in a file
-        with a throw for each cylinder. Without known positions, every throw is single, in the order
-        of the file. If [crank] gives positions of throws, a cylinder's own position moves only its
-        rod, not its throw.
+        Throws at the same angle form one throw of the crank if they have the same position. So do
+        neighbours less than half a bore apart with rods of different banks, as in a file with a
+        throw for each cylinder. Without known positions, every throw is single, in the order of the
+        file. If [crank] gives positions of throws, a cylinder's own position moves only its rod,
+        not its throw.
         """
         c, z = self.cylinders, np.ravel(self.pins_m)
         if self.rotary or not self.places_known:

@@ -89,9 +89,9 @@ def weigh_rod(
     """Return the masses and moments of inertia of a rod with its piston.
 
     The rod is replaced by two masses at its ends, with the same total mass and centre of mass, and
-    by a massless couple of inertia (docs/theory.md). A pendulum test gives the moment of inertia
-    from the period T of a physical pendulum, `I + m a^2 = m g a (T / 2 pi)^2`, a being the distance
-    of the centre of mass from the pivot.
+    by a massless couple of inertia (docs/theory.md). A pendulum test gives the moment of inertia by
+    `I + m a^2 = m g a (T / 2 pi)^2`; T is the period, and a the distance of the centre of mass from
+    the pivot.
 
     Args:
         rod: Figures of the rod. If only one end is given, which is a mistake, the other has no

@@ -14,9 +14,9 @@ its rod is connected to K as a plain rod is to the crank pin. A master rod is th
 In rotary engines, the crank stands still and the cylinders turn about it with their pistons. Seen
 from its cylinder, the crank turns backward. Let psi be the cylinder's angle ahead of the crank pin;
 offset and rod angle count, as always, towards the side to which the crank pin moves. Then the
-motion is the mirror image of that of a stationary cylinder: a point w of the mechanism (such as the
-piston, w = s + i e) is at `e^{i psi} conj(w)` relative to the direction of the pin, and a rod with
-the angular velocity `b` gets `1 - b`. In `Cylinders`, pin and axis are therefore exchanged:
+motion is the mirror image of that of a stationary cylinder. A point w of the mechanism (such as the
+piston, w = s + i e) is at `e^{i psi} conj(w)` relative to the direction of the pin. The angular
+velocity `b` of a rod becomes `1 - b`. In `Cylinders`, pin and axis are therefore exchanged:
 `axis_deg` are the directions of the pins, which are at rest, and `pin_deg` are those of the
 cylinders, which turn.
 """
