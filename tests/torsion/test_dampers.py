@@ -448,9 +448,7 @@ RUBBER = '{ kind = "rubber", inertia = 9000, stiffness = 60000, loss = 0.15 }'
 def test_a_damper_on_a_throw_is_one_on_a_massless_part_that_is_rigid_on_it(damper):
     rigid = f'[[torsion.front]]\nname = "arm"\nof = "throw 4"\nstiffness = "rigid"\ndamper = {damper}\n'
     speeds = ("-q", "--speeds", "1800,3000,4300")
-    own, other = (
-        ask_torsion(text, *speeds)["response"] for text in (on_throws((4, damper)), write_diesel() + rigid)
-    )
+    own, other = (ask_torsion(text, *speeds)["response"] for text in (on_throws((4, damper)), write_diesel() + rigid))
     torques = {shaft["name"]: shaft["half_peak_to_peak_Nm"] for shaft in other["shafts"]}
     for shaft in own["shafts"]:
         name = shaft["name"].replace("throw 4 ring", "arm ring")

@@ -53,39 +53,33 @@ from .records import (
 
 UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = (
-    "inner",
-    "guide",
-    "journals",
-    "masses",
-    "pru",
-)  # quantities that are computed only on request
+EXTRAS = ("inner", "guide", "journals", "masses", "pru")  # computed only on request
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
+    """Free forces and moments of an engine, order by order. Parts that were not requested are None.
 
     Attributes:
-        engine: Engine as analyzed.
+        engine: Analyzed engine.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: Values taken because the engine file leaves them out.
-        peak: Largest values over a revolution, all orders together.
+        assumed: Values that are used because the engine file leaves them out.
+        peak: Largest values over a revolution, sum of all orders.
         sizing: Devices of the scheme `auto`, and the forces left with them.
         ladder: Devices that balance the engine, step by step.
-        cylinders: Each cylinder alone, without devices.
-        inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
-            bearings and in the block as well.
+        cylinders: Forces and moments of each single cylinder, without devices.
+        inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
+            bearing loads, and loads in the block.
         guide: H- and X-type guide-force moments.
-        travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
-            all cylinders are plain slider-cranks.
+        travel: Strokes and dead centres of all cylinders; left out where all are plain
+            slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
         power_related_unbalance: Free moments over the power.
-        why: Whether the orders shown are balanced by symmetry.
-        small: Share of what one cylinder makes below which a part is small.
+        why: Whether the orders shown are balanced by symmetry or by chance.
+        small: Share of one cylinder's first order below which a part is small.
     """
 
     format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
@@ -189,23 +183,25 @@ def analyze(
     """Return the free forces and moments of an engine, order by order.
 
     Args:
-        engine: without trailing axes.
-        orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
-            quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses, pru and gas, or a text of them with commas between; default: all but
-            those after peak.
-        by_cylinder: also the phasors of every cylinder alone.
-        reasons: also why each order is balanced, or is not.
-        guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
-            moment; default: the rods' lengths.
-        beside: further engines analyzed by the same orders; half orders may be theirs as well.
-        small: share of one cylinder's first order below which ladder and sizing leave a part.
+        engine: Engine without trailing axes.
+        orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and all up to 512 in
+            which a quantity exceeds 1e-6 of its largest order.
+        only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
+            journals, masses, pru and gas, as a list or a text with commas; default: force to peak, and
+            gas if the engine has some.
+        by_cylinder: Whether to compute the phasors of each single cylinder as well.
+        reasons: Whether to find out why each order is balanced or not.
+        guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
+            guide moment; default: the rods' lengths.
+        beside: Further engines that are analyzed for the same orders; half orders are allowed if
+            one of them has some.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part
+            unbalanced.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
-            of too many cylinders; a height that is not above 0.
-        TypeError: an argument of another type.
+        BalcliError: A quantity is unknown, an order is negative or above 4096, there are too many
+            orders x cylinders, or a height is not above 0.
+        TypeError: An argument has a wrong type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major

@@ -96,7 +96,7 @@ def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Arr
     some orders alone.
 
     Args:
-        engine: without trailing axes.
+        engine: Engine without trailing axes.
         orders: multiples of 1/2.
         crank_deg: shape (angles,).
 

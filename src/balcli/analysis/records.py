@@ -266,9 +266,9 @@ class Shaft(NamedTuple):
         ratio: Speed over crank speed; negative: it turns against the crank.
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from x, in the sense in which the shaft turns.
-        at_mm: Place of its axis: x, y.
-        position_mm: Place along the crank.
-        free: Whether it may stand anywhere.
+        at_mm: Position of its axis: x, y.
+        position_mm: Position along the crank.
+        free: Whether the shaft may be anywhere.
         role: Compensator; left out of balancer shafts.
     """
 

@@ -178,18 +178,18 @@ def count_cylinders(engine: Engine) -> CountedEngine:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MarineSheet:
-    """External forces and moments and guide-force moments, as builders of marine engines list
-    them.
+    """External forces and moments, guide-force moments and torque, as builders of marine engines
+    list them.
 
     Attributes:
-        engine: Engine at the first of the speeds.
-        includes: Whether the gas has a part in guide-force moments and torque.
+        engine: Engine at the first speed.
+        includes: Whether guide-force moments and torque include the gas.
         axes: Axes that are called vertical and horizontal.
-        height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
+        height_m: Distance from the crankshaft to the middle of each guide, sorted by cylinder
             number.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values that are used because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
-        lines: Amplitudes by order and figure, with a value a speed.
+        lines: Amplitudes by order and figure, with a value for each speed.
         related: Power related unbalance at the rated speed; None without a power.
         every_order: Whether tables show negligible orders as well.
     """

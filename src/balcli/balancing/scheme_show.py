@@ -137,11 +137,8 @@ def _choose_figures(result: Balance) -> list[_Figure]:
             each = each._replace(value=nan)
         if result.before.engine.gas is not None and each.key in _ROLLS[0]:
             each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
-        if (
-            {"left", "before", "after"}.intersection(each.key.split("_"))
-            and order
-            and not each.group
-        ):
+        states = {"left", "before", "after"}.intersection(each.key.split("_"))
+        if states and order and not each.group:
             each = each._replace(group=f"order {order}")  # other orders may leave more
         chosen.append(each)
     return chosen

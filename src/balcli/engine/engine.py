@@ -66,38 +66,37 @@ _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
 
-    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
-    an engine broadcast against each other.
+    In variants, a figure that varies is an array whose axes are those of the variants ("trailing
+    axes"). All figures of an engine broadcast against each other.
 
     Attributes:
         name: Name in the file; may be empty.
         source: Source of the figures; may be empty.
         numbers: Cylinder number of each row of `cylinders`.
-        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
-            of the variants.
-        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
-            the firing order; empty without a firing order.
+        cylinders: Geometry and masses, one row for each cylinder, sorted by bank.
+        fires_deg: Crank angle at which each cylinder fires, counted from the first, by cylinder
+            number in the firing order; empty without a firing order.
         strokes: 2 or 4.
-        bore_m: Cylinder bore; nan where the file gives none.
+        bore_m: Cylinder bore; nan if the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
-        up_deg: Direction that points up, deg from x; None where the file gives none.
+        up_deg: Direction that points up, deg from x; None if the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
-            all throws stand in one plane, and moments have no meaning.
-        gas: Gas in the cylinders; None where the file has no [gas], and for arrays of variants.
-        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
-            None except in sweeps.
+            all throws are in one plane, and moments have no meaning.
+        gas: Gas in the cylinders; None if the file has no [gas], and for arrays of variants.
+        gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
+            (orders,); None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
-            kg m2; None where the file gives none.
-        flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None likewise.
-        bearings: Bearings of the crankshaft; None where the file gives none.
+            kg m2; None if the file gives none.
+        flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
+        bearings: Bearings of the crankshaft; None if the file gives none.
         rated: Speed of the file, and brake power at it.
         inferred: Keys that the file leaves out and on which results depend, with the values that
-            are taken (`layout.strokes = 4`).
+            are used (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
     """
 

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
-# Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
+# The bounds of figures are far beyond every engine, and low enough that products and powers do not
+# overflow.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
@@ -34,7 +35,7 @@ Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
-Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+Angle = Annotated[float, Number(ANGLE, most=1e9)]  # more than a million turns
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -42,7 +43,7 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
 GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-FIT = "fit"  # in place of an unbalance: `balance` finds it
+FIT = "fit"  # instead of an unbalance: `balance` computes it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
@@ -159,7 +160,7 @@ def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
         if issubclass(base, FileTable) and base is not FileTable:
             found |= _read_documents(base)
     for key, field in table.keys().items():
-        if field.description:  # a table that uses pydantic's own words
+        if field.description:  # a table that declares pydantic descriptions
             found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
     return found
 

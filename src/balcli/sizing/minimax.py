@@ -1,13 +1,12 @@
-"""The scheme `minimax`: the counterweight with which the largest force over a revolution is as
-small as a weight on the crankshaft can make it; and `ellipse`: the counterweight that leaves order
-1 a wanted direction and shape.
+"""The scheme `minimax`: the counterweight that makes the largest force over a revolution as small
+as possible; and the scheme `ellipse`: the counterweight that leaves the force of order 1 a wanted
+direction and shape.
 
-Smallest circle that encloses a closed curve, found on the analytic curve itself.
-
-The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
-circle of a few of its points, which can only be too small, then the peaks of the difference
-between curve and centre, which become points as well, until both radii agree. The smaller radius
-bounds the larger one: the error is known.
+Seen from the turning crank, the force is the closed curve `f = F e^{-i theta}`, and a counterweight
+shifts it. So the best weight moves the centre of the smallest enclosing circle to the origin. The
+circle is found by exchange: take the smallest circle around a few points of the curve, which can
+only be too small; add the points of the curve that are farthest from its centre; repeat until both
+radii agree. Their difference bounds the error.
 """
 
 from __future__ import annotations

@@ -35,24 +35,22 @@ class SchemeOptions(NamedTuple):
     options of each scheme.
 
     Attributes:
-        order: the order to balance; default: the lowest with a part that the scheme cancels.
-        at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
-            the crank.
-        position: z of new devices; of compensators one z, or two (fore and aft).
-        planes: "ends", "throws", or places z of new devices.
-        factor: shares of the reciprocating mass, of which the best is fitted; default: 0.5.
-        measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
-        roll: "zero": two shafts are placed such that they also cancel the roll of inertia of
-            this order.
-        orders: orders of the force whose largest value is made smallest; default: all.
-        small: share of one cylinder below which a part of an order is left.
-        step: name or number of a step of the ladder (scheme step).
-        radius: of the weights on shafts that turn unevenly or drive couplings; default: the crank
-            radius.
-        direction: of the largest force of order 1 that is to remain, deg from x.
-        ratio: smallest over largest force of order 1 that is to remain.
-        design: of shafts that turn unevenly, one of `schemes.DESIGNS`.
-        criterion: by which these are sized, one of `schemes.CRITERIA`.
+        order: Order to balance; default: the lowest with a part that the scheme cancels.
+        at: Positions x + iy of shafts or sliders; of a pair of shafts, first that of the shaft
+            turning against the crank.
+        position: Position z of new devices; of compensators one z, or two (fore and aft).
+        planes: "ends", "throws", or positions z of new devices.
+        factor: Shares of the reciprocating mass; the best one is fitted; default: 0.5.
+        measured: Mass on each bare pin that balances the crank, kg, instead of a factor.
+        roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
+        orders: Orders of the force whose largest value is minimised; default: all.
+        small: Share of one cylinder below which a part of an order is left unbalanced.
+        step: Name or number of a step of the ladder (scheme step).
+        radius: Radius of the weights of eccentric-slider and oldham; default: the crank radius.
+        direction: Direction of the largest force of order 1 that is to remain, deg from x.
+        ratio: Smallest over largest force of order 1 that is to remain.
+        design: Design of shafts that turn unevenly, one of `schemes.DESIGNS`.
+        criterion: Criterion by which these shafts are sized, one of `schemes.CRITERIA`.
     """
 
     order: int | None = None

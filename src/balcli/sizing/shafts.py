@@ -1,11 +1,11 @@
-"""The schemes `single-shaft` and `couple-shaft`: balancer shafts for any order.
+"""Balancer shafts for any order: the schemes `single-shaft` and `couple-shaft`, and the schemes
+`two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions. The scheme
+`compensator` has such pairs far from the engine, where their force makes a moment.
 
-The schemes `two-shaft` and `four-shaft`: pairs of shafts that turn against each other. The scheme
-`compensator`: such pairs far from the engine, whose force makes a moment.
-
-A stands for the shaft that turns against the crank, B for the one that turns with it; V- and V+ are
-the two parts of the force of their order, p_A and p_B places x + iy from the crank axis. The shafts
-make a roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`.
+In a pair, A is the shaft that turns against the crank, B the one that turns with it. V- and V+ are
+the two rotating vectors of the force of their order, p_A and p_B the positions x + iy of the shafts
+from the crank axis. The shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A
+conj(V-)`.
 """
 
 from __future__ import annotations
