@@ -187,8 +187,8 @@ def analyze(
         orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and all up to 512 in
             which a quantity exceeds 1e-6 of its largest order.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses, pru and gas, as a list or a text with commas; default: force to peak, and
-            gas if the engine has some.
+            journals, masses, pru and gas, as a list or a text with commas; default: force to peak,
+            and gas if the engine has some.
         by_cylinder: Whether to compute the phasors of each single cylinder as well.
         reasons: Whether to find out why each order is balanced or not.
         guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
