@@ -253,7 +253,7 @@ def check(
 
     A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
     file has these chapters, torque, mounts and torsion. A record whose engine file is missing is a
-    difference as well. Files of runs and chain files in a folder are passed over.
+    difference as well. Files of runs and chain files in a folder are skipped.
 
     \b
     Examples:

@@ -1,10 +1,10 @@
-"""The registry of printed tables with the ranges that each takes, their errata, and the table of
-common layouts.
+"""Registry of the printed tables that balcli recomputes (`tables`), their errata, and the table of
+common engine layouts.
 
-The table of layouts has free forces and moments of the example engines in textbook units, without
-the offsets of piston pins: F_n = m_rec r omega^2 A_n is the force of order n of one cylinder's
-reciprocating mass (A_1 = 1), a the distance of neighboring throws; moments are about the middle of
-the crankshaft. `forces.symmetry` takes off all else that textbooks leave out.
+The table of layouts lists free forces and moments of the example engines. Forces are multiples of
+F_n = m_rec r omega^2 A_n (A_1 = 1), one cylinder's force of order n. Moments, about the middle of
+the crankshaft, are multiples of F_n times the distance of neighboring throws. Offsets of piston
+pins and all else that textbooks ignore are left out (`forces.symmetry`).
 """
 
 from __future__ import annotations
@@ -43,18 +43,20 @@ ORDERS = (1, 2, 4, 6)
 
 
 def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
-    """One row an engine; semi-axes (equal: a circle) of force F and moment M of each order."""
+    """Return a row for each engine: semi-axes of the ellipses of force F and moment M for each
+    order.
+    """
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
     rows = [_row(name) for name in printed.column("engine")]
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
 def find_gaps(name: str) -> tuple[float, ...]:
-    """Return the different intervals between firings of an example engine, deg, ascending; none
-    where the file of several cylinders gives no firing order.
+    """Return the distinct intervals between firings of an example engine, deg, ascending; empty if
+    the file gives no firing order for its several cylinders.
     """
     _, engine = _load(name)
-    several = len(engine.numbers) > 1  # a single cylinder has no order
+    several = len(engine.numbers) > 1  # a single cylinder needs no firing order
     fires = map(float, engine.fires_deg.values()) if several else [0.0]
     instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
@@ -101,7 +103,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)
-TAKES = {  # the tables of other ranges than the printed ones, by option
+TAKES = {  # option for another range: the tables that accept it
     "lambda": (
         *(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)),
         *("tsinghua-two-terms", "wang-1", "kvasnikov-1", "kvasnikov-2"),
@@ -123,8 +125,8 @@ def select_tables(
         power: Highest power of the crank ratio.
 
     Raises:
-        BalcliError: There is no such table or range, the table does not take an option, or a range
-            comes without the name of a table.
+        BalcliError: There is no such table, a range cannot be read, or a range is given without the
+            name of a table that takes it.
     """
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
@@ -142,7 +144,9 @@ def select_tables(
 def find_errata(
     tables: Sequence[Table], category: ErratumClass | None = None
 ) -> list[tuple[str, Erratum]]:
-    """Return the errata of these tables, of one class or of all, each with its table's name."""
+    """Return the errata of these tables, each with its table's name; `category` restricts them to
+    one class.
+    """
     return [(t.name, e) for t in tables for e in t.errata if category in (None, e.category)]
 
 

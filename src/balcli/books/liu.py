@@ -1,8 +1,10 @@
-"""Liu Xianzhi, two-shaft and slider balance of the flat-plane V8, received 1979: Tables 1 to 3.
+"""Recompute Tables 1 to 3 of Liu Xianzhi (received 1979): second-order balance of the flat-plane V8
+by two shafts or by sliders.
 
-The second-order force of the engine is two vectors: K cos(gamma/2) turns with the crank, K cos(3
-gamma/2) against it; gamma is the bank angle. The shafts that cancel them without a roll moment lie
-at radii b''' and b'' in the same proportion; sliders cancel the components Z_x and Z_y.
+The second-order force of the engine is the sum of two vectors, where gamma is the bank angle: K
+cos(gamma/2) turns with the crank, and K cos(3 gamma/2) turns against it. Two shafts cancel these
+vectors without a roll moment if their radii b''' and b'' have the same ratio as the vectors.
+Sliders cancel the components Z_x and Z_y.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ from .recomputed import (
     identify,
 )
 
-Cosine: TypeAlias = Callable[[Array], Array]  # of degrees
+Cosine: TypeAlias = Callable[[Array], Array]  # function of an angle in degrees
 ROUGH = "cos 45° taken as 0.706"
 
 
@@ -37,8 +39,8 @@ def _cos(degrees: Array) -> Array:
 
 
 def _rough(degrees: Array) -> Array:
-    """The cosine with 0.706 for cos 45 degrees and 0.258 for cos 75 degrees, as Tables 1 and 3 were
-    computed.
+    """Return the cosine with the rounded values by which Tables 1 and 3 were computed: 0.706 for
+    cos 45 degrees and 0.258 for cos 75 degrees.
     """
     exact = _cos(degrees)
     for angle, taken in ((45, 0.706), (75, 0.258)):
@@ -68,13 +70,13 @@ def _compare(
     cells: Sequence[Words],
     stub: int = 1,
 ) -> Table:
-    """Return the exact rows, with those of the rough cosine as the explanation."""
+    """Return the table of exact rows; rows with the rough cosine explain its errata."""
     rough = Explanation(ROUGH, compute(_rough), "approximation")
     return printed.compare(columns, compute(_cos), cells, [rough], stub)
 
 
 def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
-    """Table 2: the two rotating vectors."""
+    """Return Table 2: the two rotating vectors."""
     headings = ranges.angle or printed.headings()
     gamma, stub = as_numbers(headings), printed.column(printed.columns[0])
     columns = (printed.columns[0], *headings)
@@ -83,7 +85,7 @@ def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
 
 
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
-    """Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
+    """Return Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
     names = [(row[0] or "", row[1]) for row in printed.rows]
     if ranges.angle is not None:
         margins = [name for name in names if name[1] is None]
