@@ -70,7 +70,7 @@ def _paths(gamma: Array, cosine: Cosine) -> Array:
     derivatives.
 
     The ratios are computed without division by zero, with x = gamma/2, from -cos 3x/cos x = 3 - 4
-    cos^2 x and 3 sin 3x/(-sin x) = 3 - 12 cos^2 x.
+    cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
     """
     near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
     rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)

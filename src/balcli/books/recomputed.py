@@ -115,8 +115,7 @@ class Table(Result):
 
 
 def parse_decimal(text: str) -> Decimal | None:
-    """Return a printed decimal (`.4312`, `+1.0`, `-0.5`) with all its digits; None for other texts.
-    """
+    """Return a printed decimal (`.4312`, `+1.0`, `-0.5`) with its digits; None for other texts."""
     try:
         value = Decimal(text.strip().replace("−", "-"))
     except InvalidOperation:
@@ -289,8 +288,7 @@ def load_print(name: str) -> Print:
 
 
 def identify(text: str) -> object:
-    """Return the key of a row or column: its number, so that 0.3 and 0.30 are equal, or its text.
-    """
+    """Return the key of a row or column: its number, so that 0.3 equals 0.30, or its text."""
     number = parse_number(text)
     return text if number is None else number
 

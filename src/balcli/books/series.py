@@ -1,9 +1,9 @@
 """Exact coefficients in powers of lambda, compared with the printed ones of the five sources.
 
-Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
+The module also recomputes Tables I and II of Kvasnikov, Determination of the unbalance of piston
+engines, Tomsk 1920: A_n of the piston's acceleration and D_k of the rod's angular acceleration. One
+or two terms of the series explain their errata.
 
-A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two
-terms of the series.
 """
 
 from __future__ import annotations

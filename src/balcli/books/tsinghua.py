@@ -29,8 +29,7 @@ ByAngle: TypeAlias = Callable[[Array, Array], Array]  # rad, lambda
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from given dimensions.
-    """
+    """Return Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r of given engines."""
 
     heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
     lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()

@@ -64,8 +64,7 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """Return the result of the author's search: P, k, alpha, the line phi of the force, and theta.
-    """
+    """Return the result of the author's search: P, k, alpha, line phi of the force, and theta."""
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     th = np.radians(theta)
     weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))

@@ -1,10 +1,9 @@
 """Recompute worked examples of textbooks on crank torque, flywheels and balancing: exact answers,
 and values that explain the authors' answers.
 
-Liang Shoupan, Engine Dynamics, 1948: the worked examples, in inches, pounds and seconds.
-
-An engine of 4 in stroke with a rod of 7 in turns at 4000 rpm; the rod weighs 2.75 lb, its center of
-gravity is 2 in from the crank pin; the piston with pin and rings weighs 1 lb.
+The examples of Liang Shoupan, Engine Dynamics, 1948, are in inches, pounds and seconds: an engine
+with a stroke of 4 in and a rod of 7 in turns at 4000 rpm. The rod weighs 2.75 lb, and its center of
+gravity is 2 in from the crank pin. The piston with pin and rings weighs 1 lb.
 """
 
 from __future__ import annotations

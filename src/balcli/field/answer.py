@@ -262,9 +262,9 @@ class Permitted(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FieldBalance(Result):
-    """Weights that balance a rotor on the machine, and the readings that they leave.
+    """Weights that balance a rotor on its machine, and the remaining readings.
 
-    Weights and readings are complex and in the units of the file.
+    Weights and readings are complex numbers in the units of the file.
 
     Attributes:
         format: Name and version of the document.

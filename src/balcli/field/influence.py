@@ -203,7 +203,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     left[np.abs(left) <= _ROUNDING * np.abs(factors * runs.found).max()] = 0
     inverse = np.linalg.pinv(matrix)
     if spare := len(left) - len(used):
-        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # share of the errors' variance that remains
+        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # of the errors' variance
         squares += spare * float(np.sum(np.abs(left) ** 2) / kept.sum())
     freedom += spare
     if not freedom:

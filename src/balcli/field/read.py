@@ -117,8 +117,7 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
 
 
 def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Problem]:
-    """Yield contradictions in the k-th run (from 1); `sensors` is the number of readings in a run.
-    """
+    """Yield contradictions in the k-th run (from 1); a run has as many readings as `sensors`."""
     if len(run.readings) != sensors:
         whose = "sensors names" if file.sensors else "run.1 has"
         yield Problem(

@@ -256,8 +256,7 @@ def _find_causes(
 
 
 def _with_rate(motion: Complex, w: Real) -> Complex:
-    """Return motions (..., 6) at frequencies w (rad/s) with their velocities appended, (..., 12).
-    """
+    """Return motions (..., 6) at frequencies w (rad/s) followed by their velocities, (..., 12)."""
     return np.concatenate([motion, 1j * w[..., None] * motion], axis=-1)
 
 

@@ -72,8 +72,7 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 
 
 def sheet(result: MountReport, system: System) -> Sheet:
-    """Return the sheet: the answer (forces on the frame), modes, rest, and tables over the speeds.
-    """
+    """Return the sheet: the answer (forces on the frame), modes, rest, and tables over speed."""
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:

@@ -43,8 +43,7 @@ _ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1)
 
 
 class HolzerAsked(NamedTuple):
-    """Request for a Holzer table: at the frequency of a mode (its number), else at omega (rad/s).
-    """
+    """Request for a Holzer table: at the frequency of a mode (by number) or at omega (rad/s)."""
 
     mode: int | None
     omega: float = 0.0

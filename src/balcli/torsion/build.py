@@ -411,8 +411,7 @@ def _each(values: Sequence[float], count: int) -> list[float]:
 
 
 def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
-    """Return every part with the node that it is joined to: the front parts, then the rear parts.
-    """
+    """Return every part with the node that it is joined to: front parts, then rear parts."""
     found = []
     lists = (("front", torsion.front, throws[0]), ("rear", torsion.rear, throws[-1]))
     for key, parts, before in lists:

@@ -36,7 +36,7 @@ def torsion(
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders that excite; default: all in a chain; engine: to 32 and firing.",
+            "Orders of excitation; default: all (chain), or to 32 and firing orders (engine).",
         ),
     ] = None,
     holzer: Annotated[

@@ -83,7 +83,7 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """
     if len(rpm) == 1:
         return rpm
-    of_all = None if system.pendulums else find_poles(system)  # with pendulums they depend on the order
+    of_all = None if system.pendulums else find_poles(system)  # else they vary by order
     found = []
     for order in system.require_excitation().orders.tolist():
         poles = find_poles(system, order) if of_all is None else of_all
