@@ -65,8 +65,7 @@ def _cell(value: object) -> str:
 
 
 def json_text(document: object) -> str:
-    """Return a document on one line; raise ValueError for a nan or infinity, which would be a bug.
-    """
+    """Return a document on one line; a nan or infinity in it, which is a bug, raises ValueError."""
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 
 

@@ -90,8 +90,7 @@ def find_sources(
 
 # ------------------------------------------------------------------ pistons, rods and throws
 def _spell_out_throws(model: EngineFile) -> EngineFile:
-    """Return the file with an explicit angle for every throw, even if it only implies the angles.
-    """
+    """Return the file with an explicit angle for every throw, even if it implies the angles."""
     if model.crank.throws is not None:
         return model
     return model.with_table("crank", throws=tuple(assemble(model).pins.throws_deg.values()))

@@ -148,10 +148,10 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
     refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-# Tables whose defaults matter for the quantities of a chapter, in addition to any engine's; then
-# beginnings of quantities that do not depend on rod inertia, and of those that depend on throw mass
-# at steady speed.
+# Tables whose defaults matter for the quantities of a chapter, in addition to any engine's.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}}
+# Beginnings of names: quantities that do not depend on rod inertia, and quantities that depend on
+# throw mass at steady speed.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
 

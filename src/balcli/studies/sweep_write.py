@@ -194,8 +194,7 @@ def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
 
 
 def _name_sweep(sweep: Sweep) -> str:
-    """Return the text of the manifest; equal engines, parameters and quantities have equal texts.
-    """
+    """Return the text of the manifest; equal sweeps have equal texts."""
     whole = repr((sweep.file, [(p.path, p.values.tobytes()) for p in sweep.parameters]))
     content = _describe(sweep) | {
         "columns": sweep.columns,
