@@ -178,11 +178,11 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
     elif asked.speeds is not None:
-        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
+        warn("--speeds has an effect only on pages of torsion; for other pages use --speed")
     if others:
         found |= zip(others, _make_pages(path, others, asked), strict=True)
     elif asked.speed is not None:
-        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
+        warn("--speed has no effect on pages of torsion; give a range, --speeds A:B")
     return [found[page] for page in pages]
 
 

@@ -82,7 +82,7 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show; default: 1, 2 and others that are not negligible; with gas, up to 12.",
+        "Orders to show; default: 1, 2 and others that are not negligible; with gas, all to 12.",
         "--orders",
     ),
 ]

@@ -130,8 +130,8 @@ RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
 OVER = (
-    "What is arranged: the throws of the file (or of its firing order), its firing order, the "
-    "angle of the vee or of its split pins, or any number in a range, as mount.left.loss=0.05:0.3. "
+    "What to vary: the throws of the file (or of its firing order), its firing order, the "
+    "angle of the vee or of its split pins, or a number in a range: mount.left.loss=0.05:0.3. "
     "Several numbers and angles are searched together."
 )
 MINIMISE = (
@@ -143,8 +143,8 @@ LIMIT = (
     "'shaft.flywheel.stress<60 N/mm^2'."
 )
 MAXIMISE = "Maximize this sum instead."
-REQUIRE = "Only arrangements with even firing intervals."
-WRITE = "Write the engine file with the best one."
+REQUIRE = "Allow only arrangements with even firing intervals."
+WRITE = "Write the engine file with the best result."
 goal = partial(optional, "WHAT[=WEIGHT],...")
 
 
@@ -157,13 +157,13 @@ def search(
     maximise: Annotated[str | None, goal(MAXIMISE, "--maximise", "--maximize")] = None,
     limit: Annotated[list[str] | None, optional("WHAT<VALUE", LIMIT)] = None,
     require: Annotated[str, optional("even-firing", REQUIRE)] = "",
-    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="How many to show.")] = 10,
+    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="Number of results.")] = 10,
     form: FormatOption = None,
     output: Output = None,
     write: Annotated[Path | None, optional("OUT.toml", WRITE)] = None,
 ) -> None:
-    """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
-    and rotations once.
+    """Find the best crank, firing order, bank angle or splay, or values of any numbers. Mirror
+    images and rotations of an arrangement are listed once.
 
     \b
     Example:
