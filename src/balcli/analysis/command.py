@@ -128,7 +128,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 
 
-Cylinder = Annotated[int | None, optional("N", "Motion of this piston and, with [gas], its pressure.")]
+Cylinder = Annotated[int | None, optional("N", "Motion of this piston, also pressure with [gas].")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[
     SeriesFormat | None,
