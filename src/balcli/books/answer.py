@@ -1,10 +1,10 @@
 """Registry of the printed tables that balcli recomputes (`tables`), their errata, and the table of
 common engine layouts.
 
-The table of layouts lists free forces and moments of the example engines as multiples of one
-cylinder's force of order n, F_n = m_rec r omega^2 A_n (A_1 = 1), and of F_n times the distance of
-neighboring throws. Moments are about the middle of the crankshaft. Offsets of piston pins and all
-else that textbooks ignore are left out (`forces.symmetry`).
+The table of layouts lists free forces and moments of the example engines. Forces are multiples of
+F_n = m_rec r omega^2 A_n (A_1 = 1), one cylinder's force of order n. Moments, about the middle of
+the crankshaft, are multiples of F_n times the distance of neighboring throws. Offsets of piston
+pins and all else that textbooks ignore are left out (`forces.symmetry`).
 """
 
 from __future__ import annotations

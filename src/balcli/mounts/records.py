@@ -228,7 +228,7 @@ class Other(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MountReport(Result):
-    """An engine on its mounts, or a body on mounts alone.
+    """An engine on its mounts, or a body on mounts without an engine.
 
     Attributes:
         format: Name and version of the document.

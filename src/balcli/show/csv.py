@@ -65,7 +65,7 @@ def _cell(value: object) -> str:
 
 
 def json_text(document: object) -> str:
-    """Return a document on one line; a nan or infinity in it, which is a bug, raises ValueError."""
+    """Return a document on one line; raise ValueError if it has a nan or infinity (a bug)."""
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 
 

@@ -46,7 +46,7 @@ def tell_variant(figures: Mapping[str, float]) -> str:
     return ", ".join(f"{path} = {value:g}" for path, value in figures.items())
 
 
-# ------------------------------------------------------------------ which numbers there are
+# ------------------------------------------------------------------ numbers of a file
 class Place(NamedTuple):
     """The place of a number in an engine file.
 
@@ -147,7 +147,7 @@ def _marks_of(annotation: object) -> Iterator[object]:
         yield from _marks_of(part)
 
 
-# ------------------------------------------------------------------ what a user asks for
+# ------------------------------------------------------------------ names and values from users
 def parse_parameter(text: str, model: EngineFile) -> Parameter:
     """Return the parameter for a text `path=from:to:step` (both ends included) or `path=a,b,c`;
     figures may have units.

@@ -31,7 +31,7 @@ class Flywheel:
 
     Attributes:
         inertia_kg_m2: Mean inertia of all moving parts; left out if the file gives no inertia.
-        moving_parts_kg_m2: Part of it that pistons, rods and throw masses contribute.
+        moving_parts_kg_m2: Part of `inertia_kg_m2` that belongs to pistons, rods and throw masses.
         fluctuation: (highest - lowest)/mean speed.
         fluctuation_small: Fluctuation by the approximation for small values, surplus/(I omega^2).
         needed_kg_m2: Mean inertia of all moving parts that yields the requested fluctuation.

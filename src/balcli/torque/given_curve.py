@@ -132,8 +132,8 @@ def analyze_curve(
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
-    """Return the numbers of the harmonics of a period, given in turns, that belong to the orders;
-    by default those that are shown unasked.
+    """Return the numbers of the harmonics that belong to the orders, by default of those shown
+    without request. `turns` is the period.
     """
     if orders is None:
         usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)

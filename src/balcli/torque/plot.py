@@ -43,7 +43,7 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
         system: Units.
 
     Raises:
-        BalcliError: The engine has no gas, or lacks what the page shows.
+        BalcliError: The engine has no gas, or lacks data for the page.
     """
     steady = replace(engine, ripple=())
     if what in ("pressure", "p-v"):

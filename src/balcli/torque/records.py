@@ -68,8 +68,8 @@ class Energy(NamedTuple):
 
     Attributes:
         surplus_J: Largest surplus energy.
-        from_deg: Crank angle at which it begins, where the crank is slowest.
-        to_deg: Crank angle at which it ends, where the crank is fastest.
+        from_deg: Crank angle at which the surplus begins and the crank is slowest.
+        to_deg: Crank angle at which the surplus ends and the crank is fastest.
         work_J: Work of the torque in one cycle.
     """
 
@@ -98,7 +98,7 @@ class TorqueAnalysis(Result):
         torque: Largest and smallest torque.
         orders: Torque by order.
         energy: Surplus energy of the torque.
-        flywheel: Inertia and uneven speed; left out where no inertia is given or requested.
+        flywheel: Inertia and uneven speed; left out if no inertia is given or requested.
         loads: Requested loads of pins and bearings.
         name: Name of the engine or curve.
         curve: Torque of gas and inertia, or the given curve, N m, over the crank angle (rad).

@@ -55,7 +55,7 @@ class TorsionQuestion(NamedTuple):
     Attributes:
         speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
         holzer: Requested Holzer tables.
-        damper: Damper to size; the results are then those of the system with it.
+        damper: Damper to size; the results include it.
     """
 
     speeds_rpm: Real | None = None
@@ -69,7 +69,7 @@ class ChainNode(NamedTuple):
     Attributes:
         name: Name of the node.
         inertia_kg_m2: Moment of inertia.
-        gear: Speed relative to that of the crankshaft or the first node.
+        gear: Speed relative to the crankshaft or the first node.
     """
 
     name: str
@@ -318,8 +318,8 @@ def analyze_torsion(
     vibratory torque and stress over a range of speeds.
 
     Args:
-        source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
-            text or a dict of its tables (or those of such an engine).
+        source: Engine whose file has [torsion]; or the path, text or dict of tables of such a file
+            or of a chain file.
         speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
         orders: Orders of the excitation to use, multiples of 1/2; default: all orders of a chain;
             for an engine, orders to 32, the firing order and its double.

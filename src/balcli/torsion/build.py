@@ -73,7 +73,7 @@ class PlannedNode(NamedTuple):
 
 class PlannedShaft(NamedTuple):
     """A shaft between two nodes (their indices) and its table, in the units of the file; `ratio` is
-    the speed of its end over that of its start.
+    the speed of its end over the speed of its start.
     """
 
     name: str

@@ -236,7 +236,7 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
     return min(found, key=judge, default=-width)
 
 
-# ------------------------------------------------------------------ where the search begins
+# ------------------------------------------------------------------ start of the search
 def _find_mode_to_damp(
     system: TorsionalSystem, speeds: Real, node: int
 ) -> tuple[NaturalMode, float]:
@@ -266,7 +266,7 @@ def _find_mode_to_damp(
 
 
 def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
-    """Return the equivalent inertia of a mode at a node, kg m2; inf where the node is at rest."""
+    """Return the equivalent inertia of a mode at a node, kg m2; inf if the node is at rest."""
     moved = mode.shape[node] ** 2
     return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
 

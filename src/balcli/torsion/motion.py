@@ -293,6 +293,6 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
             free = poles.imag[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
         met = free / (RPM * order)
         met = met[(met >= rpm[0] * (1 - _EDGE)) & (met <= rpm[-1] * (1 + _EDGE))]
-        if len(met):  # raises where the order drives the mode
+        if len(met):  # raises if the order drives the mode
             alone = excitation.only(np.array([order]))
             compute_curves(replace(system, damping=none, rings=(), excitation=alone), met)

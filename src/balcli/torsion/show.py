@@ -114,7 +114,7 @@ def _list_extras(found: Node) -> Iterator[Line]:
 
 
 def _list_response(response: Node) -> Iterator[Line]:
-    """Yield the lines at every speed, then those of the largest values over all speeds."""
+    """Yield the lines for every speed, then lines for the largest values over all speeds."""
     shafts, dampers = response.get("shafts", ()), response.get("dampers", ())
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):

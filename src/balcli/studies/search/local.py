@@ -114,8 +114,7 @@ class LocalOptima(NamedTuple):
 
 
 def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
-    """Return the distinct local optima that at most `effort.starts` local searches find in a box.
-    """
+    """Return the distinct local optima that at most `effort.starts` searches find in a box."""
     points = box.spread(effort.points)
     costs = judge(points)
     starts = points[_find_starts(points, costs, box)[: effort.starts]]
