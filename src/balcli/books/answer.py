@@ -160,7 +160,7 @@ def tables(
 
     Returns:
         The table: `exact` cells with the headings `columns`, the `printed` texts, and `errata`: the
-            printed figures that differ from the rounded exact ones.
+        printed figures that differ from the rounded exact ones.
 
     Raises:
         BalcliError: there is no such table (the message suggests the nearest name), or the table

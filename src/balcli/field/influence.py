@@ -213,8 +213,8 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
 
 
 def count_needed(series: Series, used: Collection[int]) -> int | None:
-    """Return the number of first runs that determine V0 and all coefficients; None if all runs do
-    not.
+    """Return the number of first runs that determine V0 and all coefficients; None if all runs
+    together do not determine them.
 
     Args:
         series: Runs.

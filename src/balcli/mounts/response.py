@@ -320,7 +320,8 @@ def respond(
 
 def _name_components(load: Real, arm: float) -> dict[str, Real]:
     """Return the amplitudes of the components of a load (speeds, 6), by speed. Components that are
-    rounding errors are left out; for moments these depend on the longest arm (m) of the forces.
+    only rounding errors are left out; the rounding of moments depends on `arm`, the longest arm of
+    the forces (m).
     """
     force, moment = (part.max(axis=1, keepdims=True) for part in (load[:, :3], load[:, 3:]))
     size = np.repeat(np.hstack([force, np.maximum(moment, arm * force)]), 3, axis=1)

@@ -380,8 +380,8 @@ def sweep(
 
     Returns:
         The grid: `result["force.2.major"]` has an axis for each name in `vary` and is in SI units
-            or degrees; `result.to_pandas()` has a row for each variant, with the last name varying
-            fastest.
+        or degrees; `result.to_pandas()` has a row for each variant, with the last name varying
+        fastest.
 
     Raises:
         BalcliError: A name is unknown (the message suggests the nearest), or values are out of

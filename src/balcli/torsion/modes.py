@@ -287,7 +287,7 @@ class Holzer(NamedTuple):
             the last node.
         twist: (nodes,) twist of that shaft, total over stiffness.
         residual: torque that is left at the last node; 0 at a natural frequency. If the last node
-            is clamped, its angle is 0 at a natural frequency instead.
+            is clamped, the angle of the last row is 0 at a natural frequency instead.
     """
 
     angle: Real

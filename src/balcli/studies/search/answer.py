@@ -319,7 +319,7 @@ def search(
 
     Returns:
         The arrangements, best first: `result.results[0]` has `design`, `objective` and
-            `quantities`; `result.engine(1)` is the engine with the best one.
+        `quantities`; `result.engine(1)` is the engine with the best one.
 
     Raises:
         BalcliError: There is nothing to arrange, no arrangement satisfies the limits, or a quantity
