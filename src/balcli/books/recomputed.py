@@ -62,7 +62,7 @@ class Erratum(NamedTuple):
         column: Heading of the column.
         printed: Text in the source.
         exact: Right value or statement.
-        kind: Cause of the misprint; for a statement, how its right form is known.
+        kind: Cause of the erratum; for a statement, how its right form is known.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.
     """

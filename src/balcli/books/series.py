@@ -1,4 +1,4 @@
-"""Exact coefficients in powers of lambda, compared with the printed ones of the five sources.
+"""Exact coefficients of power series in lambda, compared with those printed in the five sources.
 
 The module also recomputes Tables I and II of Kvasnikov, Determination of the unbalance of piston
 engines, Tomsk 1920: A_n of the piston's acceleration and D_k of the rod's angular acceleration. One

@@ -2,9 +2,10 @@
 
 A counterweight k m_j r stands at an angle alpha ahead of the point opposite the crank. The
 remaining force of orders 1 and 2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}), and the
-table minimizes its largest magnitude. The author searched k in steps of 0.1, alpha in steps of 5
-degrees and theta in steps of 1 degree, but theta only over half a revolution. The best alpha is 0:
-the greatest |P| is convex in k e^{i alpha}, and changing the sign of alpha only mirrors the curve.
+table lists the counterweight with the smallest largest |P|. The author searched k in steps of 0.1,
+alpha in steps of 5 degrees and theta in steps of 1 degree, but theta only over half a revolution.
+The best alpha is 0: the greatest |P| is convex in k e^{i alpha}, and changing the sign of alpha
+only mirrors the curve.
 """
 
 from __future__ import annotations

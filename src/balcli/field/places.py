@@ -40,7 +40,7 @@ class Piece(NamedTuple):
 
 
 class PlaneLimits(NamedTuple):
-    """Places and largest weight of one plane. Angles count as in the file.
+    """Places and largest weight of one plane. Angles have the sense of the file's weights.
 
     Attributes:
         places_deg: Angles of the places, deg; empty if any angle is allowed.

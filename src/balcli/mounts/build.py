@@ -149,11 +149,11 @@ def find_mounting_faults(
 
 # ------------------------------------------------------------------ equations of motion
 class Meeting(NamedTuple):
-    """An order meets a natural frequency.
+    """Crank speed at which an order has the natural frequency of a mode.
 
     Attributes:
         order: Order.
-        speed_rpm: Crank speed at which it meets the frequency.
+        speed_rpm: Crank speed.
     """
 
     order: float

@@ -39,7 +39,7 @@ class Box:
 
     @property
     def size(self) -> int:
-        """Number of numbers."""
+        """How many numbers the box has."""
         return len(self.low)
 
     @property
