@@ -34,7 +34,7 @@ Errata = Annotated[
 ]
 Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
-    typer.Option(help="Errata of this class alone.", show_default=False),
+    typer.Option(help="List only errata of this class.", show_default=False),
 ]
 Lam = Annotated[
     str | None, optional("0.20:0.40:0.01", "Other crank ratios; or a list 0.25,1/3.", "--lambda")

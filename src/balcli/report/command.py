@@ -36,12 +36,12 @@ WHAT = (
     "overview: locus of the force, or of the moment where no force is left, and spectrum; "
     "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
     "crank angle; all: loci, bars and curves on one page; "
-    "ladder: loci with what balances the engine, step by step; "
+    "ladder: loci with the devices of each balancing step; "
     "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
     "two-shaft the radii of its shafts; inner: along the crankshaft; with [gas]: pressure, p-v, "
     "torque (with its surplus areas), pin and main (polar diagrams of bearing loads); "
-    "modes, campbell, response, waterfall: of its torsion. Several: "
-    "pages of one PDF, or a file each (v8-pin.svg)."
+    "with [torsion]: modes, campbell, response, waterfall. Several pages form one PDF, or one file "
+    "each (v8-pin.svg)."
 )
 
 

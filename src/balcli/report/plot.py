@@ -80,10 +80,10 @@ def plot(
             "two-shaft" the radii of its shafts), "factor" (over the balance factor); with gas
             "pressure", "p-v", "torque", "pin", "main"; of torsion "all", "modes", "campbell",
             "response", "waterfall". Other answers have one picture.
-        orders: of an engine, which are drawn; default: all that are not negligible.
-        scheme: of an engine, a balance scheme to compare with.
-        speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.
-        small: of an engine, the share of one cylinder's first order below which the ladder leaves a
+        orders: Orders of an engine to draw; default: all that are not negligible.
+        scheme: Balance scheme of an engine to compare with.
+        speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.
+        small: Share of one cylinder's first order below which the ladder of an engine ignores a
             part.
 
     Raises:

@@ -35,7 +35,7 @@ At = Annotated[
     optional("X,Y", "Place of a shaft, mm; for two, the one at -N first."),
 ]
 Position = Annotated[
-    str | None, optional("Z|Z,Z", "Axial place of new devices, mm; of compensators one or two.")
+    str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two for compensators.")
 ]
 Planes = Annotated[
     str | None,
