@@ -29,7 +29,7 @@ from ..show.sheet import (
 )
 from ..show.units import System
 from . import sections
-from .answer import EXTRAS, Analysis, Sizing
+from .answer import Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
     cylinder_table,
@@ -73,10 +73,10 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     if not view.parts or view.whole:
         higher = result.has_higher_orders
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
-    elif view.parts - TEXTS:
-        yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
-        if view.parts.intersection(EXTRAS):
-            yield from assumed_facts(result.assumed)
+    else:
+        if view.parts - TEXTS:
+            yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
+        yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
     if view.parts or view.whole:
