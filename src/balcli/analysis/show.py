@@ -177,6 +177,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
+        devices=result.engine.devices,
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)

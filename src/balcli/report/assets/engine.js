@@ -290,5 +290,5 @@ const Kernel = (() => {
       orders, peak: describePeak(peak), ladder: { scale, auto: ladder.auto, steps },
     };
   }
-  return { assemble, compute, findLadder, describe, load };
+  return { assemble, compute, findLadder, describe, describeVector, load };
 })();
