@@ -86,7 +86,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     for share in result.cylinders or ():
         spectra = share.spectra.with_moment_if(result.moments_known)
         yield cylinder_table(share.cylinder, spectra, system)
-    yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
+    yield from _further_parts(result, system, whole=view.whole)
     if result.ladder is not None:
         yield ladder_grid(result.ladder, result.engine, system)
     if result.sizing is not None:
