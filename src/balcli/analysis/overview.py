@@ -351,10 +351,10 @@ def _tell_higher(high: Sequence[_Order]) -> str:
     """Return one sentence on several orders above 2 that are not small."""
     largest = _tell_largest([(one, vector) for one in high for vector in one.large])
     left = "; usually left: shafts would turn fast" * any(one.cures for one in high)
-    return sentence(f"{_name_orders([one.order for one in high])}: {largest}{left}")
+    return sentence(f"{name_orders([one.order for one in high])}: {largest}{left}")
 
 
-def _name_orders(orders: Sequence[float]) -> str:
+def name_orders(orders: Sequence[float]) -> str:
     """Return these orders by their numbers, or how many there are."""
     if len(orders) > _MOST_NAMED:
         return f"{len(orders)} orders up to {order_name(max(orders))}"
@@ -364,7 +364,7 @@ def _name_orders(orders: Sequence[float]) -> str:
 def _tell_balanced(orders: Sequence[float], names: str) -> str:
     """Return which orders are balanced."""
     verb = "are" if " " in names else "is"
-    return f"{names} of {_name_orders(orders)} {verb} balanced" if orders else ""
+    return f"{names} of {name_orders(orders)} {verb} balanced" if orders else ""
 
 
 def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:
