@@ -33,18 +33,26 @@
     return data.numbers.find((each) => each.name === name) || (key && own(own(book.devices, kind) || {}, key));
   }
 
+  // A unit in one spelling: "kg·mm²" and "kg mm^2" are "kgmm^2", and 3.5" are in.
+  function spell(unit) {
+    const word = unit.normalize("NFKC").replace(/["″“”]|''/, "in").replace("°", "deg").replace("μ", "u");
+    const joined = word.replace(/([a-z])(?:\*\*)?([23])/gi, "$1^$2").replace(/[\s·⋅*]+|\.$/g, "");
+    return joined.length < 2 || /^M[a-zG]/.test(joined) ? joined : joined.toLowerCase();   // Mg: a megagram
+  }
   // A number in the unit of the file, as people write it; an Error says what would be right.
   function readValue(name, text) {
     const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
-    const plain = text.trim().replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
+    const plain = text.replace(/(\d?)\s*([¼-¾⅐-⅞])/, "$1 $2").normalize("NFKC").trim().replace("⁄", "/")
+      .replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
     if (/^[-+]?\d{1,3},\d{3}(?!\d)/.test(plain)) throw new Error(`${name}: "${text}" can mean two numbers; write it without a comma`);
     const [, sign, figure, top, bottom, word] =
-      plain.replace(",", ".").match(/^([-+]?)(\d*\.?\d*(?:e[-+]?\d+)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
+      plain.replace(",", ".").match(/^([-+]?)((?:(?!\d+\/\d)\d*\.?\d*(?:e[-+]?\d+)?)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
     const value = (sign === "-" ? -1 : 1) * (Number(figure || 0) + (top ? top / bottom : 0));
     if (!/\d/.test(figure + (top || "")) || !Number.isFinite(value)) {
       throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
     }
-    const factors = own(book.units, unit) || {}, factor = word === "" || word === unit ? 1 : own(factors, word);
+    const factors = own(book.units, unit) || {}, same = (name) => spell(name) === spell(word);
+    const factor = word === "" || same(unit) ? 1 : factors[Object.keys(factors).find(same)];
     if (factor === undefined) {
       const known = Object.keys(factors).join(", ");
       throw new Error(`${name}: the unit "${word.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
@@ -108,6 +116,14 @@
         Kernel.assemble(data, changed);
         next = changed;
       } catch (error) { wrong.push(error.message); }
+    }
+    const sizes = ["unbalance", "mass", "radius"];
+    for (const table of new Set(Object.keys(next).map(tableOf).filter((each) => DEVICE.test(each)))) {
+      const [unbalance, mass, radius] = sizes.map((key) => `${table}.${key}` in next);
+      if (unbalance || (mass && radius)) continue;
+      const lack = mass ? "mass without radius" : radius ? "radius without mass" : "neither unbalance nor mass and radius";
+      wrong.push(`${table}: has ${lack}; give either unbalance or mass and radius`);
+      for (const key of sizes.map((each) => `${table}.${each}`)) if (key in original) next = { ...next, [key]: original[key] };
     }
     return { next, wrong };
   }
@@ -209,7 +225,6 @@
   // The verdict of `balcli analyze`, in its words: a force or moment is large if its part that turns with the
   // crank, or the one that turns against it, is not small compared with one cylinder's.
   const MOST_WORDS = 25, MOST_NAMED = 5, SENSES = ["with the crank", "against the crank"];
-  const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const joinWords = (words) => words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
   const lineDegrees = (value) => {
     const tenths = (Number(Number(value.toFixed(6)).toFixed(1)) + 0).toFixed(1);
@@ -227,7 +242,7 @@
     const names = { "0.0": "x", "90.0": "y" }, angle = lineDegrees(axis);
     const line = `${type === "force" ? "along" : "about"} ${names[angle] || `an axis at ${angle} deg`}`;
     const fromUp = data.up === null ? "" : lineDegrees(90 - ((90 - axis + data.up) % 180 + 180) % 180);
-    const upright = UPRIGHT[type][Object.keys(names).indexOf(fromUp)];
+    const upright = Kernel.UPRIGHT[type][Object.keys(names).indexOf(fromUp)];
     return `${told} ${upright ? `${upright} (${line})` : line}`;
   }
   // What would cancel the parts of an order that are not small, by sense of rotation.
@@ -486,7 +501,7 @@
   function copyCommand() {
     const there = !listChanges().length && book.source;       // the file of an unchanged engine
     const hint = there ? "" : "Download TOML saves this engine under that name; do that first.";
-    return copy(`balcli analyze ${quote(there || fileName())}`, hint);
+    return copy(`balcli analyze ${quote(there || fileName())}${book.options}`, hint);
   }
   async function copy(text, hint = "") {
     try { await navigator.clipboard.writeText(text); } catch {
