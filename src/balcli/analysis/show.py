@@ -29,7 +29,7 @@ from ..show.sheet import (
 )
 from ..show.units import System
 from . import sections
-from .answer import Analysis, Sizing
+from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
     cylinder_table,
@@ -49,12 +49,8 @@ from .overview import (
 )
 
 Part: TypeAlias = Grid | Facts | Text
-TEXTS = frozenset(
-    {"verdict", "sizing", "ladder", "textbook"}
-)  # parts that need no crank speed beside them
-TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
-)  # without a verdict
+TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
+TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:

@@ -49,15 +49,8 @@ from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
-_TABLES = (
-    "crank",
-    "rod",
-    "piston",
-    "crosshead",
-    "layout",
-    "operation",
-    "cylinder",
-)  # with numbers to change
+# with numbers to change
+_TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
