@@ -319,7 +319,7 @@ def test_the_verdict_is_that_of_the_command(browser, play):
 
 @live
 @pytest.mark.parametrize("small", ["0%", "1%", "20%"])
-@pytest.mark.parametrize("name", ["i4_shafts", "ford_ecoboost_1_0", "v8_flatplane"])
+@pytest.mark.parametrize("name", ["i4_shafts", "ford_ecoboost_1_0", "v8_flatplane", "wartsila_6rtflex96c", "flat12"])
 def test_the_verdict_heeds_devices_and_what_is_small(browser, tmp_path, name, small):
     text = examples.text(name) + "[[shaft]]\nratio = -1\nunbalance = 20000\nposition = 40\n"
     file = write(tmp_path / "engine.toml", text)

@@ -21,9 +21,11 @@
   };
   const own = (object, key) => Object.hasOwn(object, key) ? object[key] : undefined;
   const tableOf = (name) => name.match(/^(?:counterweight|shaft|slider|cylinder)\.\d+/)?.[0] ?? name.split(".")[0];
+  // A figure as the command prints it: with an exponent below 0.0001 and from a million on.
   const shown = (value, digits = 4) => {
-    const text = Number(value.toPrecision(digits));
-    return Math.abs(value) >= 1000 && Math.abs(value) < 1e9 ? text.toFixed(0) : String(text);
+    const exact = Number(value.toPrecision(12)), rounded = Number(exact.toPrecision(digits)), size = Math.abs(rounded);
+    if (size >= 10 ** digits && Math.abs(exact) < 1e6) return exact.toFixed(0);
+    return size && (size < 1e-4 || size >= 1e6) ? rounded.toExponential().replace("+", "") : String(rounded);
   };
 
   // ------------------------------------------------------------------ numbers and their values
