@@ -109,7 +109,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: the engine has no such cylinder.
     """
-    row = find_row(engine, number, "--cylinder")
+    row = find_row(engine, number)
     return _sum_parts(
         engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
     )
