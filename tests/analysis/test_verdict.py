@@ -5,6 +5,7 @@ import pytest
 from support.cases import cases
 
 from balcli.analysis.overview import verdict
+from balcli.core.cylinders import Device, DeviceKind
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
 from balcli.show.units import SI
@@ -39,6 +40,27 @@ def test_ordinals(order: int, name: str) -> None:
     assert told.startswith(f"{name} order: force of 10 N along x; usually left: ")
 
 
+DEVICES = [
+    Device(1, 1 + 0j, 0j, 0j, 0.0, DeviceKind.COUNTERWEIGHT),
+    Device(1, 0j, 1 + 0j, 0j, 0.0, DeviceKind.SHAFT),
+    Device(2, 1 + 0j, 0j, 0j, 0.0, DeviceKind.SHAFT),
+]
+
+
+@pytest.mark.parametrize(
+    ("order", "text"),
+    [
+        (1, "further counterweights cancel 50 N of it, a further shaft at -1 the other 50 N."),
+        (2, "further shafts at +2 and -2 cancel it."),
+    ],
+)
+def test_a_device_like_one_of_the_file_is_a_further_one(order: int, text: str) -> None:
+    half = np.array([50 + 0j])
+    force = Phasors.of(np.array([float(order)]), half, half, np.zeros(1))
+    (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI, devices=DEVICES)
+    assert told.endswith(text)
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_a_sentence_has_at_most_25_words(seed):
     """Whatever turns, wherever it points, with or without `up`."""
@@ -51,7 +73,7 @@ def test_a_sentence_has_at_most_25_words(seed):
 
     up = None if seed % 2 else float(random.integers(-180, 180))
     found = Spectra(orders, up, force=phasors(), moment=phasors())
-    told = verdict(found, SI, Scales(1000.0, 2000.0, 100.0))
+    told = verdict(found, SI, Scales(1000.0, 2000.0, 100.0), devices=DEVICES[: seed % 4])
     assert max(len(sentence.split()) for sentence in told) <= 25
 
 

@@ -54,6 +54,23 @@ from .records import (
 UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "pru")  # computed only on request
+
+# Quantities that depend on a key, or on a table, that does not count for all of them.
+_WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
+_WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
+_ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
+_WITH_RODS = {"couple", "torque", "roll", *GAS_KINDS, "guide", "journals", "masses"}
+_WITH_UNEVEN_SPEED = {"couple", "torque", "torque_total"}
+_OF_FIRING = {"layout.strokes", "layout.firing_intervals"}
+_DEPENDENT = {
+    "gas": {*GAS_KINDS, "pru"},
+    "rod.inertia": _WITH_RODS,
+    "articulation.rod.inertia": _WITH_RODS,
+    "crank.inertia": _WITH_UNEVEN_SPEED,
+    **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
+    "layout.stagger": _WITH_PLACES,
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # of forces: why there are no moments
+}
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
@@ -235,7 +252,7 @@ def analyze(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
-        assumed=engine.list_assumed("gas"),
+        assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
         peak=peak,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
@@ -294,6 +311,25 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
         choices = ", ".join((*QUANTITIES, GAS.name, *EXTRAS))
         raise BalcliError(f"there is no quantity {named}: choose from {choices}")
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
+
+
+def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
+    """Return the keys, and the table [gas], on whose defaults none of these quantities depends.
+
+    Args:
+        engine: Engine without trailing axes.
+        wanted: Quantities, as of `_choose_quantities`.
+    """
+    due = {*wanted}
+    if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
+        due.add("gas")
+    of_throws = _WITH_FORCES | {"masses"}
+    of_throws |= _WITH_UNEVEN_SPEED if engine.ripple else set()
+    of_throws |= {"couple", "roll", "roll_total"} if any(engine.reference_m[:2]) else set()
+    idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
+    if "gas" in idle and not any(line.startswith("crank.throws") for line in engine.inferred):
+        idle |= _OF_FIRING
+    return idle if engine.places_known else {*idle, "layout.stagger"}
 
 
 def _analyze_cylinders(

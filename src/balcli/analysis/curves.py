@@ -145,7 +145,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    row = find_row(engine, number, "--cylinder")
+    row = find_row(engine, number)
     return _sum_parts(
         engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
     )

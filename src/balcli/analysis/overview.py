@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
@@ -259,7 +260,8 @@ class _Order(NamedTuple):
                 return f"{cancel} what turns {_SENSES[sense]}"
             return f"{cancel} {one.tell_size(self.k, sense)} of it"
         if self.order == 2:
-            return f"shafts at +2 and -2 cancel {everything}"
+            further = "further " * any("further" in device for device in devices)
+            return f"{further}shafts at +2 and -2 cancel {everything}"
         if one and sizes:
             ahead, against = (one.tell_size(self.k, sense) for sense in self.cures)
             return f"{devices[0]} cancel {ahead} of it, {devices[1]} the other {against}"
@@ -273,17 +275,19 @@ def verdict(
     *,
     small: float = SMALL,
     steady: bool = True,
+    devices: Sequence[Device] = (),
 ) -> tuple[str, ...]:
-    """Return a sentence for every order that is not small, and one on the others, each of at most
-    25 words; empty if the spectra have no force or moment.
+    """Return a sentence for every order to 2 that is not small, one on higher orders that are not,
+    and one on the others, each of at most 25 words; none without forces and moments.
 
     Args:
         spectra: Spectra to judge.
         system: System of units.
-        scales: Force, moment and roll of one cylinder; None: not known, and no part is small.
-        small: Share of one cylinder below which a part is small.
-        steady: Whether the speed is steady. If not, no device is named, because an order may come
-            mostly from another order through the uneven speed, and would vanish with that.
+        scales: What one cylinder makes; None: not known, and nothing is small.
+        small: Share of it below which a part is small.
+        steady: Whether the speed is. If not, no cure is named: most of an order may come from
+            another one through the unevenness, and vanishes with that one.
+        devices: Devices of the file; a device that turns like one of these is a further one.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -310,12 +314,15 @@ def verdict(
             large=[vector for vector, found in senses.items() if found],
             rest=[vector for vector, found in senses.items() if not found],
             couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
-            cures=_find_cures(order, due) if steady else {},
+            cures=_find_cures(order, due, devices) if steady else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
     matter = [one for one in every if one.large or one.couple]
-    told = [one.tell() for one in matter]
+    high = [one for one in matter if one.order > 2]
+    told = [one.tell() for one in matter if len(high) < 2 or one not in high]
+    if len(high) > 1:
+        told.append(_tell_higher(high))
     if not steady and any(one.large for one in every):
         told.append(_UNEVEN)
     names = " and ".join(vector.kind.name for vector in vectors)
@@ -329,24 +336,41 @@ def verdict(
     return (*told, sentence(last)) if last else tuple(told)
 
 
-def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
+def _find_cures(order: float, due: Collection[int], devices: Sequence[Device]) -> dict[int, str]:
     """Return the devices that would cancel the vectors of an order that turn in these senses, by
     sense.
     """
     if order % 1:
         return {}  # no device turns at half orders
-    ratios = {sense: round(order) * sense for sense in sorted(due, reverse=True)}
-    return {s: "counterweights" if n == 1 else f"a shaft at {n:+d}" for s, n in ratios.items()}
+    cures = {}
+    alike = [one for one in devices if one.order == order and one.kind is not DeviceKind.SLIDER]
+    for sense in sorted(due, reverse=True):
+        there = any(np.any(one.forward if sense > 0 else one.backward) for one in alike)
+        further, ratio = "further " * there, round(order) * sense
+        cures[sense] = (
+            f"a {further}shaft at {ratio:+d}" if ratio != 1 else f"{further}counterweights"
+        )
+    return cures
+
+
+def _tell_higher(high: Sequence[_Order]) -> str:
+    """Return one sentence on several orders above 2 that are not small."""
+    largest = _tell_largest([(one, vector) for one in high for vector in one.large])
+    left = "; usually left: shafts would turn fast" * any(one.cures for one in high)
+    return sentence(f"{name_orders([one.order for one in high])}: {largest}{left}")
+
+
+def name_orders(orders: Sequence[float]) -> str:
+    """Return these orders by their numbers, or how many there are."""
+    if len(orders) > _MOST_NAMED:
+        return f"{len(orders)} orders up to {order_name(max(orders))}"
+    return f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:
     """Return in words which orders are balanced."""
-    if not orders:
-        return ""
-    which = f"{len(orders)} orders"
-    if len(orders) <= _MOST_NAMED:
-        which = f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
-    return f"{names} of {which} {'are' if ' ' in names else 'is'} balanced"
+    verb = "are" if " " in names else "is"
+    return f"{names} of {name_orders(orders)} {verb} balanced" if orders else ""
 
 
 def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:

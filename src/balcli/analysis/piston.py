@@ -223,7 +223,7 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    find_row(result.engine, number, "--cylinder")
+    find_row(result.engine, number)
     chosen = [each for each in result.mechanisms if number in each.cylinders]
     return replace(result, mechanisms=tuple(replace(each, cylinders=(number,)) for each in chosen))
 

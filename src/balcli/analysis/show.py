@@ -49,12 +49,8 @@ from .overview import (
 )
 
 Part: TypeAlias = Grid | Facts | Text
-TEXTS = frozenset(
-    {"verdict", "sizing", "ladder", "textbook"}
-)  # parts that are shown without the crank speed
-TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses", "pru"}
-)  # parts that are shown without a verdict
+TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
+TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
@@ -72,10 +68,10 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     if not view.parts or view.whole:
         higher = result.has_higher_orders
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
-    elif view.parts - TEXTS:
-        yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
-        if view.parts.intersection(EXTRAS):
-            yield from assumed_facts(result.assumed)
+    else:
+        if view.parts - TEXTS:
+            yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
+        yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
     if view.parts or view.whole:
@@ -86,7 +82,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         spectra = share.spectra.with_moment_if(result.moments_known)
         about_crank = view.whole or bool(view.parts)
         yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
-    yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
+    yield from _further_parts(result, system, whole=view.whole)
     if result.ladder is not None:
         yield ladder_grid(result.ladder, result.engine, system)
     if result.sizing is not None:
@@ -177,6 +173,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
+        devices=result.engine.devices,
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)

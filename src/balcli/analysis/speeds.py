@@ -33,6 +33,7 @@ from ..show.sheet import (
     NamedResult,
     Sheet,
     Text,
+    assumed_facts,
     capitalized,
     given,
     order_name,
@@ -317,6 +318,8 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
     if not view.parts or view.whole:
         higher = first.has_higher_orders
         yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
+    else:
+        yield from assumed_facts(first.assumed)
     kinds = dict.fromkeys(line.kind for line in series.lines)
     if not (view.parts or view.whole):  # the brief form
         roll = ROLL if first.engine.gas is None else ROLL_TOTAL

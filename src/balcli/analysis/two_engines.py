@@ -197,7 +197,7 @@ def combine_engines(
         arrangement=arrangement,
         state=describe_state(first),
         spectra=visible,
-        assumed=list_assumed(("first", "second"), (first, second)),
+        assumed=list_assumed(("first", "second"), [e.list_assumed("gas") for e in (first, second)]),
         peak=find_peaks(_compute_sum(one, other, arrangement, computed)),
         every_order=asked is not None,
     )

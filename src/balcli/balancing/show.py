@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
@@ -20,13 +20,13 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import name_column
+from ..analysis.overview import name_column, name_orders
 from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import CrankLoads, find_crank_loads
-from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
 from ..show.csv import Columns, Rows
@@ -215,13 +215,8 @@ def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
     return (change > 0) & (change >= 0.01 * np.maximum(before, after))
 
 
-def _tell_unchanged(values: Iterable[tuple[Kind, float]], system: System) -> str:
-    """Return a line on values that do not change; values of 0 are omitted."""
-    told = [
-        f"{name_column(kind)} of at most {size_text(size, system.unit(kind))}"
-        for kind, size in values
-        if size > 0
-    ]
+def _tell_unchanged(told: Collection[str]) -> str:
+    """Return a line on values that do not change, given in words."""
     return f"Unchanged within 1 %: {', '.join(told)}." if told else ""
 
 
@@ -239,7 +234,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
     changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
-    left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1]).max(axis=1)
+    left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1])
     columns = [
         (k, kind, fit_largest(system.unit(kind), *(state[kind.name] for state in states)))
         for k, kind in enumerate(kinds)
@@ -256,30 +251,36 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         )
         for n in np.flatnonzero(changed.any(axis=0))
     )
+    unchanged = []
+    for kind, after in zip(kinds, left, strict=True):
+        if orders := result.before.orders[after > 0].tolist():
+            most = size_text(float(after[after > 0].max()), system.unit(kind))
+            unchanged.append(f"{name_column(kind)} of {name_orders(orders)} (at most {most})")
     if rows:
         heads = [(f"{name_column(kind)}, {unit.name}", "after") for _, kind, unit in columns]
         yield Grid(
             "Largest value by order, before and after",
             ("order", *(head for pair in heads for head in pair)),
             rows,
-            _tell_unchanged(zip(kinds, left.tolist(), strict=True), system),
+            _tell_unchanged(unchanged),
         )
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
     """Yield a table of the largest values over a revolution that change."""
-    rows, left = [], []
+    rows, left = [], list[str]()
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
             continue
         if not result.every_order and not _find_changes(before.value, after.value):
-            left.append((kind, after.value))
+            size = size_text(after.value, system.unit(kind))
+            left += [f"largest {kind.name} ({size})"] * (after.value > 0)
             continue
         unit = system.unit(kind).fit(max(before.value, after.value))
         rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
     uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
     if rows:
-        notes = (_tell_unchanged(left, system), uneven if result.before.engine.ripple else "")
+        notes = (_tell_unchanged(left), uneven if result.before.engine.ripple else "")
         yield Grid(
             "Largest over a revolution, all orders",
             ("", "before", "at, deg", "after", "at, deg"),

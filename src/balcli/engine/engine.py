@@ -386,19 +386,18 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
-def find_row(engine: Engine, number: int, option: str) -> int:
+def find_row(engine: Engine, number: int) -> int:
     """Return the row of a cylinder in the arrays of its engine.
 
     Args:
         engine: Engine.
         number: Cylinder number.
-        option: Option that names the cylinder, for the message.
 
     Raises:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        some = f"{engine.name or 'the engine'} has the cylinders "
-        some += ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(f"{option} {number}: {some}")
+        there = ", ".join(map(str, sorted(engine.numbers)))
+        name = engine.name or "the engine"
+        raise BalcliError(f"there is no cylinder {number}: {name} has the cylinders {there}")
     return engine.numbers.index(number)

@@ -276,7 +276,7 @@ def silence(engine: Engine, number: int) -> Engine:
     Raises:
         BalcliError: The engine has no gas, or no such cylinder.
     """
-    gas, row = take_gas(engine), find_row(engine, number, "--misfire")
+    gas, row = take_gas(engine), find_row(engine, number)
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
     return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=None)
 

@@ -48,25 +48,18 @@ from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
-_TABLES = (
-    "crank",
-    "rod",
-    "piston",
-    "crosshead",
-    "layout",
-    "operation",
-    "cylinder",
-)  # tables with numbers to change
+# tables with numbers to change
+_TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # axes, pins or positions
 _UNITS = {  # further units that the page reads, by dimension
-    LENGTH: ("cm", "m", "in", "inch", "ft"),
-    MASS: ("g", "lb", "oz"),
-    UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
-    ANGLE: ("rad", "turn"),
-    SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
-    INERTIA: ("kg m^2", "lb in^2"),
+    LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
+    MASS: ("mg", "g", "gram", "grams", "t", "lb", "lbs", "pounds", "oz", "ounces"),
+    UNBALANCE: ("kg mm", "kg m", "g cm", "g m", "g in", "oz in", "lb in", "lb ft"),
+    ANGLE: ("degree", "degrees", "rad", "turn"),
+    SPEED_OF_ROTATION: ("1/min", "min^-1", "rps", "Hz", "rad/s"),
+    INERTIA: ("kg m^2", "kg cm^2", "g mm^2", "g cm^2", "lb in^2", "lb ft^2", "oz in^2"),
 }
 _NEW = {  # keys of a new device with their dimensions and initial values
     "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
@@ -183,6 +176,7 @@ def make_book(
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
         "small": small,
+        "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "negligible": NEGLIGIBLE,
         "shown": SHOWN,
         "unknown": sentence(MOMENTS_UNKNOWN),

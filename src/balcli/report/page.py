@@ -186,6 +186,7 @@ def _shakes(result: Analysis, order: float) -> bool:
 FOLDER = Path(__file__).with_name("assets")
 _PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
 _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
+_STILL = (("force", "polar"), ("moment", "polar"))  # for a browser without JavaScript
 
 
 class Answers(NamedTuple):
@@ -262,10 +263,11 @@ def page(
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
+    panels = (*alone, *beside, *_choose_panels(now, _STILL, told))
     pictures = []
-    for panel in (*alone, *beside):
+    for panel in panels:
         pictures.append(draw_panel(*panel))
-        tell(len(pictures) / (len(alone) + len(beside)))
+        tell(len(pictures) / len(panels))
     return _template().render(
         whole=True,
         live=live,
@@ -278,7 +280,8 @@ def page(
         remedy=remedy.parts,
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
-        compared=pictures[len(alone) :],
+        compared=pictures[len(alone) : len(alone) + len(beside)],
+        loci=pictures[len(alone) + len(beside) :],
         running=None if turning is None else running(turning, system),
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
@@ -327,7 +330,7 @@ def make_play_page() -> str:
         version=__version__,
         verdict=None,
         scene=None,
-        **dict.fromkeys(("mounts", "torsion", "running")),
+        **dict.fromkeys(("mounts", "torsion", "running", "loci")),
     )
 
 
