@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, VECTORS
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
@@ -42,7 +42,9 @@ from .order_tables import (
 )
 from .overview import (
     find_orders_that_matter,
+    mark_couple,
     roll_and_peaks,
+    tell_couple,
     tell_others,
     vectors_grid,
     verdict,
@@ -153,6 +155,9 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
+    if (due := mark_couple(result)).any():
+        couple = spectra.only([COUPLE.name]).select_orders(spectra.orders[due])
+        yield from order_tables(couple, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:
         yield facts
@@ -180,7 +185,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
-    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing
+    couple = tell_couple(result, system)
+    if told := tuple(filter(None, (*told, couple, rocking, unknown))):  # order 0 alone says nothing
         yield Text("Verdict", told)
 
 

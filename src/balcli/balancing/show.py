@@ -20,7 +20,7 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import name_column
+from ..analysis.overview import mark_couple, name_column
 from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
@@ -96,6 +96,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     notes = (
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
+        _tell_couple(result, system),
         _tell_bearings(result, system),
         tell_best_factors(result, system),
         _tell_negligible(result, loads),
@@ -114,9 +115,9 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return words on the forces, moments and couple of orders 1 and 2 that a step leaves."""
+    """Return words on the forces and moments of orders 1 and 2 that a step leaves."""
     known, left = result.after.moments_known, []
-    kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
+    kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
     for k, order in enumerate((1, 2)):
         sizes = [(kind, float(spectra[kind.name].major[k])) for kind in kinds]
@@ -129,6 +130,20 @@ def _tell_left(result: Balance, system: System) -> str:
         return f"Leaves {'; '.join(left)}."
     what = "force or moment" if known else "force"
     return f"Leaves no {what} of orders 1 and 2."
+
+
+def _tell_couple(result: Balance, system: System) -> str:
+    """Return words on the transverse couple that the devices leave as it was; empty if it is
+    negligible, or if they change it.
+    """
+    couples = [one.spectra[COUPLE.name].major for one in (result.before, result.after)]
+    due = mark_couple(result.after)
+    if not due.any() or _find_changes(*couples)[due].any():
+        return ""
+    k = int(np.argmax(np.where(due, couples[1], 0)))
+    order, size = result.after.orders[k], size_text(float(couples[1][k]), system.moment)
+    told = f"Transverse couple: up to {size} (order {order_name(order)})"
+    return f"{told}; no scheme changes the couple."
 
 
 def _tell_bearings(result: Balance, system: System) -> str:

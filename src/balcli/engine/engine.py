@@ -388,7 +388,7 @@ def find_row(engine: Engine, number: int, option: str) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        some = f"{engine.name or 'the engine'} has the cylinders "
-        some += ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(f"{option} {number}: {some}")
+        last = max(engine.numbers)
+        some = f"cylinders 1 to {last}" if last > 1 else "only cylinder 1"
+        raise BalcliError(f"{option} {number}: {engine.name or 'the engine'} has {some}")
     return engine.numbers.index(number)

@@ -206,29 +206,31 @@
     }
     return [...shownOrders].sort((a, b) => a - b);
   }
-  // The verdict of `balcli analyze`, without directions and cures: a force or moment is large if its part
+  // The verdict of `balcli analyze`, without directions, cures and causes: a force or moment is large if its part
   // that turns with the crank, or the one that turns against it, is not small compared with one cylinder's.
   function writeVerdict() {
     const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
-    const sentences = [], balanced = [], most = {};
+    const sentences = [], balanced = { couple: [], other: [] }, most = {}, NAMED = { force: "force", moment: "longitudinal moment" };
+    let turning = { size: 0 };
     for (const n of listShownOrders(kinds)) {
       const vectors = types.map((type) => {
         const parts = (kinds[type][n] || []).map((v) => Math.hypot(...v)), size = parts.reduce((a, b) => a + b, 0);
         return { type, size, large: parts.some((part) => part && part >= book.small * scale[type] * (1 - 1e-9)) };
       });
-      const couple = n <= 2 && !vectors.some(({ type, size }) => type === "moment" && size) ? 2 * Math.hypot(...kinds.couple[n][0]) : 0;
-      const turns = couple > book.negligible * scale.force * engine.r ? [`roll couple of ${sizeText("moment", couple)}`] : [];
-      const large = vectors.filter((each) => each.large).map(({ type, size }) => `${type} of ${sizeText(type, size)}`);
-      const none = vectors.every(({ size }) => !size);
-      if (large.length) sentences.push(`${nameOrder(n)} order: ${[large.join(" and "), ...turns].join(", ")}.`);
-      else if (turns.length) sentences.push(`${nameOrder(n)} order: ${turns[0]}; ${types.join(" and ")} ${none ? "balanced" : "small"}.`);
-      else if (none && n <= 2) balanced.push(n);
-      for (const { type, size } of vectors.filter((each) => !each.large)) if (size > (most[type]?.size || 0)) most[type] = { size, n, type };
+      const couple = 2 * Math.hypot(...(kinds.couple[n] || [[0, 0]])[0]);
+      if (couple > Math.max(turning.size, book.negligible * scale.moment)) turning = { size: couple, n };
+      const tell = ({ type, size }) => `${NAMED[type]} of ${sizeText(type, size)}`;
+      const large = vectors.filter((each) => each.large).map(tell);
+      if (large.length) sentences.push(`${nameOrder(n)} order: ${large.join(" and ")}.`);
+      else if (n <= 2 && vectors.every(({ size }) => !size)) balanced[couple ? "other" : "couple"].push(n);
+      for (const one of vectors.filter((each) => !each.large)) if (one.size > (most[one.type]?.size || 0)) most[one.type] = { size: one.size, text: `${tell(one)} (order ${n})` };
     }
-    const small = Object.values(most).map(({ type, size, n }) => `${type} of ${sizeText(type, size)} (order ${n})`).join(", ");
-    const which = `${types.join(" and ")} of order${balanced.length > 1 ? "s" : ""} ${balanced.join(" and ")}`;
-    const rest = [...(balanced.length ? [`${which} ${types.length > 1 ? "are" : "is"} balanced`] : []), ...(small ? [`small: ${small}`] : [])];
+    const small = Object.values(most).map(({ text }) => text).join(", ");
+    const name = (orders, names) => orders.length ? [`order${orders.length > 1 ? "s" : ""} ${orders.join(" and ")}: ${names} balanced`] : [];
+    const listed = data.known ? "force, moment and couple" : "force and couple";
+    const rest = [...name(balanced.couple, listed), ...name(balanced.other, types.join(" and ")), ...(small ? [`small: ${small}`] : [])];
     if (rest.length) sentences.push(`${capital(rest.join("; "))}.`);
+    if (turning.n) sentences.push(`Transverse couple: up to ${sizeText("moment", turning.size)} (order ${turning.n}).`);
     return [...sentences, ...(data.known ? [] : [book.unknown])].join(" ");
   }
   function fill(id, heads, rows) {
