@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
-from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
@@ -50,6 +50,10 @@ from .overview import (
     verdict,
 )
 
+_UNCOUNTED = (
+    "Couple and torque count pistons, rods and throw masses only; give [crank] inertia and "
+    "[flywheel] for all turning parts."
+)
 Part: TypeAlias = Grid | Facts | Text
 TEXTS = frozenset(
     {"verdict", "sizing", "ladder", "textbook"}
@@ -85,6 +89,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _chosen_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
+    yield from _tell_uncounted(result)
     for share in result.cylinders or ():
         spectra = share.spectra.with_moment_if(result.moments_known)
         yield cylinder_table(share.cylinder, spectra, system)
@@ -168,6 +173,13 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         every_order=view.every_order,
         hints=view.hints,
     )
+
+
+def _tell_uncounted(result: Analysis) -> Iterator[Text]:
+    """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
+    engine, shown = result.engine, result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
+    if engine.ripple and shown and engine.crank_inertia is engine.flywheel_inertia is None:
+        yield Text("Note", (_UNCOUNTED,))
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:

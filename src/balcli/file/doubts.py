@@ -135,12 +135,18 @@ def _round(value: float) -> str:
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for keys that are left out, and probably forgotten."""
+    """Yield warnings for keys that are left out, and probably forgotten, or contradict others."""
     if _weigh_piston(model) == 0:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
+    of_throws = throws * crank.throw_mass * (crank.stroke / 2) ** 2
+    if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
+        yield (
+            f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
+            "of its throws alone (crank.throw_mass at the crank radius)"
+        )
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
