@@ -9,7 +9,9 @@ their extremes are found on these series.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
@@ -20,7 +22,12 @@ from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
+from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row
+from ..engine.load import FiguresOfVariants
+from ..errors import BalcliError
+from ..file.model import EngineFile
+from ..forces.quantity import TargetQuantity
 from ..show.csv import Rows
 from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer
@@ -271,6 +278,44 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
         acceleration_min_own_deg=math.degrees(math.acos(-1 / (4 * lam))) if two else 180.0,
         type=2 if two else 1,
     )
+
+
+# ------------------------------------------------------------------ quantities of variants
+_PARTS = ("mean_speed", "max_speed", "max_acceleration", "stroke")
+
+
+def list_names(_: EngineFile) -> Iterator[str]:
+    """Yield the names of the quantities of piston 1, and of any other."""
+    for stem in ("piston", "piston.N"):
+        yield from (f"{stem}.{part}" for part in _PARTS)
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+    """Raise BalcliError if a quantity is of a cylinder that the engine does not have."""
+    numbers = build(model).numbers
+    for q in quantities:
+        if q.target and float(q.target) not in numbers:
+            raise BalcliError(f"{q.name}: the engine has cylinders 1 to {max(numbers)}")
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
+    """Return the value of each quantity of one engine, SI."""
+    found = analyze_pistons(engine).mechanisms
+    of_cylinder = {number: one for one in found for number in one.cylinders}
+    return [_read_quantity(of_cylinder[int(float(q.target or 1))], q.part) for q in quantities]
+
+
+def _read_quantity(motion: PistonMotion, part: str) -> float:
+    velocity = motion.velocity
+    return {
+        "mean_speed": motion.mean_speed_m_per_s,
+        "max_speed": max(velocity.max_m_per_s, -velocity.min_m_per_s),
+        "max_acceleration": motion.acceleration.max_m_per_s2,
+        "stroke": motion.stroke_m,
+    }[part]
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)
 
 
 # ------------------------------------------------------------------ how it is shown

@@ -109,7 +109,7 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom().lay_out_journals(result.journals, system)
+        yield from _import_seldom().lay_out_journals(result.journals, result.engine, system)
     if result.masses is not None:
         yield _import_seldom().lay_out_masses(result.masses, system)
     if result.why is not None:

@@ -33,10 +33,17 @@ if TYPE_CHECKING:
 
 
 class Bearings(NamedTuple):
-    """Projected area (diameter times width) of each bearing, m2; None where the file gives none."""
+    """Bearings of the crankshaft; None where the file gives none.
+
+    Attributes:
+        pin_m2, main_m2: Projected area (diameter times width) of each bearing.
+        pin_m, main_m: Outer and inner diameter of each journal.
+    """
 
     pin_m2: float | None = None
     main_m2: float | None = None
+    pin_m: tuple[float, float] | None = None
+    main_m: tuple[float, float] | None = None
 
 
 class SilentCylinders(NamedTuple):

@@ -13,7 +13,8 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import NamedTuple
 
-ENGINE, GUIDE, CYCLE, MOUNTS, TORSION = "engine", "guide", "cycle", "mounts", "torsion"
+ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
+JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
 # Chapter, pattern, unit, table of the file that is needed, meaning.
@@ -34,6 +35,20 @@ cycle    torque.mean          N·m gas     mean torque of the gas
 cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
 cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
 cycle    fluctuation              gas     highest less lowest speed, over the mean
+piston   piston.mean_speed         m/s         mean speed of piston 1; piston.N: of another
+piston   piston.max_speed          m/s         its largest speed, in either direction
+piston   piston.max_acceleration   m/s²         its largest acceleration towards the crank
+piston   piston.stroke             m           its true stroke
+piston   piston.N.mean_speed       m/s         mean speed of piston N
+piston   piston.N.max_speed        m/s         its largest speed, in either direction
+piston   piston.N.max_acceleration m/s²         its largest acceleration towards the crank
+piston   piston.N.stroke           m           its true stroke
+journals journal.N.range      N·m         highest less lowest torque in main journal N, gas included
+journals journal.N.max        N·m         highest torque in main journal N, gas included
+journals journal.N.min        N·m         lowest torque in main journal N, gas included
+journals pin.N.range          N·m         highest less lowest torque in the crank pin of throw N
+journals pin.N.max            N·m         highest torque in the crank pin of throw N
+journals pin.N.min            N·m         lowest torque in the crank pin of throw N
 mounts   mode.N.Hz            Hz  mount   natural frequency on the mounts
 mounts   mode.N.share         %   mount   largest share of its energy in one motion
 mounts   mode.N.damping       %   mount   its damping ratio
@@ -51,7 +66,7 @@ torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, 
 times the speed
 torsion  shaft.NAME.stress    Pa  torsion its largest vibratory stress there
 """
-_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3}) (.{7}) (.+)")
+_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3,4}?) (.{7}) (.+)")
 _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "PART": ".+"}
 
 
