@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
+from ..core.vibration import Indices
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row
 from ..engine.load import FiguresOfVariants
@@ -174,9 +175,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
     """
     engine = check_engine("analyze_pistons", engine)
     c, numbers = engine.cylinders, np.array(engine.numbers)
-    orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
-    harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
-    which = np.broadcast_to(which, len(numbers))
+    orders, each, which = _find_series(engine)
     omega, radius = float(engine.omega), float(c.radius)
     travel, bore = find_travel(c), float(engine.bore_m)
     mechanisms = []
@@ -188,7 +187,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
         hung = isinstance(c.linkage, Articulated) and bool(c.linkage.master[first] != first)
         lam = float(np.broadcast_to(c.lam, len(numbers))[first])
         centred = c.linkage is None and not np.broadcast_to(c.eps, len(numbers))[first]
-        series = np.asarray(harmonics["piston"].c[:, kind], complex)
+        series = each[:, kind]
         mechanisms.append(
             PistonMotion(
                 cylinders=tuple(sorted(numbers[rows].tolist())),
@@ -213,6 +212,52 @@ def analyze_pistons(engine: Engine) -> Pistons:
         mechanisms=tuple(mechanisms),
         engine=engine,
     )
+
+
+def _find_series(engine: Engine) -> tuple[Array, Complex, Indices]:
+    """Return the orders, the phasors of the acceleration over r omega^2 of each distinct mechanism,
+    shape (orders, mechanisms), and the mechanism of each cylinder.
+    """
+    c = engine.cylinders
+    orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
+    harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
+    return orders, np.asarray(harmonics["piston"].c, complex), np.broadcast_to(which, c.count)
+
+
+class MotionCurve(NamedTuple):
+    """Motion over a cylinder's own crank angle psi: `mean + Re sum of c_n e^{i n psi}`.
+
+    Attributes:
+        orders: Orders n, shape (orders,).
+        phasors: Coefficients c, shape (orders,), of the unit of the curve.
+        mean: Mean value.
+    """
+
+    orders: Array
+    phasors: Complex
+    mean: float = 0.0
+
+    def at(self, angle: Array) -> Array:
+        """Return the value at own crank angles, rad, of their shape."""
+        waves = np.exp(1j * np.multiply.outer(angle, self.orders))
+        return np.asarray(self.mean + (waves @ self.phasors).real)
+
+
+def find_motion(engine: Engine, number: int) -> tuple[MotionCurve, MotionCurve, MotionCurve]:
+    """Return travel from the outer dead centre, m, velocity, m/s, and acceleration, m/s2, of a
+    piston at the mean speed, positive towards the crank.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    row, omega = find_row(engine, number, "--cylinder"), float(engine.omega)
+    orders, each, which = _find_series(engine)
+    series = float(engine.cylinders.radius) * each[:, which[row]]
+    travel = series / (1j * orders) ** 2
+    lowest = float(find_swing(orders, travel).lowest.value)
+    velocity = MotionCurve(orders, omega * series / (1j * orders))
+    acceleration = MotionCurve(orders, omega**2 * series)
+    return MotionCurve(orders, travel, -lowest), velocity, acceleration
 
 
 def choose_cylinder(result: Pistons, number: int) -> Pistons:
@@ -363,7 +408,7 @@ def sheet(result: Pistons, system: System) -> Sheet:
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 
 
-def _choose_unit(name: str, system: System) -> ShownUnit:
+def choose_unit(name: str, system: System) -> ShownUnit:
     """Return the unit in which people read a figure, by its path."""
     unit = find_unit(name)
     shown = {"m": system.length, "m³": system.volume}
@@ -373,14 +418,14 @@ def _choose_unit(name: str, system: System) -> ShownUnit:
 
 
 def _write(name: str, value: float, system: System) -> str:
-    return number(_choose_unit(name, system).of(value))
+    return number(choose_unit(name, system).of(value))
 
 
 def _label(name: str, system: System) -> str:
     """Return the label of a figure, with its unit."""
     plain = remove_unit(name).removesuffix("_own").replace("center", "centre")
     plain = plain.replace("type", "minima").replace(".", " ").replace("_", " ")
-    return name_with_unit(plain, _choose_unit(name, system).name)
+    return name_with_unit(plain, choose_unit(name, system).name)
 
 
 def rows(result: Pistons, system: System) -> Rows:

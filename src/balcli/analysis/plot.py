@@ -3,20 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import cycle
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.peaks import find_swing
 from ..core.phasors import Array, Phasors
+from ..engine.engine import Engine
 from ..forces.crankshaft import AlongCrank
-from ..show.plot_style import BLUE, GREEN, RED, SOFT, Look, put_legend_above
+from ..show.plot_style import (
+    BLUE,
+    GREEN,
+    INK,
+    MANY_LOOKS,
+    PAPER,
+    RED,
+    SOFT,
+    Look,
+    put_legend_above,
+)
 from ..show.sheet import VISIBLE, number, order_name, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import FactorPeaks
+from .crank_drive import CrankTorques, weigh_cylinders
+from .curves import compute_curves_by_step
 from .order_tables import fit_largest
+from .piston import MotionCurve, analyze_pistons, choose_cylinder, choose_unit, find_motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 _LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
@@ -190,3 +208,113 @@ def draw_along(
             ax.vlines(z, 0, sizes / s.size, label=label, **look)
     ax.set(ylabel=f"{what}, {s.name}", ylim=(0, None))
     put_legend_above(ax)
+
+
+# ------------------------------------------------------------------ crank drive
+_STEP = 0.5  # deg
+_MOTIONS = {
+    "Travel from the outer dead centre": "stroke_m",
+    "Velocity towards the crank": "velocity.max_m_per_s",
+    "Acceleration towards the crank": "acceleration.max_m_per_s2",
+}
+
+
+def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> None:
+    """Draw travel, velocity and acceleration of a piston over its own crank angle, and below them,
+    with gas of known pressure, side thrust and rod force over the cycle.
+
+    Args:
+        fig: Empty figure, whose height is set.
+        engine: Engine without trailing axes; its mean speed counts.
+        number: Number of the cylinder.
+        system: System of units.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    steady = replace(engine, ripple=())
+    motion = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
+    dead_deg = motion.outer_dead_center_own_deg, motion.inner_dead_center_own_deg
+    forces = None if engine.gas is None else compute_curves_by_step(steady, number, _STEP)
+    known = forces is not None and "rod_force_N" in forces.curves
+    fig.set_figheight(0.6 + 2.4 * (3 + known))
+    axes = fig.subplots(3 + known, 1)
+    shown = zip(axes, _MOTIONS.items(), find_motion(steady, number), strict=False)
+    for ax, (title, figure), curve in shown:
+        unit = choose_unit(figure, system)
+        _draw_motion(ax, curve, dead_deg, unit)
+        ax.set(title=title, ylabel=unit.name)
+    axes[0].set_title(f"Piston {number}: travel from the outer dead centre")
+    put_legend_above(axes[0])
+    places = " and ".join(f"{angle:.4g}" for angle in dead_deg)
+    axes[2].set_xlabel(f"crank angle from the cylinder's axis, deg; dotted: dead centres, {places}")
+    if forces is not None and known:
+        lines = {"side thrust": "side_thrust_N", "rod force": "rod_force_N"}
+        curves = {label: forces.curves[name] for label, name in lines.items()}
+        draw_curves(axes[3], np.radians(forces.crank_deg), curves, "force", system.force)
+        axes[3].set_title("Side thrust and rod force over the cycle")
+
+
+def _draw_motion(ax: Axes, curve: MotionCurve, dead_deg: Sequence[float], unit: ShownUnit) -> None:
+    """Draw a motion, its first two harmonics and, dashed, their sum with the mean; mark dead
+    centres and extremes.
+    """
+    degrees = np.arange(0.0, 360 + _STEP / 2, _STEP)
+    angle = np.radians(degrees)
+    for k, color in enumerate((RED, GREEN)):
+        single = MotionCurve(curve.orders[k : k + 1], curve.phasors[k : k + 1])
+        values = single.at(angle) / unit.size
+        ax.plot(degrees, values, color=color, linewidth=0.9, label=f"order {k + 1}")
+    both = MotionCurve(curve.orders[:2], curve.phasors[:2], curve.mean)
+    dashed = _DASHED | {"color": INK, "linewidth": 0.9, "zorder": 3}
+    ax.plot(degrees, both.at(angle) / unit.size, label="mean and orders 1, 2", **dashed)
+    ax.plot(degrees, curve.at(angle) / unit.size, color=BLUE, linewidth=2.2, label="exact")
+    for at in dead_deg:
+        ax.axvline(at % 360, color=INK, linewidth=0.9, linestyle=":")
+    for peak, side in zip(find_swing(curve.orders, curve.phasors), (1, -1), strict=True):
+        value, at = curve.mean + float(peak.value), np.degrees(float(peak.angle)) % 360
+        beside = (at < 20) - (at > 340)  # inwards from an edge of the picture
+        ax.plot([at], [value / unit.size], "o", color=INK, markersize=4, zorder=4)
+        ax.annotate(
+            number(unit.of(value)),
+            (at, value / unit.size),
+            xytext=(6 * beside, 6 * side),
+            textcoords="offset points",
+            ha=("center", "left", "right")[beside],
+            va="bottom" if side > 0 else "top",
+            fontsize=7.5,
+            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.5},
+        )
+    ax.axhline(0, color=SOFT, linewidth=0.7)
+    ax.margins(y=0.2)
+    ax.locator_params(axis="y", nbins=6)
+    set_crank_axis(ax, degrees, "")
+
+
+def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
+    """Draw the torque in every main journal over the cycle, at the mean speed.
+
+    Args:
+        ax: Axes to draw on.
+        engine: Engine without trailing axes.
+        unit: Unit of the torques.
+
+    Raises:
+        BalcliError: The crank of a rotary engine stands still.
+    """
+    cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
+    degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
+    weights = weigh_cylinders(engine)
+    torques, angle = CrankTorques.of(engine), np.radians(degrees)
+    curves = {
+        place: torques.sample(angle, share)
+        for place, share in weights.items()
+        if place.startswith("main")
+    }
+    s = unit.fit(max(float(np.abs(curve).max()) for curve in curves.values()))
+    for (place, curve), (line, color) in zip(curves.items(), cycle(MANY_LOOKS), strict=False):
+        ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
+    set_crank_axis(ax, degrees)
+    what = "inertia" if engine.gas is None else "gas and inertia"
+    ax.set(ylabel=f"torque, {s.name}", title=f"Torque in the main journals, of {what}")
+    ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))

@@ -48,7 +48,7 @@ from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
 from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
-from .pages import PageSubject, draw_panel
+from .pages import PageSubject, draw_panel, make_page
 from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
@@ -242,7 +242,12 @@ def _warning(chapter: str) -> Iterator[None]:
 
 
 def page(
-    found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
+    found: Answers,
+    system: System,
+    tell: Tell = tell_nobody,
+    *,
+    live: Node | None = None,
+    cylinder: int | None = None,
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
     gas. All text from the engine file is escaped.
@@ -252,6 +257,10 @@ def page(
         system: Units of figures and pictures.
         tell: Called with the share of the pictures of forces and moments that is drawn.
         live: Numbers to change on the page, as of `live.make_book`; None: none.
+        cylinder: Number of the cylinder whose piston is drawn, too; None: none.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
     """
     result, balanced, mounted, twisted, turning = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
@@ -277,6 +286,7 @@ def page(
         remedy=remedy.parts,
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
+        piston=None if cylinder is None else _draw_piston(now, cylinder),
         compared=pictures[len(alone) :],
         running=None if turning is None else running(turning, system),
         mounts=None if mounted is None else mounts.sheet(mounted, system),
@@ -341,6 +351,12 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     if remedy.reasons and not remedy.step:
         shown[f"scheme {remedy.scheme}"] = balanced.after
     return shown
+
+
+def _draw_piston(subject: PageSubject, cylinder: int) -> str:
+    """Return the picture of a piston's motion as SVG."""
+    figure = make_page(replace(subject, cylinder=cylinder), "piston")
+    return inline_svg(save_figure(figure, "svg"), "piston")
 
 
 def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:

@@ -24,10 +24,10 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
-from .names import OF_GAS
+from .names import OF_GAS, OF_PARTS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("ladder", "bank", *OF_GAS)  # studies of the engine as it is
+_ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # studies of the engine as it is
 
 
 class Banks(NamedTuple):
