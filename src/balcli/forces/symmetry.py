@@ -156,10 +156,11 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
 _GROUPS = {
     "force": ("force",),
     "moment": ("moment",),
+    "couple": ("couple",),
     "turning": ("couple", "torque"),
     "gas": ("gas",),
 }
-_WORDS = {"turning": "couple, torque and roll", "gas": "gas torque"}
+_WORDS = {"turning": "torque and roll", "gas": "gas torque"}
 _INERTIA = ("force", "moment", "couple", "torque", "roll")
 NEARLY = 1e-2  # of one cylinder
 _DRAWS = 3
@@ -172,7 +173,7 @@ class Reason(NamedTuple):
 
     Attributes:
         order: Order, above 0.
-        quantity: Group of kinds: force, moment, turning (couple, torque and roll) or gas.
+        quantity: Group of kinds: force, moment, couple, turning (torque and roll) or gas.
         verdict: "none": no cylinder has any; "symmetry": balanced for any masses and rod length
             that all cylinders have in common; "chance": balanced for these figures only; "nearly":
             less than 1 % of one cylinder is left; "unbalanced".
@@ -251,10 +252,10 @@ def explain_symmetry(
     Args:
         engine: without trailing axes.
         orders: multiples of 1/2, above 0.
-        kinds: any of force, moment, couple, torque, roll and gas; couple, torque and roll have one
-            reason in common.
+        kinds: any of force, moment, couple, torque, roll and gas; torque and roll have one reason
+            in common.
     """
-    asked = {"turning" if kind in _INERTIA[2:] else kind for kind in kinds}
+    asked = {"turning" if kind in ("torque", "roll") else kind for kind in kinds}
     groups = {
         group: parts
         for group, parts in _GROUPS.items()

@@ -331,7 +331,7 @@ class NamedQuantity:
     """Quantities by a pattern.
 
     Attributes:
-        name: N stands for an order, PART for a word of the meaning.
+        name: N stands for an order or a number, PART for a word of the meaning.
         unit: SI unit.
         meaning: Meaning in words.
     """
