@@ -35,7 +35,7 @@ from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..forces.crankshaft import find_shear_stress, place_bearings
-from ..forces.quantity import TargetQuantity
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
@@ -180,6 +180,9 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
 
 
 # ------------------------------------------------------------------ quantities of variants
+_KINDS = {"journal": "main", "pin": "pin"}
+
+
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of main journals and crank pins."""
     if not build(model).rotary:
@@ -189,24 +192,19 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity is of a journal or pin that the crankshaft does not have."""
-    places = weigh_cylinders(build(model))
+    places = [place.split() for place in weigh_cylinders(build(model))]
     for q in quantities:
-        if _name_place(q) not in places:
-            count = sum(place.startswith(_KINDS[q.kind]) for place in places)
-            raise BalcliError(f"{q.name}: there are {q.kind}s 1 to {count}")
+        refuse_stranger(q, [number_ for kind, number_ in places if kind == _KINDS[q.kind]])
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine, N m."""
     torques, places = CrankTorques.of(engine), weigh_cylinders(engine)
     found = dict[str, JournalTorque]()
-    for place in {_name_place(q) for q in quantities}:
+    for place in dict.fromkeys(map(_name_place, quantities)):
         weights = places[place]
         found[place] = torques.measure_total(weights) or torques.measure(weights)
     return [float(getattr(found[_name_place(q)], f"{q.part}_Nm")) for q in quantities]
-
-
-_KINDS = {"journal": "main", "pin": "pin"}
 
 
 def _name_place(q: TargetQuantity) -> str:

@@ -11,7 +11,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..core.phasors import Array, Complex, Phasors, wrap_degrees
 from ..file.fields import join_words
@@ -329,26 +328,26 @@ def verdict(
 _RODS = "the rods"
 
 
-def mark_couple(result: Analysis) -> NDArray[np.bool_]:
-    """Return which orders have a transverse couple that is not negligible, by the size that counts
-    for moments, shape (orders,).
+def find_couple(result: Analysis) -> Phasors | None:
+    """Return the orders of the transverse couple that are not negligible, by the size that counts
+    for moments; None if there are none.
     """
     couple, least = result.spectra.couple, NEGLIGIBLE * result.scales.moment
     if couple is None:
-        return np.zeros(len(result.orders), bool)
-    return np.asarray((couple.orders > 0) & (couple.major > least))
+        return None
+    due = (couple.orders > 0) & (couple.major > least)
+    return couple.select_orders(couple.orders[due]) if due.any() else None
 
 
 def tell_couple(result: Analysis, system: System) -> str:
     """Return a sentence on the largest transverse couple and its causes; empty if all orders of it
     are negligible.
     """
-    couple, due = result.spectra.couple, mark_couple(result)
-    if couple is None or not due.any():
+    if (couple := find_couple(result)) is None:
         return ""
-    largest = int(np.argmax(np.where(due, couple.major, 0)))
-    order, size = couple.orders[largest], size_text(float(couple.major[largest]), system.moment)
-    causes = _find_causes(result.engine, couple.orders[due], NEGLIGIBLE * result.scales.moment)
+    k = int(np.argmax(couple.major))
+    order, size = couple.orders[k], size_text(float(couple.major[k]), system.moment)
+    causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
     told = f"Transverse couple: up to {size} (order {order_name(order)}), from {join_words(causes)}"
     alone = causes == [_RODS] and result.engine.cylinders.linkage is None
     return f"{told}{'; rods with H = 0 have none' * alone}."

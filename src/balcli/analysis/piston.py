@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 import numpy as np
 
@@ -22,13 +22,11 @@ from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
-from ..core.vibration import Indices
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row
 from ..engine.load import FiguresOfVariants
-from ..errors import BalcliError
 from ..file.model import EngineFile
-from ..forces.quantity import TargetQuantity
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..show.csv import Rows
 from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer
@@ -175,7 +173,9 @@ def analyze_pistons(engine: Engine) -> Pistons:
     """
     engine = check_engine("analyze_pistons", engine)
     c, numbers = engine.cylinders, np.array(engine.numbers)
-    orders, each, which = _find_series(engine)
+    orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
+    harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
+    which = np.broadcast_to(which, len(numbers))
     omega, radius = float(engine.omega), float(c.radius)
     travel, bore = find_travel(c), float(engine.bore_m)
     mechanisms = []
@@ -187,7 +187,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
         hung = isinstance(c.linkage, Articulated) and bool(c.linkage.master[first] != first)
         lam = float(np.broadcast_to(c.lam, len(numbers))[first])
         centred = c.linkage is None and not np.broadcast_to(c.eps, len(numbers))[first]
-        series = each[:, kind]
+        series = np.asarray(harmonics["piston"].c[:, kind], complex)
         mechanisms.append(
             PistonMotion(
                 cylinders=tuple(sorted(numbers[rows].tolist())),
@@ -212,52 +212,6 @@ def analyze_pistons(engine: Engine) -> Pistons:
         mechanisms=tuple(mechanisms),
         engine=engine,
     )
-
-
-def _find_series(engine: Engine) -> tuple[Array, Complex, Indices]:
-    """Return the orders, the phasors of the acceleration over r omega^2 of each distinct mechanism,
-    shape (orders, mechanisms), and the mechanism of each cylinder.
-    """
-    c = engine.cylinders
-    orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
-    harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
-    return orders, np.asarray(harmonics["piston"].c, complex), np.broadcast_to(which, c.count)
-
-
-class MotionCurve(NamedTuple):
-    """Motion over a cylinder's own crank angle psi: `mean + Re sum of c_n e^{i n psi}`.
-
-    Attributes:
-        orders: Orders n, shape (orders,).
-        phasors: Coefficients c, shape (orders,), of the unit of the curve.
-        mean: Mean value.
-    """
-
-    orders: Array
-    phasors: Complex
-    mean: float = 0.0
-
-    def at(self, angle: Array) -> Array:
-        """Return the value at own crank angles, rad, of their shape."""
-        waves = np.exp(1j * np.multiply.outer(angle, self.orders))
-        return np.asarray(self.mean + (waves @ self.phasors).real)
-
-
-def find_motion(engine: Engine, number: int) -> tuple[MotionCurve, MotionCurve, MotionCurve]:
-    """Return travel from the outer dead centre, m, velocity, m/s, and acceleration, m/s2, of a
-    piston at the mean speed, positive towards the crank.
-
-    Raises:
-        BalcliError: The engine has no such cylinder.
-    """
-    row, omega = find_row(engine, number, "--cylinder"), float(engine.omega)
-    orders, each, which = _find_series(engine)
-    series = float(engine.cylinders.radius) * each[:, which[row]]
-    travel = series / (1j * orders) ** 2
-    lowest = float(find_swing(orders, travel).lowest.value)
-    velocity = MotionCurve(orders, omega * series / (1j * orders))
-    acceleration = MotionCurve(orders, omega**2 * series)
-    return MotionCurve(orders, travel, -lowest), velocity, acceleration
 
 
 def choose_cylinder(result: Pistons, number: int) -> Pistons:
@@ -337,27 +291,22 @@ def list_names(_: EngineFile) -> Iterator[str]:
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity is of a cylinder that the engine does not have."""
-    numbers = build(model).numbers
-    for q in quantities:
-        if q.target and float(q.target) not in numbers:
-            raise BalcliError(f"{q.name}: the engine has cylinders 1 to {max(numbers)}")
+    there = list(map(str, sorted(build(model).numbers)))
+    for q in (q for q in quantities if q.target):
+        refuse_stranger(q, there)
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
     """Return the value of each quantity of one engine, SI."""
     found = analyze_pistons(engine).mechanisms
     of_cylinder = {number: one for one in found for number in one.cylinders}
-    return [_read_quantity(of_cylinder[int(float(q.target or 1))], q.part) for q in quantities]
+    return [_read_quantity(of_cylinder[int(q.target or 1)], q.part) for q in quantities]
 
 
 def _read_quantity(motion: PistonMotion, part: str) -> float:
-    velocity = motion.velocity
-    return {
-        "mean_speed": motion.mean_speed_m_per_s,
-        "max_speed": max(velocity.max_m_per_s, -velocity.min_m_per_s),
-        "max_acceleration": motion.acceleration.max_m_per_s2,
-        "stroke": motion.stroke_m,
-    }[part]
+    speed = max(motion.velocity.max_m_per_s, -motion.velocity.min_m_per_s)
+    found = motion.mean_speed_m_per_s, speed, motion.acceleration.max_m_per_s2, motion.stroke_m
+    return dict(zip(_PARTS, found, strict=True))[part]
 
 
 Variants = partial(FiguresOfVariants, evaluate_engine)

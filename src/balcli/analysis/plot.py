@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import cycle
+from itertools import cycle as repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.peaks import find_swing
-from ..core.phasors import Array, Phasors
-from ..engine.engine import Engine
+from ..core.phasors import Array, Phasors, unit as unit_vector
+from ..engine.engine import Engine, find_row
 from ..forces.crankshaft import AlongCrank
 from ..show.plot_style import (
     BLUE,
@@ -28,9 +27,9 @@ from ..show.sheet import VISIBLE, number, order_name, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import FactorPeaks
 from .crank_drive import CrankTorques, weigh_cylinders
-from .curves import compute_curves_by_step
+from .curves import compute_curves_by_step, compute_cylinder_curves
 from .order_tables import fit_largest
-from .piston import MotionCurve, analyze_pistons, choose_cylinder, choose_unit, find_motion
+from .piston import analyze_pistons, choose_cylinder, choose_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -212,11 +211,13 @@ def draw_along(
 
 # ------------------------------------------------------------------ crank drive
 _STEP = 0.5  # deg
-_MOTIONS = {
-    "Travel from the outer dead centre": "stroke_m",
-    "Velocity towards the crank": "velocity.max_m_per_s",
-    "Acceleration towards the crank": "acceleration.max_m_per_s2",
+_MOTIONS = {  # titles, by names of curves
+    "travel_m": "Piston {}: travel from the outer dead centre",
+    "velocity_m_per_s": "Velocity towards the crank",
+    "acceleration_m_per_s2": "Acceleration towards the crank",
 }
+_FORCES = ("side thrust", "rod force")
+_ON_PAPER = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
 def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> None:
@@ -232,63 +233,61 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    steady = replace(engine, ripple=())
-    motion = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
-    dead_deg = motion.outer_dead_center_own_deg, motion.inner_dead_center_own_deg
-    forces = None if engine.gas is None else compute_curves_by_step(steady, number, _STEP)
-    known = forces is not None and "rod_force_N" in forces.curves
+    steady, row = replace(engine, ripple=()), find_row(engine, number, "--cylinder")
+    found = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
+    own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
+    turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
+    curves = compute_cylinder_curves(steady, number, turned).curves
+    outer, inner = found.outer_dead_center_own_deg % 360, found.inner_dead_center_own_deg
+    v, a = found.velocity, found.acceleration
+    extremes = (
+        ((inner, found.stroke_m), (outer, 0.0)),
+        ((v.max_own_deg, v.max_m_per_s), (v.min_own_deg, v.min_m_per_s)),
+        ((a.max_own_deg, a.max_m_per_s2), (a.min_own_deg, a.min_m_per_s2)),
+    )
+    cycle = None if engine.gas is None else compute_curves_by_step(steady, number, _STEP)
+    known = cycle is not None and "rod_force_N" in cycle.curves
     fig.set_figheight(0.6 + 2.4 * (3 + known))
     axes = fig.subplots(3 + known, 1)
-    shown = zip(axes, _MOTIONS.items(), find_motion(steady, number), strict=False)
-    for ax, (title, figure), curve in shown:
-        unit = choose_unit(figure, system)
-        _draw_motion(ax, curve, dead_deg, unit)
-        ax.set(title=title, ylabel=unit.name)
-    axes[0].set_title(f"Piston {number}: travel from the outer dead centre")
+    for ax, (name, title), peaks in zip(axes, _MOTIONS.items(), extremes, strict=False):
+        unit = choose_unit(name, system)
+        points = [(angle, value / unit.size) for angle, value in peaks]
+        _draw_motion(ax, own_deg, curves[name] / unit.size, points)
+        for angle in (outer, inner):
+            ax.axvline(angle, color=INK, linewidth=0.9, linestyle=":")
+        ax.set(title=title.format(number), ylabel=unit.name)
     put_legend_above(axes[0])
-    places = " and ".join(f"{angle:.4g}" for angle in dead_deg)
-    axes[2].set_xlabel(f"crank angle from the cylinder's axis, deg; dotted: dead centres, {places}")
-    if forces is not None and known:
-        lines = {"side thrust": "side_thrust_N", "rod force": "rod_force_N"}
-        curves = {label: forces.curves[name] for label, name in lines.items()}
-        draw_curves(axes[3], np.radians(forces.crank_deg), curves, "force", system.force)
+    places = f"dead centres, {outer:.4g} and {inner:.4g}"
+    axes[2].set_xlabel(f"crank angle from the cylinder's axis, deg; dotted: {places}")
+    if cycle is not None and known:
+        forces = {name: cycle.curves[f"{name.replace(' ', '_')}_N"] for name in _FORCES}
+        draw_curves(axes[3], np.radians(cycle.crank_deg), forces, "force", system.force)
         axes[3].set_title("Side thrust and rod force over the cycle")
 
 
-def _draw_motion(ax: Axes, curve: MotionCurve, dead_deg: Sequence[float], unit: ShownUnit) -> None:
-    """Draw a motion, its first two harmonics and, dashed, their sum with the mean; mark dead
-    centres and extremes.
+def _draw_motion(
+    ax: Axes, own_deg: Array, exact: Array, extremes: Sequence[tuple[float, float]]
+) -> None:
+    """Draw a motion over a revolution, its first two harmonics and, dashed, their sum with the
+    mean; mark the highest and the lowest point.
     """
-    degrees = np.arange(0.0, 360 + _STEP / 2, _STEP)
-    angle = np.radians(degrees)
-    for k, color in enumerate((RED, GREEN)):
-        single = MotionCurve(curve.orders[k : k + 1], curve.phasors[k : k + 1])
-        values = single.at(angle) / unit.size
-        ax.plot(degrees, values, color=color, linewidth=0.9, label=f"order {k + 1}")
-    both = MotionCurve(curve.orders[:2], curve.phasors[:2], curve.mean)
+    mean, *waves = np.fft.rfft(exact[:-1], norm="forward")[:3]
+    parts = [2 * (c * unit_vector(n * own_deg)).real for n, c in enumerate(waves, 1)]
+    for order, (part, color) in enumerate(zip(parts, (RED, GREEN), strict=True), 1):
+        ax.plot(own_deg, part, color=color, linewidth=0.9, label=f"order {order}")
     dashed = _DASHED | {"color": INK, "linewidth": 0.9, "zorder": 3}
-    ax.plot(degrees, both.at(angle) / unit.size, label="mean and orders 1, 2", **dashed)
-    ax.plot(degrees, curve.at(angle) / unit.size, color=BLUE, linewidth=2.2, label="exact")
-    for at in dead_deg:
-        ax.axvline(at % 360, color=INK, linewidth=0.9, linestyle=":")
-    for peak, side in zip(find_swing(curve.orders, curve.phasors), (1, -1), strict=True):
-        value, at = curve.mean + float(peak.value), np.degrees(float(peak.angle)) % 360
-        beside = (at < 20) - (at > 340)  # inwards from an edge of the picture
-        ax.plot([at], [value / unit.size], "o", color=INK, markersize=4, zorder=4)
-        ax.annotate(
-            number(unit.of(value)),
-            (at, value / unit.size),
-            xytext=(6 * beside, 6 * side),
-            textcoords="offset points",
-            ha=("center", "left", "right")[beside],
-            va="bottom" if side > 0 else "top",
-            fontsize=7.5,
-            bbox={"facecolor": PAPER, "edgecolor": "none", "pad": 0.5},
-        )
+    ax.plot(own_deg, mean.real + sum(parts), label="mean and orders 1, 2", **dashed)
+    ax.plot(own_deg, exact, color=BLUE, linewidth=2.2, label="exact")
+    for (angle, value), side in zip(extremes, (1, -1), strict=True):
+        beside = (angle < 20) - (angle > 340)  # inwards from an edge of the picture
+        ax.plot([angle], [value], "o", color=INK, markersize=4, zorder=4)
+        shift, align = (6 * beside, 9 * side), ("center", "left", "right")[beside]
+        label: Look = {"xytext": shift, "textcoords": "offset points", "ha": align, "va": "center"}
+        ax.annotate(number(value), (angle, value), fontsize=7.5, bbox=_ON_PAPER, **label)
     ax.axhline(0, color=SOFT, linewidth=0.7)
     ax.margins(y=0.2)
     ax.locator_params(axis="y", nbins=6)
-    set_crank_axis(ax, degrees, "")
+    set_crank_axis(ax, own_deg, "")
 
 
 def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
@@ -304,15 +303,11 @@ def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     """
     cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
     degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
-    weights = weigh_cylinders(engine)
-    torques, angle = CrankTorques.of(engine), np.radians(degrees)
-    curves = {
-        place: torques.sample(angle, share)
-        for place, share in weights.items()
-        if place.startswith("main")
-    }
+    torques, shares, angle = CrankTorques.of(engine), weigh_cylinders(engine), np.radians(degrees)
+    mains = [place for place in shares if place.startswith("main")]
+    curves = {place: torques.sample(angle, shares[place]) for place in mains}
     s = unit.fit(max(float(np.abs(curve).max()) for curve in curves.values()))
-    for (place, curve), (line, color) in zip(curves.items(), cycle(MANY_LOOKS), strict=False):
+    for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
     set_crank_axis(ax, degrees)
     what = "inertia" if engine.gas is None else "gas and inertia"

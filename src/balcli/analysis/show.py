@@ -12,6 +12,7 @@ import numpy as np
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
+from ..forces.spectrum import Spectra
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
@@ -41,8 +42,8 @@ from .order_tables import (
     textbook_tables,
 )
 from .overview import (
+    find_couple,
     find_orders_that_matter,
-    mark_couple,
     roll_and_peaks,
     tell_couple,
     tell_others,
@@ -160,9 +161,9 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
-    if (due := mark_couple(result)).any():
-        couple = spectra.only([COUPLE.name]).select_orders(spectra.orders[due])
-        yield from order_tables(couple, system, tell_pivot(result.engine))
+    if (couple := find_couple(result)) is not None:
+        alone = Spectra(couple.orders, couple=couple)
+        yield from order_tables(alone, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:
         yield facts

@@ -70,11 +70,9 @@ def tell_change(result: Balance, system: System) -> str:
         return ""
     sizes = [one["unbalance_kg_m"] for one in changes]
     alike = all(abs(size - sizes[0]) <= 1e-9 * abs(sizes[0]) for size in sizes)
-    what = []
+    everywhere, what = "each pin" if len(sizes) > 1 else "the pin", []
     for one, size in zip(changes, sizes, strict=True):
-        pin = f"pin {one['throw']}"
-        if alike:
-            pin = "each pin" if len(sizes) > 1 else "the pin"
+        pin = everywhere if alike else f"pin {one['throw']}"
         done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
         what.append(done if size else f"nothing to do at {pin}")
     has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])

@@ -20,13 +20,13 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import mark_couple, name_column
+from ..analysis.overview import name_column, tell_couple
 from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import CrankLoads, find_crank_loads
-from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
 from ..show.csv import Columns, Rows
@@ -136,14 +136,8 @@ def _tell_couple(result: Balance, system: System) -> str:
     """Return words on the transverse couple that the devices leave as it was; empty if it is
     negligible, or if they change it.
     """
-    couples = [one.spectra[COUPLE.name].major for one in (result.before, result.after)]
-    due = mark_couple(result.after)
-    if not due.any() or _find_changes(*couples)[due].any():
-        return ""
-    k = int(np.argmax(np.where(due, couples[1], 0)))
-    order, size = result.after.orders[k], size_text(float(couples[1][k]), system.moment)
-    told = f"Transverse couple: up to {size} (order {order_name(order)})"
-    return f"{told}; no scheme changes the couple."
+    before, after = (tell_couple(one, system) for one in (result.before, result.after))
+    return f"{after} No scheme changes the couple." if after and after == before else ""
 
 
 def _tell_bearings(result: Balance, system: System) -> str:

@@ -88,7 +88,7 @@ def report(
         book = live.describe_one(
             model, engine, system, text.decode(), name_file(path), options.read_small()
         )
-        page = pages.page(found, system, tell, live=book, cylinder=cylinder)
+        page = pages.page(found._replace(cylinder=cylinder), system, tell, live=book)
     emit(page, output)
 
 

@@ -188,13 +188,16 @@ _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
 
 
 class Answers(NamedTuple):
-    """Results in a report on an engine; None for a chapter that its file does not have."""
+    """Results in a report on an engine; None for a chapter that its file does not have. The motion
+    of one piston is drawn if its cylinder is named.
+    """
 
     result: Analysis
     balanced: Balance
     mounted: MountReport | None = None
     twisted: TorsionAnalysis | None = None
     turning: Engine | None = None
+    cylinder: int | None = None
 
 
 def find_answers(
@@ -242,12 +245,7 @@ def _warning(chapter: str) -> Iterator[None]:
 
 
 def page(
-    found: Answers,
-    system: System,
-    tell: Tell = tell_nobody,
-    *,
-    live: Node | None = None,
-    cylinder: int | None = None,
+    found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
     """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
     gas. All text from the engine file is escaped.
@@ -257,12 +255,11 @@ def page(
         system: Units of figures and pictures.
         tell: Called with the share of the pictures of forces and moments that is drawn.
         live: Numbers to change on the page, as of `live.make_book`; None: none.
-        cylinder: Number of the cylinder whose piston is drawn, too; None: none.
 
     Raises:
-        BalcliError: The engine has no such cylinder.
+        BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, turning = found
+    result, balanced, mounted, twisted, turning, cylinder = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
