@@ -261,12 +261,10 @@ def find_differences(
 
 def _is_equal_peak(engine: Engine, moved: Difference, tolerance: float) -> bool:
     """Return whether a difference is that of the angles of two peaks that are equally high."""
-    if moved.figure not in ("peak force_deg", "peak moment_deg"):
-        return False
+    kind = {"peak force_deg": "force", "peak moment_deg": "moment"}.get(moved.figure)
     degrees = moved.recorded, moved.now
-    if None in degrees:  # a peak of 0, whose value is compared
-        return True
-    kind = moved.figure.removeprefix("peak ").removesuffix("_deg")
+    if kind is None or None in degrees:  # no angle: a peak of 0, whose value is compared
+        return kind is not None
     curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
     then, now = np.abs(curve.values(np.radians(np.array(degrees, float)))).tolist()
     return bool(then >= now * (1 - tolerance))

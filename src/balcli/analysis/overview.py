@@ -314,13 +314,9 @@ def verdict(
     if told or small_ones or min(balanced, default=3) <= 2:  # odd ones are of no interest then
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
-    with_couple = [one.order for one in every if one.couple and one.order in balanced]
-    without = [order for order in balanced if order not in with_couple]
-    rest = (
-        _tell_balanced(with_couple, [*names, COUPLE.name]),
-        _tell_balanced(without, names),
-        small_ones and f"small: {small_ones}",
-    )
+    if all(one.couple for one in every if one.order in balanced):
+        names.append(COUPLE.name)
+    rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
     last = "; ".join(filter(None, rest))
     return (*told, sentence(last)) if last else tuple(told)
 

@@ -303,9 +303,9 @@ def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     """
     cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
     degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
-    torques, shares, angle = CrankTorques.of(engine), weigh_cylinders(engine), np.radians(degrees)
-    mains = [place for place in shares if place.startswith("main")]
-    curves = {place: torques.sample(angle, shares[place]) for place in mains}
+    torques, angle = CrankTorques.of(engine), np.radians(degrees)
+    mains = [each for each in weigh_cylinders(engine).items() if each[0].startswith("main")]
+    curves = {place: torques.sample(angle, weights) for place, weights in mains}
     s = unit.fit(max(float(np.abs(curve).max()) for curve in curves.values()))
     for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)

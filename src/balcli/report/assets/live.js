@@ -210,8 +210,8 @@
   // that turns with the crank, or the one that turns against it, is not small compared with one cylinder's.
   function writeVerdict() {
     const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
-    const sentences = [], balanced = { couple: [], other: [] }, most = {}, NAMED = { force: "force", moment: "longitudinal moment" };
-    let turning = { size: 0 };
+    const sentences = [], balanced = [], most = {}, NAMED = { force: "force", moment: "longitudinal moment" };
+    let turning = { size: 0 }, still = true;
     for (const n of listShownOrders(kinds)) {
       const vectors = types.map((type) => {
         const parts = (kinds[type][n] || []).map((v) => Math.hypot(...v)), size = parts.reduce((a, b) => a + b, 0);
@@ -222,13 +222,16 @@
       const tell = ({ type, size }) => `${NAMED[type]} of ${sizeText(type, size)}`;
       const large = vectors.filter((each) => each.large).map(tell);
       if (large.length) sentences.push(`${nameOrder(n)} order: ${large.join(" and ")}.`);
-      else if (n <= 2 && vectors.every(({ size }) => !size)) balanced[couple ? "other" : "couple"].push(n);
+      else if (n <= 2 && vectors.every(({ size }) => !size)) {
+        balanced.push(n);
+        still = still && !couple;
+      }
       for (const one of vectors.filter((each) => !each.large)) if (one.size > (most[one.type]?.size || 0)) most[one.type] = { size: one.size, text: `${tell(one)} (order ${n})` };
     }
     const small = Object.values(most).map(({ text }) => text).join(", ");
-    const name = (orders, names) => orders.length ? [`order${orders.length > 1 ? "s" : ""} ${orders.join(" and ")}: ${names} balanced`] : [];
-    const listed = data.known ? "force, moment and couple" : "force and couple";
-    const rest = [...name(balanced.couple, listed), ...name(balanced.other, types.join(" and ")), ...(small ? [`small: ${small}`] : [])];
+    const names = [...types, ...(still ? ["couple"] : [])], which = `order${balanced.length > 1 ? "s" : ""} ${balanced.join(" and ")}`;
+    const listed = `${names.slice(0, -1).join(", ")}${names.length > 1 ? " and " : ""}${names.at(-1)}`;
+    const rest = [...(balanced.length ? [`${which}: ${listed} balanced`] : []), ...(small ? [`small: ${small}`] : [])];
     if (rest.length) sentences.push(`${capital(rest.join("; "))}.`);
     if (turning.n) sentences.push(`Transverse couple: up to ${sizeText("moment", turning.size)} (order ${turning.n}).`);
     return [...sentences, ...(data.known ? [] : [book.unknown])].join(" ");
