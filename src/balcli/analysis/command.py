@@ -118,10 +118,10 @@ def compare(
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
-    """Reject parts of `analyze` that describe one engine alone.
+    """Reject parts of `analyze` that describe a single engine.
 
     Raises:
-        BalcliError: Names the command that shows them.
+        BalcliError: There is such a part; the error names the command that shows it.
     """
     if of_one := [word for word in words if word in PARTS]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])

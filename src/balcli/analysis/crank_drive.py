@@ -1,16 +1,17 @@
 """Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
 `--only masses`).
 
-The crankshaft is rigid, turns at the steady mean speed and gives its torque off at the flywheel
-end. With T_i the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque
-of all throws before it, `M_j = sum T_i, i < j`, and the pin of throw i `M_i + T_i/2`: the bearing
-before the throw takes half of the tangential force, at the arm r from the pin. The nominal shear
-stress of a hollow journal is `16 T D/(pi (D^4 - d^4))`.
+The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
+If T_i is the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque of
+all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`, because the
+bearing before the throw takes half of the tangential force, at the arm r from the pin. The nominal
+shear stress of a hollow journal under the torque T is `16 T D/(pi (D^4 - d^4))`.
 
-With l the length of the rod, a the distance of its centre of mass from the piston pin and b from
-the crank pin, its two masses are m b/l at the small and m a/l at the big end. They have the moment
-of inertia m a b about the centre of mass, the rod has J; H = m a b - J. A rod that swings about the
-piston pin has the reduced length (J + m a^2)/(m a), which is l if H = 0.
+Let l be the length of a rod, m its mass, a the distance of its centre of mass from the piston pin,
+and b that from the crank pin. The rod is represented by the masses m b/l at the small end and m a/l
+at the big end. About the centre of mass, these have the moment of inertia m a b and the rod has J;
+their difference is H = m a b - J. A rod that swings about the piston pin has the reduced length (J
++ m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
 _SPLIT = (
     "Split pins of one throw count as one pin: the torque in the web between them is not computed."
 )
-_ROUNDING = 1e-12  # of the sum of all cylinders' amplitudes: less is no torque
+_ROUNDING = 1e-12  # share of the sum of all cylinders' amplitudes; less is rounding
 
 
 def find_journals(engine: Engine) -> tuple[Journal, ...]:
@@ -57,7 +58,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
         engine: Engine without trailing axes.
 
     Raises:
-        BalcliError: The crank of a rotary engine stands still.
+        BalcliError: The engine is rotary: its crank is at rest.
     """
     places = engine.joined_throws_m
     kinds = {"pin": places, "main": place_bearings(places)}
@@ -167,7 +168,9 @@ def _write(
 
 
 def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStress | None:
-    """Return the stress of a journal of a kind, pin or main; None without its diameter."""
+    """Return the stress of a journal of this kind (pin or main); None if its diameter is not
+    given.
+    """
     bearings = engine.bearings
     diameters = None if bearings is None else bearings.pin_m if kind == "pin" else bearings.main_m
     if diameters is None:
@@ -216,7 +219,7 @@ Variants = partial(FiguresOfVariants, evaluate_engine)
 
 # ------------------------------------------------------------------ how it is shown
 def lay_out_journals(journals: Sequence[Journal], engine: Engine, system: System) -> Iterator[Grid]:
-    """Yield a table of the torques in journals and pins, and with gas one of inertia alone.
+    """Yield a table of the torques in journals and pins; with gas, also one of inertia only.
 
     Args:
         journals: Journals, from the free end.
@@ -270,7 +273,7 @@ def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
 
 # ------------------------------------------------------------------ masses
 def list_masses(engine: Engine) -> tuple[Masses, ...]:
-    """Return the masses of each distinct set of parts, in the order of the lowest cylinder.
+    """Return the masses of each distinct set of parts, sorted by the lowest cylinder number.
 
     Args:
         engine: Engine without trailing axes.
@@ -325,7 +328,7 @@ _LABELS = {
 
 
 def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
-    """Return a table: a figure a row, cylinders with equal parts a column.
+    """Return a table with a row for each figure and a column for cylinders with equal parts.
 
     Args:
         masses: Masses of each distinct set of parts.
@@ -345,7 +348,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
 
 
 def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
-    """Yield every figure of the masses, SI, by the lowest cylinder of each set."""
+    """Yield every figure of the masses, SI, with the lowest cylinder number of each set."""
     for one in masses:
         for name, value, unit in list_figures(to_document(one), ("cylinders",)):
             yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)

@@ -1,4 +1,4 @@
-"""Base class of all tables of a file: types of figures, and rules for keys."""
+"""Base class of all tables of a file, and types for their keys."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
-# Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
+# The bounds of figures are far beyond every engine, and low enough that products and powers do not
+# overflow.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
@@ -34,7 +35,7 @@ Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
-Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+Angle = Annotated[float, Number(ANGLE, most=1e9)]  # more than a million turns
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -42,7 +43,7 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
 GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-FIT = "fit"  # in place of an unbalance: `balance` finds it
+FIT = "fit"  # instead of an unbalance: `balance` computes it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
@@ -86,8 +87,8 @@ class KeyDocument(NamedTuple):
     """The documentation of a key.
 
     Attributes:
-        description: what the key means.
-        example: a value that it may have; None: no example.
+        description: Meaning of the key.
+        example: Example of a value; None if there is none.
     """
 
     description: str = ""
@@ -95,8 +96,8 @@ class KeyDocument(NamedTuple):
 
 
 class FileTable(BaseModel):
-    """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
-    with `_check_` are its rules: each yields contradictions between keys, in words.
+    """A table of an engine file. It is frozen and rejects unknown keys. Its methods `_check_...`
+    are rules: each yields contradictions between keys, in words.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -104,7 +105,7 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
-        """Refuse contradictions; each is an argument of the error."""
+        """Reject contradictions; each is an argument of the error."""
         given = self.model_fields_set
         of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
         if found := [*of_choices, *self.contradictions()]:
@@ -112,8 +113,8 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield the contradictions between the keys of this table that its rules find, those of its
-        bases first.
+        """Yield the contradictions that the rules of this table find; rules of base classes come
+        first.
         """
         for base in reversed(type(self).__mro__):
             for name, rule in vars(base).items():
@@ -130,7 +131,7 @@ class FileTable(BaseModel):
 
     @classmethod
     def keys(cls) -> dict[str, FieldInfo]:
-        """Return the fields of this table by their keys, as a file has them."""
+        """Return the fields of this table by their keys in a file."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
@@ -149,15 +150,15 @@ class FileTable(BaseModel):
 
 @cache
 def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
-    """Return the documentation of every key of a table. It stands in the string below the key and
-    ends with an example in TOML. Python keeps no such string, so the source is read.
+    """Return the documentation of every key of a table: the string below the key, which ends with
+    an example in TOML. Python does not keep such strings, so the source is read.
     """
     found = dict.fromkeys(table.keys(), KeyDocument())
     for base in reversed(table.__mro__):
         if issubclass(base, FileTable) and base is not FileTable:
             found |= _read_documents(base)
     for key, field in table.keys().items():
-        if field.description:  # a table that uses pydantic's own words
+        if field.description:  # a table that declares pydantic descriptions
             found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
     return found
 

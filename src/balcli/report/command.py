@@ -1,4 +1,4 @@
-"""The commands `report` and `plot`."""
+"""The commands `balcli report` and `balcli plot`."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ def report(
     cylinder: Annotated[int | None, optional("N", "Also the motion of this piston.")] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Write one self-contained page: the engine in motion, its free forces and moments, and a
-    balance scheme before and after.
+    """Write a self-contained page: the engine in motion, and its free forces and moments without
+    and with a balance scheme.
 
     \b
     Example:
@@ -93,7 +93,7 @@ def report(
 
 
 def complete_pages(typed: str) -> list[str]:
-    """Return page names after the last comma of what was typed."""
+    """Return completions of the page name after the last comma of the typed text."""
     before, comma, _ = typed.rpartition(",")
     return [f"{before}{comma}{page}" for page in PAGES]
 
@@ -130,7 +130,7 @@ def plot(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
     form, pages = picture_form(output), parse_pages(what)
-    files = [output]  # of one page, and of a PDF
+    files = [output]  # one page, or a PDF
     if len(pages) > 1 and form != "pdf":
         files = [output.with_stem(f"{output.stem}-{page}") for page in pages]
     readings = len({page in OF_TORSION for page in pages})
@@ -146,6 +146,6 @@ def plot(
 
 
 def parse_pages(text: str) -> tuple[str, ...]:
-    """Return the pages of `--what`, each once; raise BalcliError if there is no such page."""
+    """Return the pages of `--what` without repetition; raise BalcliError for an unknown page."""
     words = dict.fromkeys(word.strip().lower() for word in text.split(",") if word.strip())
     return tuple(check_page(word) for word in words or ("",))

@@ -1,4 +1,4 @@
-"""`plot` in Python, and the pages of `balcli plot`, drawn and written."""
+"""The function `plot`, and the drawing and writing of the pages of `balcli plot`."""
 
 from __future__ import annotations
 
@@ -155,11 +155,11 @@ _SHOWN = {
     "inner": "inner",
     "bank": "force",
     "ladder": "ladder",
-}  # the only results that these pages need
+}  # the only results that pages need
 
 
 class Asked(NamedTuple):
-    """Options as typed; options of a balance scheme as they were read."""
+    """Options as typed, except the parsed options of a balance scheme."""
 
     speed: str | None
     orders: str | None
@@ -171,11 +171,11 @@ class Asked(NamedTuple):
 
 
 def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
-    """Return a figure for each page of an engine file, which is read once for pages of torsion and
-    once for all others.
+    """Return a figure for each page of an engine file. The file is read once for pages of torsion
+    and once for all others.
 
     Raises:
-        BalcliError: an option does not suit a page, or the file lacks the subject of a page.
+        BalcliError: an option does not suit a page, or the file lacks data for a page.
     """
     found: dict[str, Figure] = {}
     if asked.cylinder is not None and "piston" not in pages:

@@ -1,6 +1,5 @@
-"""The one table of quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
-meanings, and the chapters that compute them. Help, errors and completion read it; `quantities`
-loads a chapter when one of its quantities is requested.
+"""Table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
+meanings, and the chapter that computes each. Help, errors and completion use it.
 
 `N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
 x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
@@ -71,13 +70,13 @@ _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "P
 
 
 class Form(NamedTuple):
-    """Quantities with names of one pattern.
+    """Quantities whose names match a pattern.
 
     Attributes:
         chapter: Chapter that computes them: ENGINE, or a key of `names.QUANTITIES`.
         pattern: Pattern of their names.
         unit: SI unit.
-        table: Table of the engine file that they need; empty: every engine has them.
+        table: Table of the engine file that they require; empty if every engine has them.
         words: Meaning in words.
     """
 
@@ -108,7 +107,7 @@ _RANGES = (
 
 
 def describe_names() -> str:
-    """Return all names in words, for help."""
+    """Return a description of all names for help."""
     chapters = (list(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
     names = "; ".join(", ".join(join_patterns(forms)) for forms in chapters)
     return (
@@ -118,15 +117,15 @@ def describe_names() -> str:
 
 
 def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
-    """Yield patterns, those with the same beginning as one: `mount.NAME.force|static`."""
+    """Yield patterns, joined if they differ only in the last part: `mount.NAME.force|static`."""
     for stem, patterns in groupby(forms, lambda form: form.pattern.rpartition(".")[0]):
         parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts
 
 
 def tell_speeds(names: Iterable[str], rpm: float, varied: Iterable[str] = ()) -> str:
-    """Return over which speeds quantities of these names are the largest, for an engine's speed;
-    where the speed varies, they are those at each speed.
+    """Return a note on the ranges of speed (for an engine's speed, rpm) over which quantities of
+    these names are the largest values; empty if the speed itself varies.
     """
     if "operation.speed" in varied:
         return ""
