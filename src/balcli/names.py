@@ -95,6 +95,8 @@ CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}
 QUANTITIES = {
     "guide": "forces.guide",
     "cycle": "torque.quantity",
+    "piston": "analysis.piston",
+    "journals": "analysis.crank_drive",
     "mounts": "mounts.quantity",
     "torsion": "torsion.quantity",
 }

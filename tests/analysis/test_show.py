@@ -173,7 +173,7 @@ def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):
     four = ENGINES / "i4.toml"
     odd = balcli("analyze", four, "--orders", "3,7").out
     assert re.search(r"roll moment +balanced in the orders shown\n", odd)
-    assert "Verdict\nForce and moment of orders 3 and 7 are balanced.\n" in odd
+    assert "Verdict\nOrders 3 and 7: force, moment and couple balanced.\n" in odd
     high = balcli("analyze", four, "--orders", "10").out
     assert re.search(r"roll moment +negligible \(0\.0026 N·m\) in the orders shown\n", high)
     assert "order 2: 1355, 4: 65.75" in balcli("analyze", four, "--orders", "2-4").out

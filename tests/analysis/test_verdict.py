@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from support.cases import cases
 
-from balcli.analysis.overview import verdict
+from balcli import analyze, curves, load
+from balcli.analysis.overview import tell_couple, verdict
 from balcli.core.cylinders import Device, DeviceKind
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
@@ -87,8 +88,37 @@ def test_small_is_what_is_asked_for():
     )
 
 
-def test_a_couple_is_named_only_beside_a_balanced_moment():
-    """Whether the force was asked for or not."""
-    orders, half = np.array([1.0]), np.array([50 + 0j])
-    moment, couple = (Phasors.of(orders, half, half, np.zeros(1)) for _ in range(2))
-    assert "couple" not in verdict(Spectra(orders, moment=moment, couple=couple), SI)[0]
+@pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
+def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
+    orders = np.array([1.0])
+    none, some = (Phasors.of(orders, *np.full((2, 1), each, complex), np.zeros(1)) for each in (0, couple))
+    assert verdict(Spectra(orders, force=none, moment=none, couple=some), SI) == (f"Order 1: {told} balanced.",)
+
+
+HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
+NO_H = "; rods with H = 0 have none."
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({}, None),
+        ({"rod.inertia": 9000}, f"the rods{NO_H}"),
+        ({"piston.offset": 10}, "offset pistons."),
+        ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
+        ({"frame.reference": [0, 80, 0]}, "forces that pass the reference at a distance."),
+        ({"operation.speed_ripple": [{"order": 2, "amplitude": 0.05}]}, "the acceleration of turning parts."),
+    ],
+)
+def test_the_causes_of_the_couple_are_named(changes: dict, told: str | None) -> None:
+    """Its size is the largest harmonic of the sampled couple."""
+    tables: dict = {}
+    for path, value in {**HEAVY, "operation.speed": 2000, **changes}.items():
+        table, key = path.split(".")
+        tables.setdefault(table, {})[key] = value
+    engine = load(tables)
+    found = tell_couple(analyze(engine), SI)
+    couple = np.abs(np.fft.rfft(curves(engine).curves["couple_Nm"][:360])) / 180
+    order = int(couple[1:].argmax()) + 1
+    text = f"Transverse couple: up to {couple[order]:.4g} N·m (order {order}), from {told}"
+    assert found == ("" if told is None else text)

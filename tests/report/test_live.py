@@ -4,6 +4,7 @@ files give the same engine again.
 
 import json
 import random
+import re
 import tomllib
 from urllib.parse import quote
 
@@ -313,7 +314,7 @@ def test_the_verdict_is_that_of_the_command(browser, play):
             continue
         go(browser, f"#engine={name}")
         wanted = next(each.paragraphs for each in sheet(analyze(engine), SI).parts if each.title == "Verdict")
-        told = " ".join(one for one in wanted if "rocks the engine" not in one)
+        told = " ".join(_cut_causes(one) for one in wanted if "rocks the engine" not in one)
         assert browser.run("document.getElementById('live-verdict').textContent") == told, name
 
 
@@ -327,7 +328,12 @@ def test_the_verdict_heeds_devices_and_what_is_small(browser, tmp_path, name, sm
     browser.open(tmp_path / "page.html")
     browser.run("change.open = true, new Promise(done => setTimeout(done, 100))")
     told = ask("-q", "analyze", file, "--small", small).partition("Verdict")[2].partition("Largest by order")[0]
-    assert browser.run("document.getElementById('live-verdict').textContent") == " ".join(told.split())
+    assert browser.run("document.getElementById('live-verdict').textContent") == _cut_causes(" ".join(told.split()))
+
+
+def _cut_causes(verdict: str) -> str:
+    """The verdict without the causes of the couple, which the page does not know."""
+    return re.sub(r"(Transverse couple: .*?\))[^.]*\.", r"\1.", verdict)
 
 
 @live

@@ -37,7 +37,12 @@ from ..forces.kinds import (
     VECTORS,
 )
 from ..forces.rod_forces import compute_rod_forces
-from ..forces.spectrum import check_orders, compute_spectra, take_gas
+from ..forces.spectrum import (
+    check_orders,
+    compute_spectra,
+    find_turning_inertia,
+    take_gas,
+)
 from ..shell.arguments import check_count, tell_arguments
 from ..show.csv import Columns, Rows
 from ..show.formats import Columnar
@@ -194,8 +199,9 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
     arms = (np.conj(places)[:, None] * force).imag
-    couple = np.concatenate([_couple_of_cylinders(motion), arms])
-    torque = _torque_of_cylinders(motion)
+    turning = -float(find_turning_inertia(engine)) * motion.xi[None]
+    couple = np.concatenate([_couple_of_cylinders(motion), arms, turning])
+    torque = np.concatenate([_torque_of_cylinders(motion), turning])
     return {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,

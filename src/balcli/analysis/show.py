@@ -11,7 +11,8 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
+from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
+from ..forces.spectrum import Spectra
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
@@ -41,13 +42,19 @@ from .order_tables import (
     textbook_tables,
 )
 from .overview import (
+    find_couple,
     find_orders_that_matter,
     roll_and_peaks,
+    tell_couple,
     tell_others,
     vectors_grid,
     verdict,
 )
 
+_UNCOUNTED = (
+    "Couple and torque count pistons, rods and throw masses only; give [crank] inertia and "
+    "[flywheel] for all turning parts."
+)
 Part: TypeAlias = Grid | Facts | Text
 TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
 TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
@@ -78,6 +85,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield from _chosen_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
+    yield from _tell_uncounted(result)
     for share in result.cylinders or ():
         spectra = share.spectra.with_moment_if(result.moments_known)
         about_crank = view.whole or bool(view.parts)
@@ -98,7 +106,7 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from import_seldom().lay_out_journals(result.journals, system)
+        yield from import_seldom().lay_out_journals(result.journals, result.engine, system)
     if result.masses is not None:
         yield import_seldom().lay_out_masses(result.masses, system)
     if result.power_related_unbalance is not None:
@@ -149,6 +157,9 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
+    if (couple := find_couple(result)) is not None:
+        alone = Spectra(couple.orders, couple=couple)
+        yield from order_tables(alone, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:
         yield facts
@@ -159,6 +170,13 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         every_order=view.every_order,
         hints=view.hints,
     )
+
+
+def _tell_uncounted(result: Analysis) -> Iterator[Text]:
+    """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
+    engine, shown = result.engine, result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
+    if engine.ripple and shown and engine.crank_inertia is engine.flywheel_inertia is None:
+        yield Text("Note", (_UNCOUNTED,))
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
@@ -177,7 +195,8 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
-    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 needs no verdict
+    couple = tell_couple(result, system)
+    if told := tuple(filter(None, (*told, couple, rocking, unknown))):  # order 0 needs no verdict
         yield Text("Verdict", told)
 
 

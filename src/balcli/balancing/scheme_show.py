@@ -86,13 +86,13 @@ def tell_change(result: Balance, system: System) -> str:
     details, unit = result.remedy.details, system.unbalance
     if not (changes := details.get("change")):
         return ""
-    what = [
-        f"{one['action']} {size_text(abs(one['unbalance_kg_m']), unit)} opposite "
-        f"{'the pin' if len(changes) == 1 else 'pin ' + str(one['throw'])}"
-        if one["unbalance_kg_m"]
-        else f"nothing at pin {one['throw']}"
-        for one in changes
-    ]
+    sizes = [one["unbalance_kg_m"] for one in changes]
+    alike = all(abs(size - sizes[0]) <= 1e-9 * abs(sizes[0]) for size in sizes)
+    everywhere, what = "each pin" if len(sizes) > 1 else "the pin", []
+    for one, size in zip(changes, sizes, strict=True):
+        pin = everywhere if alike else f"pin {one['throw']}"
+        done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
+        what.append(done if size else f"nothing to do at {pin}")
     has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])
     return f"It has the factor {has}; you want {wanted}: {', '.join(dict.fromkeys(what))}."
 

@@ -20,13 +20,13 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import name_column, name_orders
+from ..analysis.overview import name_column, name_orders, tell_couple
 from ..analysis.records import Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import CrankLoads, find_crank_loads
-from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
 from ..show.csv import Columns, Rows
@@ -98,6 +98,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     notes = (
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
+        _tell_couple(result, system),
         _tell_bearings(result, system),
         tell_best_factors(result, system),
         _tell_negligible(result, loads),
@@ -116,9 +117,9 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return in words the forces, moments and couple of orders 1 and 2 that a step leaves."""
+    """Return words on the forces and moments of orders 1 and 2 that a step leaves."""
     known, left = result.after.moments_known, []
-    kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
+    kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
     for k, order in enumerate((1, 2)):
         sizes = [(kind, float(spectra[kind.name].major[k])) for kind in kinds]
@@ -131,6 +132,14 @@ def _tell_left(result: Balance, system: System) -> str:
         return f"Leaves {'; '.join(left)}."
     what = "force or moment" if known else "force"
     return f"Leaves no {what} of orders 1 and 2."
+
+
+def _tell_couple(result: Balance, system: System) -> str:
+    """Return words on the transverse couple that the devices leave as it was; empty if it is
+    negligible, or if they change it.
+    """
+    before, after = (tell_couple(one, system) for one in (result.before, result.after))
+    return f"{after} No scheme changes the couple." if after and after == before else ""
 
 
 def _tell_bearings(result: Balance, system: System) -> str:

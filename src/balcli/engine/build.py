@@ -81,7 +81,12 @@ def build(
     bearings, power = None, model.operation.power
     if (table := model.bearing) is not None:
         pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
-        bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
+        pin, main = (None if a is None or b is None else a * b * 1e-6 for a, b in pairs)
+        rings = (table.pin_diameter, table.pin_bore), (table.main_diameter, table.main_bore)
+        pin_m, main_m = (
+            None if outer is None else (outer / 1e3, inner / 1e3) for outer, inner in rings
+        )
+        bearings = Bearings(pin, main, pin_m, main_m)
     return Engine(
         name=model.name,
         source=model.source,

@@ -31,12 +31,17 @@ if TYPE_CHECKING:
 
 
 class Bearings(NamedTuple):
-    """Projected areas (diameter times width) of crank-pin and main bearings, m2; None if the file
-    gives none.
+    """Bearings of the crankshaft; None where the file gives none.
+
+    Attributes:
+        pin_m2, main_m2: Projected area (diameter times width) of each bearing.
+        pin_m, main_m: Outer and inner diameter of each journal.
     """
 
     pin_m2: float | None = None
     main_m2: float | None = None
+    pin_m: tuple[float, float] | None = None
+    main_m: tuple[float, float] | None = None
 
 
 class Rating(NamedTuple):
@@ -397,7 +402,8 @@ def find_row(engine: Engine, number: int) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        there = ", ".join(map(str, sorted(engine.numbers)))
+        last = max(engine.numbers)
+        some = f"cylinders 1 to {last}" if last > 1 else "only cylinder 1"
         name = engine.name or "the engine"
-        raise BalcliError(f"there is no cylinder {number}: {name} has the cylinders {there}")
+        raise BalcliError(f"there is no cylinder {number}: {name} has {some}")
     return engine.numbers.index(number)

@@ -25,40 +25,38 @@ LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
 CROSSHEAD_LAMBDA = 0.6  # rods of crosshead engines are short
 BORE = 0.2, 3.0  # bore / stroke: crosshead engines from 0.25, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
-SMALL_END = 0.55  # share of the rod's mass at the small end: usual are 0.2 to 0.4
-# Moment of inertia / (mass x length^2): a uniform bar has 1/12, two equal masses at the ends have
-# 1/4. A rod has at most 1/4, apart from a little for bosses and bolts beyond its two centres.
+SMALL_END = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
+# Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
+# ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
+# little.
 INERTIA = 0.02, 0.4
 TWO_MASSES = 1.6  # rod inertia / that of two masses at its ends: engines have 0.6 to 1.35
 PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
-SPEED = 9.0  # rpm, lowest; the largest ship engines idle at 15, and 1 rad/s is 9.55
-# Engines with a stroke above 1 m are two-strokes, and so are slow engines with a stroke above two
-# bores.
+SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9.55
+# Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 NO_DISTANCE = 1e-6  # mm: smaller distances from the axis are rounding
 OFFSET = 0.2  # share of the stroke; pin offsets are up to 0.05, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
-# Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging. A
-# number meant as psi or MPa is outside. Mean pressures: 8 to 30 bar are usual, racing engines had
-# 50; 100 psi is 7 bar.
+# Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
+# lie beyond. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 PRESSURES = {
     **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
     "max_pressure": (0.0, MAX_PRESSURE, " bar"),
 }
-# Unbalanced mass of a throw / mass of its rods and pistons: engines have up to 1.4. A whole
-# crankshaft with its counterweights weighs some 4 to 10 times as much per throw.
+# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
+# weighs some 4 to 10 times as much for each throw, with its counterweights.
 THROW = 6.0
-BEARING = 0.5  # mass of shells or oil / mass of rod and piston: engines have up to 0.05
-# Largest difference of two throws, deg: cranks have 0, or 60 and more. Cylinder numbers ([1, 3, 4,
-# 2]) and radians differ by 1 to 10.
+BEARING = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
+# deg, of all throws: cranks have 60 or more, or none; [1, 3, 4, 2] and radians have 1 to 10.
 THROWS = 1.0, 10.0
-UNBALANCE = 5.0  # multiple of all moving masses x crank radius; balancing needs 1 or 2
-# Moment of inertia / that of rods and pistons on the crank pins: crankshafts and flywheels have
-# more. A confusion of kg m^2 and kg mm^2 is a factor of a million.
+UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
+# Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
+# from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-LOSS = 1.0  # steel has 0.01 to 0.05, rubber up to 0.5; percentages are a hundred times larger
+LOSS = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
 
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
@@ -138,12 +136,18 @@ def _round(value: float) -> str:
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for keys that are left out and probably forgotten."""
+    """Yield warnings for keys that are left out, and probably forgotten, or contradict others."""
     if _weigh_piston(model) == 0:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
+    of_throws = throws * crank.throw_mass * (crank.stroke / 2) ** 2
+    if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
+        yield (
+            f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
+            "of its throws alone (crank.throw_mass at the crank radius)"
+        )
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:

@@ -21,6 +21,8 @@ from ..analysis.plot import (
     draw_along,
     draw_curves,
     draw_factors,
+    draw_journals,
+    draw_piston,
     draw_scalar_bars,
     draw_vector_bars,
     visible_rows,
@@ -149,10 +151,11 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 
 @dataclass(frozen=True)
 class PageSubject:
-    """The engine of a page, and the units of its pictures."""
+    """The engine of a page, the units in which it is drawn, and the cylinder of the page piston."""
 
     study: Study
     system: System = SI
+    cylinder: int = 1
 
     @property
     def now(self) -> Analysis:
@@ -393,6 +396,14 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
     draw_gas(fig, subject.now.engine, what, subject.system)
 
 
+def _lay_out_piston(fig: Figure, subject: PageSubject) -> None:
+    draw_piston(fig, subject.now.engine, subject.cylinder, subject.system)
+
+
+def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
+    draw_journals(fig.subplots(), subject.now.engine, subject.system.moment)
+
+
 # Width and height in inches (some layouts change them), and the drawing function.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
@@ -405,6 +416,8 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
+    "piston": (7.2, 7.8, _lay_out_piston),
+    "journals": (8.4, 4.8, _lay_out_journals),
     "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
     "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
     "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),

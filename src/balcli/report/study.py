@@ -25,11 +25,11 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
-from .names import OF_GAS
+from .names import OF_GAS, OF_PARTS
 
 FACTORS = tuple(k / 50 for k in range(51))
 _NO_RADIUS = 1e-9  # share of the largest force below which one counts as 0
-_ALONE = ("ladder", "bank", *OF_GAS)  # pages of the engine without a scheme
+_ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages of the engine without a scheme
 
 
 class Banks(NamedTuple):

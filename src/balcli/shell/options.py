@@ -224,6 +224,9 @@ def parse_small(text: str | None) -> float:
     return check_small(SMALL if text is None else read_share("--small", text, wanted))
 
 
+_SEVERAL_SPEEDS = re.compile(r"[\d.]+(:[\d.]+)+|\d\d[\d.]*(,[1-9]\d[\d.]*)+")
+
+
 def parse_speed(text: str | None) -> float | None:
     """Return the speed of `--speed`, rpm.
 
@@ -232,6 +235,8 @@ def parse_speed(text: str | None) -> float | None:
     """
     if text is None:
         return None
+    if _SEVERAL_SPEEDS.fullmatch(text.replace(" ", "")):
+        raise BalcliError(f'--speed "{text}": give one speed here, such as --speed 3000')
     speed = read_speed("--speed", text)
     if not SMALLEST_POSITIVE <= speed < 1e9:
         raise BalcliError(f"--speed {speed:g}: give rpm above 0, below 1e9")

@@ -144,12 +144,16 @@ def _bore(engine: Engine, system: System) -> str:
     bore_m = float(engine.bore_m)
     if math.isnan(bore_m):
         return ""
-    bore = number(system.length.of(bore_m), 5)
-    first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
-    stroke = number(system.length.of(float(first)), 5)
+    unit = system.length
+    bore = number(unit.of(bore_m), 5)
+    nominal, first = 2 * float(engine.cylinders.radius), engine.numbers.index(1)
+    true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
+    stroke = f"{number(unit.of(nominal), 5)} {unit.name}"
+    if true != number(unit.of(nominal)):
+        stroke += f" (true stroke {true} {unit.name})"
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
-    return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
+    return f", bore × stroke {bore} × {stroke}, {size}"
 
 
 def _crank(engine: Engine, system: System) -> str:

@@ -161,10 +161,11 @@ def _plan_holes(
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
+        most = 0.0 if math.isinf(count) else 1e6 * fitting * of_one
         raise HolesDoNotFitError(
             f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
-            f"fit: {fitting:g} holes side by side have room on {1e3 * room:g} mm (--width); use a "
-            "larger drill, --radius or --max-depth, or --slug"
+            f"fit: {fitting:g} holes side by side, {most:.6g} g mm, have room on {1e3 * room:g} mm "
+            "(--width); use a larger drill, --radius or --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)

@@ -224,9 +224,10 @@
     }
     return [...shownOrders].sort((a, b) => a - b);
   }
-  // The verdict of `balcli analyze`, in its words: a force or moment is large if its part that turns with the
+  // The verdict of `balcli analyze`, in its words but for the causes of the couple: a force or moment is large if its part that turns with the
   // crank, or the one that turns against it, is not small compared with one cylinder's.
   const MOST_WORDS = 25, MOST_NAMED = 5, SENSES = ["with the crank", "against the crank"];
+  const NAMED = { force: "force", moment: "longitudinal moment" };
   const joinWords = (words) => words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
   const lineDegrees = (value) => {
     const tenths = (Number(Number(value.toFixed(6)).toFixed(1)) + 0).toFixed(1);
@@ -238,7 +239,7 @@
   }
   // Size and direction of a force or moment of an order: "force of 4 N along x".
   function describeVector({ type, size, parts, axis }, directed) {
-    const told = `${type} of ${sizeText(type, size)}`, turning = parts.findIndex((_, k) => !parts[1 - k]);
+    const told = `${NAMED[type]} of ${sizeText(type, size)}`, turning = parts.findIndex((_, k) => !parts[1 - k]);
     if (!directed) return told;
     if (turning >= 0) return `${told} turning ${SENSES[turning]}`;
     const names = { "0.0": "x", "90.0": "y" }, angle = lineDegrees(axis);
@@ -256,11 +257,11 @@
       return [{ k, device: sense * n === 1 ? `${further}counterweights` : `a ${further}shaft at ${sense > 0 ? "+" : "-"}${n}` }];
     });
   }
-  function tellCure({ n, large, couple }, withSizes) {
+  function tellCure({ n, large }, withSizes) {
     const cures = findCures(n, large), one = large.length === 1 ? large[0] : null;
     if (!cures.length) return "";
     if (n > 2) return `usually left: its shafts would turn at ${n} times crank speed`;
-    const everything = !one ? "both" : couple ? `the ${one.type}` : "it", devices = cures.map(({ device }) => device);
+    const everything = one ? "it" : "both", devices = cures.map(({ device }) => device);
     const sizes = one ? one.parts.map((part) => sizeText(one.type, part)) : [];
     if (cures.length === 1) {
       const [{ k, device }] = cures, cancel = `${device} cancel${device.startsWith("a ") ? "s" : ""}`;
@@ -273,11 +274,10 @@
   }
   // The longest sentence on an order that is not too long.
   function tellOrder(order) {
-    const { n, vectors, large, couple } = order, name = `${nameOrder(n)} order`, types = vectors.map(({ type }) => type);
-    if (!large.length) return `${name}: ${couple}; ${types.join(" and ")} ${order.balanced ? "balanced" : "small"}.`;
+    const name = `${nameOrder(order.n)} order`;
     let told = "";
     for (const [directed, withSizes] of [[true, true], [true, false], [false, false]]) {
-      const there = [large.map((each) => describeVector(each, directed)).join(" and "), couple].filter(Boolean).join(", ");
+      const there = order.large.map((each) => describeVector(each, directed)).join(" and ");
       told = `${name}: ${[there, tellCure(order, withSizes)].filter(Boolean).join("; ")}.`;
       if (told.split(" ").length <= MOST_WORDS) break;
     }
@@ -286,7 +286,7 @@
   function tellLargest(vectors) {
     const most = {};
     for (const each of vectors) if (each.size > (most[each.type]?.size || 0)) most[each.type] = each;
-    return Object.values(most).map(({ type, size, n }) => `${type} of ${sizeText(type, size)} (order ${n})`).join(", ");
+    return Object.values(most).map(({ type, size, n }) => `${NAMED[type]} of ${sizeText(type, size)} (order ${n})`).join(", ");
   }
   function judgeOrder(n) {
     const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
@@ -295,28 +295,30 @@
       const due = parts.map((part) => part > 0 && part >= book.small * scale[type] * (1 - 1e-9));
       return { type, n, parts, due, size: parts[0] + parts[1], axis: Kernel.describeVector(pair, n).axis_deg };
     });
-    const moment = vectors.some(({ type, size }) => type === "moment" && size);
-    const couple = n <= 2 && !moment ? 2 * Math.hypot(...kinds.couple[n][0]) : 0;
     return {
       n, vectors, large: vectors.filter(({ due }) => due.some(Boolean)), balanced: vectors.every(({ size }) => !size),
-      couple: couple > book.negligible * scale.force * engine.r ? `roll couple of ${sizeText("moment", couple)}` : "",
+      couple: 2 * Math.hypot(...(kinds.couple[n] || [[0, 0]])[0]),
     };
   }
   function writeVerdict() {
     const every = listShownOrders(ladder.steps[0].kinds).map(judgeOrder), names = every[0].vectors.map(({ type }) => type);
-    const matter = every.filter(({ large, couple }) => large.length || couple), high = matter.filter(({ n }) => n > 2);
+    const matter = every.filter(({ large }) => large.length), high = matter.filter(({ n }) => n > 2);
     const told = matter.filter(({ n }) => n <= 2 || high.length < 2).map(tellOrder);
     if (high.length > 1) {
       const largest = tellLargest(high.flatMap(({ large }) => large));
       told.push(`${capital(nameOrders(high.map(({ n }) => n)))}: ${largest}; usually left: shafts would turn fast.`);
     }
-    const balanced = every.filter((each) => each.n <= 2 && each.balanced && !matter.includes(each)).map(({ n }) => n);
+    const still = every.filter((each) => each.n <= 2 && each.balanced), balanced = still.map(({ n }) => n);
+    if (still.every(({ couple }) => !couple)) names.push("couple");
+    const most = every.reduce((a, b) => b.couple > a.couple ? b : a);
     const small = tellLargest(every.flatMap(({ vectors, large }) => vectors.filter((each) => !large.includes(each))));
     const rest = [
-      balanced.length ? `${names.join(" and ")} of ${nameOrders(balanced)} ${names.length > 1 ? "are" : "is"} balanced` : "",
+      balanced.length ? `${nameOrders(balanced)}: ${joinWords(names)} balanced` : "",
       small ? `small: ${small}` : "",
     ].filter(Boolean).join("; ");
-    return [...told, ...(rest ? [`${capital(rest)}.`] : []), ...(data.known ? [] : [book.unknown])].join(" ");
+    const couple = `Transverse couple: up to ${sizeText("moment", most.couple)} (order ${most.n}).`;
+    const turning = most.couple > book.negligible * ladder.scale.moment ? [couple] : [];
+    return [...told, ...(rest ? [`${capital(rest)}.`] : []), ...turning, ...(data.known ? [] : [book.unknown])].join(" ");
   }
   function fill(id, heads, rows) {
     const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
