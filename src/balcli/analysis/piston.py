@@ -359,7 +359,7 @@ def sheet(result: Pistons, system: System) -> Sheet:
     )
     heads = ("", *(head for head, _ in columns))
     facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
-    speed = _choose_unit("mean_speed_m_per_s", system)
+    speed = choose_unit("mean_speed_m_per_s", system)
     high_speed = f"{number(speed.of(_HIGH_SPEED))} {speed.name}"
     notes.append(_USUAL.format(1 / 3.8, 1 / 3.2, high_speed))
     grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))

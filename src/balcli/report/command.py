@@ -41,8 +41,8 @@ WHAT = (
     "two-shaft the radii of its shafts; inner: along the crankshaft; piston: travel, velocity and "
     "acceleration, with [gas] side thrust and rod force; journals: torque in the main journals; "
     "with [gas]: pressure, p-v, torque (with its surplus areas), pin and main (polar diagrams of "
-    "bearing loads); with [torsion]: modes, campbell, response, waterfall. Several pages form one PDF, or one file "
-    "each (v8-pin.svg)."
+    "bearing loads); with [torsion]: modes, campbell, response, waterfall. Several pages form one "
+    "PDF, or one file each (v8-pin.svg)."
 )
 
 
