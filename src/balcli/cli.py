@@ -48,25 +48,24 @@ GROUPS = {
         "and by two terms.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
-        "report": "Write one self-contained page: the engine in motion, its free forces and "
-        "moments, and a balance scheme before and after.",
+        "report": "Write a self-contained page: the engine in motion, and its free forces and "
+        "moments without and with a balance scheme.",
     },
     "Balance": {
         "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
         "with them.",
-        "field": "Balance a rotor on the machine or in its bearings: from readings with "
-        "trial weights to correction weights, places or drill holes, and the "
-        "residual readings.",
+        "field": "Balance a rotor on its machine: compute correction weights, places or drill "
+        "holes, and the remaining readings, from readings with trial weights.",
     },
     "Study": {
         "numbers": "List the numbers of an engine file that can vary, and its quantities: names "
         "for `sweep`, `search` and `scatter`, with values, units and meanings.",
-        "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
+        "sweep": "Quantities for many variants of an engine, whose numbers vary over ranges, "
         "as a table, CSV, JSON or Parquet.",
-        "search": "The best crank, firing order, bank angle or splay, or values of any numbers; "
-        "mirror images and rotations once.",
-        "scatter": "How free forces and moments spread when masses (rod lengths, throw "
-        "angles) vary, and which tolerance matters most.",
+        "search": "Find the best crank, firing order, bank angle or splay, or values of any "
+        "numbers. Mirror images and rotations of an arrangement are listed once.",
+        "scatter": "Spread of free forces and moments when masses, rod lengths or throw angles "
+        "vary, and the tolerances that matter most.",
         "mounts": "Vibration of an engine on its mounts: natural modes, rest, forces of the "
         "mounts on the frame and motion of points over a range of speeds.",
         "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, "
@@ -81,7 +80,7 @@ GROUPS = {
         "file, for editors; or of a command's JSON output.",
         "check": "Recompute engines and compare with their recorded results; exit status 1 "
         "if anything moved.",
-        "tables": "The printed coefficient tables of five books and papers, recomputed, and "
+        "tables": "Recompute the coefficient tables printed in five books and papers; list "
         "their errata by class: misprints, roundings, errors of equations.",
         "bench": "Measure run time and error of several methods for the same figures, on this "
         "machine; with -o X.svg also as a picture.",
@@ -228,7 +227,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Print also what was read, and the run time.",
+            help="Also print what was read, and the run time.",
         ),
     ] = False,
     digits: Annotated[

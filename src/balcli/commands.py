@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference
 
 
-Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
 
 
 def new(
@@ -157,7 +157,7 @@ def schema(
             "--of",
             metavar="RESULT",
             show_default=False,
-            help=f"Of a result as JSON instead: {', '.join(DOCUMENTS)}.",
+            help=f"Print the schema of a result in JSON instead: {', '.join(DOCUMENTS)}.",
         ),
     ] = None,
     output: Output = None,

@@ -31,21 +31,21 @@ AnalysisFormatOption = Annotated[
     list[AnalysisFormat] | None,
     format_option(
         AnalysisFormat,
-        "How to write the result; default: by the ending of -o, else table. marine: external "
-        "forces and moments, guide moments and torque by order; with -f csv as well, in CSV.",
+        "Format of the result; default: by the ending of -o, else table. marine: table of external "
+        "forces and moments, guide moments and torque by order; add -f csv for CSV.",
     ),
 ]
 SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm, or several, such as 60:124:8; the last speed of a "
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8. The last speed of a "
         "range is always computed.",
         "--speed",
         "--rpm",
     ),
 ]
-By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
+By = Annotated[str, optional("cylinder", "cylinder: also show each cylinder's share.", "--by")]
 Why = Annotated[bool, typer.Option("--why", help="Print why each order is balanced or not.")]
 
 

@@ -410,7 +410,7 @@ def _find_cures(order: float, due: Collection[int], devices: Sequence[Device]) -
 def _tell_higher(high: Sequence[_Order]) -> str:
     """Return one sentence on several orders above 2 that are not small."""
     largest = _tell_largest([(one, vector) for one in high for vector in one.large])
-    left = "; usually left: shafts would turn fast" * any(one.cures for one in high)
+    left = "; usually left" * any(one.cures for one in high)
     return sentence(f"{name_orders([one.order for one in high])}: {largest}{left}")
 
 

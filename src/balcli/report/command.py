@@ -31,10 +31,10 @@ from .names import OF_TORSION, PAGES, check_page
 
 PAGE = "Write the page here; - is standard output."
 PICTURE = "Write here; .svg, .png or .pdf."
-SPEEDS = "Of torsion, rpm; default: half to one and a half times the file's speed."
+SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
-    "overview: locus of the force, or of the moment where no force is left, and spectrum; "
-    "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
+    "overview: locus of the force (of the moment if the force is balanced), and spectrum; "
+    "polar: loci; orders: both vectors of each order; spectrum: bars; curves: over the "
     "crank angle; all: loci, bars and curves on one page; "
     "ladder: loci with the devices of each balancing step; "
     "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "

@@ -67,15 +67,15 @@ def plot(
     small: float = SMALL,
     cylinder: int = 1,
 ) -> Figure:
-    """Draw an engine or an answer, as `balcli plot` does, as a figure of matplotlib.
+    """Draw an engine or a result as a figure of matplotlib; see also `balcli plot`.
 
-    Nothing global is touched and no display is needed: a notebook shows the figure where it is the
-    last line of a cell, `figure.savefig("a.svg")` writes it, `figure.axes` can be changed.
+    Global state is unchanged and no display is needed. A notebook shows the figure if it is the
+    last line of a cell; `figure.savefig("a.svg")` writes it; `figure.axes` can be changed.
 
     Args:
-        shown: an engine, or the answer of a function that has a picture.
-        what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
-            spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
+        shown: Engine, or result of a function such as `analyze` or `sweep`.
+        what: Page of an engine, its analysis or balance: "overview" (default: one locus, and the
+            spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
             "ladder" (loci, step by step), "bank" (a vee over its bank angle, with scheme
             "two-shaft" the radii of its shafts), "factor" (over the balance factor), "piston",
@@ -187,11 +187,11 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
     elif asked.speeds is not None:
-        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
+        warn("--speeds has an effect only on pages of torsion; for other pages use --speed")
     if others:
         found |= zip(others, _make_pages(path, others, asked), strict=True)
     elif asked.speed is not None:
-        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
+        warn("--speed has no effect on pages of torsion; give a range, --speeds A:B")
     return [found[page] for page in pages]
 
 

@@ -82,7 +82,7 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show; default: 1, 2 and all that are not negligible; with gas all up to 12.",
+        "Orders to show; default: 1, 2 and others that are not negligible; with gas, all to 12.",
         "--orders",
     ),
 ]
@@ -111,13 +111,13 @@ Small = Annotated[
     optional("5%", "Ignore parts below this share of one cylinder's order 1."),
 ]
 Whole = Annotated[
-    bool, typer.Option("--all", help="Every table and every order that is not rounding.")
+    bool, typer.Option("--all", help="Show every table and every order above rounding errors.")
 ]
 Misfire = Annotated[
     list[int] | None,
     optional(
         "N",
-        "A cylinder without gas pressure, may be given again. If it still compresses, give "
+        "Cylinder without gas pressure; may be given again. If it still compresses, give "
         "[cylinder.N] heat = 0 in the file.",
     ),
 ]
@@ -125,8 +125,8 @@ GuideHeight = Annotated[
     str | None,
     optional(
         "MM",
-        "With --only guide: from the crankshaft to the middle of the guides, in mm or as "
-        "'80 in'; default: length of the rod.",
+        "With --only guide: distance of the guides' middle from the crankshaft, mm or "
+        "'80 in'; default: rod length.",
         "--guide-height",
     ),
 ]

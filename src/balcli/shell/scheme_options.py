@@ -25,14 +25,14 @@ Scheme = Annotated[
     str | None,
     optional(
         "NAME",
-        "Also with the devices of a balance scheme, such as auto.",
+        "Also show the engine with the devices of a scheme, such as auto.",
         autocompletion=complete_schemes,
     ),
 ]
 Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Place of a shaft, mm; for two, the one at -N first."),
+    optional("X,Y", "Position of a shaft, mm; of two shafts, the one at -N first."),
 ]
 Position = Annotated[
     str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two for compensators.")
@@ -48,7 +48,7 @@ Factor = Annotated[
     str | None,
     optional("K|K:K:STEP", "Balance factor, such as 51% or 50%:54%:1%."),
 ]
-Measured = Annotated[str | None, optional("MASS", 'Mass that balances a pin now: "812 g".')]
+Measured = Annotated[str | None, optional("MASS", 'Mass that now balances a pin: "812 g".')]
 Roll = Annotated[str | None, optional("zero", "Place two shafts so that they cancel roll.")]
 
 

@@ -306,7 +306,7 @@
     const told = matter.filter(({ n }) => n <= 2 || high.length < 2).map(tellOrder);
     if (high.length > 1) {
       const largest = tellLargest(high.flatMap(({ large }) => large));
-      told.push(`${capital(nameOrders(high.map(({ n }) => n)))}: ${largest}; usually left: shafts would turn fast.`);
+      told.push(`${capital(nameOrders(high.map(({ n }) => n)))}: ${largest}; usually left.`);
     }
     const still = every.filter((each) => each.n <= 2 && each.balanced), balanced = still.map(({ n }) => n);
     if (still.every(({ couple }) => !couple)) names.push("couple");
