@@ -40,6 +40,7 @@ from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
 from .records import (
+    BalanceParts,
     CylinderShare,
     Journal,
     Masses,
@@ -52,7 +53,7 @@ from .records import (
 
 UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide", "journals", "masses")  # computed only when they are named
+EXTRAS = ("inner", "guide", "journals", "masses", "parts")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
@@ -76,6 +77,7 @@ class Analysis(Result):
             all cylinders are plain slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
+        parts: Balancer shafts and counterweights as parts.
         why: Whether the orders shown are balanced by symmetry.
         small: Share of what one cylinder makes below which a part is small.
     """
@@ -94,6 +96,7 @@ class Analysis(Result):
     travel: tuple[Stroke, ...] | None = None
     journals: tuple[Journal, ...] | None = None
     masses: tuple[Masses, ...] | None = None
+    parts: BalanceParts | None = None
     why: Symmetry | None = None
     small: Annotated[float, HIDDEN] = SMALL
 
@@ -182,8 +185,8 @@ def analyze(
         orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
             quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
         only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses and gas, or a text of them with commas between; default: all but those
-            after peak.
+            journals, masses, parts and gas, or a text of them with commas between; default: all
+            but those after peak.
         by_cylinder: also the phasors of every cylinder alone.
         reasons: also why each order is balanced, or is not.
         guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
@@ -244,13 +247,14 @@ def analyze(
 
 def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
     """Return results that are seldom asked for; their modules are loaded for them alone."""
-    if not {"journals", "masses"}.intersection(wanted):
+    if not {"journals", "masses", "parts"}.intersection(wanted):
         return {}
-    from . import crank_drive
+    from . import crank_drive, parts
 
     return {
         "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
         "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
+        "parts": parts.find_parts(engine) if "parts" in wanted else None,
     }
 
 

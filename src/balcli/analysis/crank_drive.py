@@ -251,6 +251,13 @@ _LABELS = {
 }
 
 
+def choose_part_units(system: System) -> dict[str, ShownUnit]:
+    """Return the units in which people read masses, inertias and lengths of parts, by SI unit."""
+    if system is not SI:
+        return {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
+    return {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6), "m": system.length}
+
+
 def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     """Return a table: a figure a row, cylinders with equal parts a column.
 
@@ -258,9 +265,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each distinct set of parts.
         system: System of units.
     """
-    units = {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
-    if system is SI:
-        units |= {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6)}
+    units = choose_part_units(system)
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
     rows = []
     for key, label in _LABELS.items():

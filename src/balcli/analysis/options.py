@@ -98,7 +98,7 @@ class Request(NamedTuple):
         if self.marine:
             given |= {"--only": bool(self.parts), "--why": self.why}
         elif self.over_speed:
-            of_one = (*PARTS, "journals", "masses")
+            of_one = (*PARTS, "journals", "masses", "parts")
             given |= {f"--only {word}": word in self.parts for word in of_one}
         for option in (option for option, is_given in given.items() if is_given):
             if self.marine:

@@ -49,12 +49,11 @@ from .overview import (
 )
 
 Part: TypeAlias = Grid | Facts | Text
+STEADY = ("journals", "masses", "parts")  # words in which an uneven speed does not count
 TEXTS = frozenset(
     {"verdict", "sizing", "ladder", "textbook"}
 )  # parts that need no crank speed beside them
-TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
-)  # without a verdict
+TABLES = frozenset({"xy", "textbook", "sizing", "ladder", "peak", *EXTRAS})  # without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
@@ -74,7 +73,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         higher = result.has_higher_orders
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
     elif view.parts - TEXTS:
-        yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
+        yield speed_facts(result.engine, steady=view.parts <= {*STEADY})
         if view.parts.intersection(EXTRAS):
             yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
@@ -105,8 +104,17 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield from _import_seldom().lay_out_journals(result.journals, system)
     if result.masses is not None:
         yield _import_seldom().lay_out_masses(result.masses, system)
+    if result.parts is not None:
+        yield from _import_parts().lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
+
+
+def _import_parts() -> ModuleType:
+    """Return the module of balancer shafts and counterweights as parts."""
+    from . import parts
+
+    return parts
 
 
 def _import_seldom() -> ModuleType:
@@ -254,6 +262,8 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
         yield from _import_seldom().list_journal_rows(result.journals)
     if result.masses is not None:
         yield from _import_seldom().list_mass_rows(result.masses)
+    if result.parts is not None:
+        yield from _import_parts().list_part_rows(result.parts)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import Cylinders, Device, find_travel
+from ..core.cylinders import Cylinders, Device, DeviceKind, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.records import Node
@@ -37,6 +37,18 @@ class Bearings(NamedTuple):
 
     pin_m2: float | None = None
     main_m2: float | None = None
+
+
+class TurningInertia(NamedTuple):
+    """Constant inertia of turning parts, by the crank speed, kg m2.
+
+    Attributes:
+        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, k the ratio of a shaft.
+        energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
+    """
+
+    momentum: Figure
+    energy: Figure
 
 
 class SilentCylinders(NamedTuple):
@@ -188,6 +200,7 @@ class Engine:
                 mount, flywheel.
             without: Keys that do not count.
         """
+        chapters = (*chapters, "flywheel") if self.ripple else chapters
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
         return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
@@ -227,6 +240,31 @@ class Engine:
     def cycle_revolutions(self) -> int:
         """Number of revolutions after which a cylinder's forces repeat, gas included."""
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    @property
+    def turning_inertia(self) -> TurningInertia:
+        """All that turns in a constant ratio to the crank: crankshaft, flywheel and shafts; without
+        `crank.inertia` the counterweights. The crankshaft of a rotary engine stands still.
+        """
+        crank = None if self.rotary else self.crank_inertia
+        on_crank: Figure = 0.0 if crank is None else crank
+        if self.flywheel_inertia is not None:
+            on_crank = on_crank + self.flywheel_inertia
+        momentum, energy = on_crank, on_crank
+        for device in self.devices:
+            if device.kind is DeviceKind.SHAFT or crank is None:
+                momentum = momentum + device.spin
+                energy = energy + np.abs(device.spin) * device.order
+        return TurningInertia(momentum, energy)
+
+    @property
+    def inertia_beyond_pins(self) -> TurningInertia:
+        """`turning_inertia` less the throw masses in `crank.inertia`, which count with the pins."""
+        found = self.turning_inertia
+        if self.crank_inertia is None or self.rotary:
+            return found
+        throws = sum(masses.share for masses in self.weighed) * self.cylinders.radius**2
+        return TurningInertia(found.momentum - throws, found.energy - throws)
 
     # -------------------------------------------------------------- cylinders and crank pins
     @property

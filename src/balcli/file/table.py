@@ -17,7 +17,19 @@ from pydantic.fields import FieldInfo
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Flag, Label, Number, Whole
-from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
+from .units import (
+    ANGLE,
+    DENSITY,
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    SPEED,
+    TIME,
+    TORQUE,
+    UNBALANCE,
+)
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -32,9 +44,15 @@ Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
+Density = Annotated[float, Number(DENSITY, above=0, most=30)]
+
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
 Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+
+OpeningAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
+
+PressureAngle = Annotated[float, Number(ANGLE, least=0, below=90)]
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -44,6 +62,8 @@ GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
 FIT = "fit"  # in place of an unbalance: `balance` finds it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
+
+Drag = Annotated[float, Number(TORQUE, least=0, most=1e12)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 

@@ -257,12 +257,13 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Return the moment of inertia of crankshaft and flywheel, kg m2; None where the file gives
-    neither. The crankshaft of a rotary engine stands still.
+    """Return the moment of inertia of all that turns in a constant ratio to the crank, at the
+    crank, kg m2; None where the file gives none.
     """
     crank = None if engine.rotary else engine.crank_inertia
-    given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
-    return float(sum(given)) if given else None
+    found = float(engine.turning_inertia.energy)
+    is_given = found or crank is not None or engine.flywheel_inertia is not None
+    return found if is_given else None
 
 
 def silence(engine: Engine, number: int) -> Engine:

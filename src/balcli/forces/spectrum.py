@@ -253,20 +253,16 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    # `crank.inertia` minus the throws' inertia, which is counted with the pins
-    found, crank = {}, engine.crank_inertia
-    if crank is None or engine.rotary:
-        crank = 0.0
-    else:
-        throws = sum(masses.share for masses in engine.weighed) * c.radius**2
-        crank = (crank - throws) * engine.omega**2 / (c.count if each else 1)
+    scale = engine.omega**2 / (c.count if each else 1)
+    momentum, energy = (scale * value for value in engine.inertia_beyond_pins)
+    found = {}
     for name, phasors in steady.items():
         if name == "torque":
-            inertia = lowest.mean_inertia + crank
+            inertia = lowest.mean_inertia + energy
             mixed = ripple.apply_to_torque(phasors.drop_noise(), speed, inertia)
         else:
-            momentum = lowest.mean_momentum + crank if name == "couple" else 0.0
-            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
+            spin = lowest.mean_momentum + momentum if name == "couple" else 0.0
+            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, spin)
         found[name] = mixed.select_orders(orders)
     return found
 

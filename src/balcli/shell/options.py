@@ -24,7 +24,7 @@ from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses")  # computed only when they are named
+CLOSER = ("inner", "guide", "journals", "masses", "parts")  # computed only when they are named
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -101,7 +101,8 @@ OnlyParts = Annotated[
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
         "bearing loads along crankshaft and block), guide (H- and X-type), "
-        "journals (torque along the crankshaft), masses; or xy, textbook, verdict.",
+        "journals (torque along the crankshaft), masses, parts (balancer shafts in their "
+        "bearings, counterweights as sectors); or xy, textbook, verdict.",
         "--only",
     ),
 ]

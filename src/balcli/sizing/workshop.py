@@ -5,7 +5,9 @@ steel.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -14,9 +16,9 @@ from ..core.phasors import wrap_degrees
 from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
-from ..errors import BalcliError, check_number
-from ..file.model import Counterweight, Slider
-from .planes import DeviceTable, find_order, find_unbalance
+from ..errors import BalcliError, check_number, check_type
+from ..file.model import Counterweight, Sector, Shaft, Slider
+from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
@@ -46,6 +48,19 @@ class Tools(NamedTuple):
     width: float | None = None
 
 
+class Shapes(NamedTuple):
+    """Shapes of new devices as parts; None: not given.
+
+    Attributes:
+        bearings: Places z of the two bearings of each new shaft, m.
+        sector: Inner radius, m, outer radius, m, and opening, deg, of new counterweights, which
+            then are sectors in place of half discs.
+    """
+
+    bearings: tuple[float, ...] | None = None
+    sector: tuple[float, ...] | None = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Practical:
     """The workshop's figures of a device.
@@ -57,7 +72,7 @@ class Practical:
         force_N: Centrifugal force (largest force of a slider) at the engine's speed.
         speed_rpm: Speed of the shaft; of a slider its strokes a minute.
         disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
-            rotation.
+            rotation; left out for a counterweight that is a sector.
         disc_thickness_mm: Thickness of this disc.
         drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. None, as below,
             without a drill, and for sliders.
@@ -71,8 +86,8 @@ class Practical:
     radius_mm: float
     force_N: float
     speed_rpm: float
-    disc_radius_mm: float
-    disc_thickness_mm: float
+    disc_radius_mm: float | None = None
+    disc_thickness_mm: float | None = None
     drill_depth_mm: float | None = None
     holes: int | None = None
     hole_angle_deg: float | None = None
@@ -129,15 +144,15 @@ def _check_figure(name: str, figure: float | None) -> float | None:
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:
     unbalance, order = find_unbalance(device), find_order(device)
     radius = tools.radius or float(engine.cylinders.radius)
-    disc_radius, disc_thickness = _find_disc(unbalance, tools)
+    is_sector = isinstance(device, Counterweight) and device.sector is not None
+    disc: Node = {} if is_sector else _find_disc(unbalance, tools)
     return Practical(
         unbalance_kg_m=unbalance,
         mass_kg=unbalance / radius,
         radius_mm=1e3 * radius,
         force_N=unbalance * (order * float(engine.omega)) ** 2,
         speed_rpm=order * float(engine.speed_rpm),
-        disc_radius_mm=1e3 * disc_radius,
-        disc_thickness_mm=1e3 * disc_thickness,
+        **disc,
         **_plan_holes(engine, device, unbalance, radius, tools),
     )
 
@@ -180,11 +195,102 @@ def _find_room(engine: Engine) -> float:
     return float(np.diff(places).min()) if len(places) > 1 else 2 * float(engine.cylinders.radius)
 
 
-def _find_disc(unbalance: float, tools: Tools) -> tuple[float, float]:
+def _find_disc(unbalance: float, tools: Tools) -> Node:
     """Radius and thickness: the centroid of a half disc lies 4R/(3 pi) from its diameter, so `m r =
     density t 2/3 R^3`.
     """
     if tools.disc is not None:
-        return tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
-    thickness = tools.thickness or THICKNESS
-    return (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3), thickness
+        radius, thickness = tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
+    else:
+        thickness = tools.thickness or THICKNESS
+        radius = (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3)
+    return {"disc_radius_mm": 1e3 * radius, "disc_thickness_mm": 1e3 * thickness}
+
+
+# ------------------------------------------------------------------ shapes of new devices
+def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
+    """Return the remedy with its counterweights as sectors, and its shafts with names and bearings,
+    as far as these shapes are given.
+
+    Args:
+        engine: Engine without the new devices.
+        remedy: New devices.
+        shapes: Bearings and sector.
+
+    Raises:
+        BalcliError: Bearings or a sector that cannot be, or that no new device has.
+        TypeError: One is no list of numbers.
+    """
+    devices = list(remedy.devices)
+    if shapes.sector is not None:
+        sector = _read_sector(shapes.sector)
+        _require(remedy.counterweights, "--sector", remedy.scheme, "counterweights")
+        for k, device in enumerate(devices):
+            if isinstance(device, Counterweight):
+                devices[k] = device.model_copy(update={"sector": sector})
+    if shapes.bearings is not None:
+        places = _read_places(shapes.bearings)
+        _require(remedy.shafts, "--bearings", remedy.scheme, "shafts")
+        devices = list(_name_shafts(engine, devices, places))
+    return remedy._replace(devices=tuple(devices))
+
+
+def _require(found: Sequence[object], option: str, scheme: str, what: str) -> None:
+    if not found:
+        raise BalcliError(f"{option} is for new {what}, and scheme {scheme} fits none")
+
+
+def _check_numbers(name: str, values: Sequence[float], size: int, wanted: str) -> list[float]:
+    """Return so many finite numbers.
+
+    Raises:
+        BalcliError: There are more or fewer.
+        TypeError: They are no list of numbers.
+    """
+    check_type(f"Shapes: {name}", values, (list, tuple), f"give {wanted}")
+    numbers = [check_number(f"Shapes: {name}", value, f"give {wanted}") for value in values]
+    if len(numbers) != size or not all(map(math.isfinite, numbers)):
+        raise BalcliError(f"--{name}: give {wanted}")
+    return numbers
+
+
+def _read_places(values: Sequence[float]) -> tuple[float, ...]:
+    """Return the places of two bearings, mm."""
+    wanted = "two places z in m, such as (-0.13, 0.13)"
+    places = [as_millimetres(z) for z in _check_numbers("bearings", values, 2, wanted)]
+    if places[0] == places[1]:
+        raise BalcliError(f"--bearings are both at {places[0]:g} mm; give two different places")
+    return tuple(places)
+
+
+def _read_sector(values: Sequence[float]) -> Sector:
+    """Return a sector whose thickness follows from the unbalance."""
+    wanted = "inner and outer radius in m and opening in deg, such as (0.03, 0.075, 140)"
+    inner, outer, opening = _check_numbers("sector", values, 3, wanted)
+    if not 0 <= inner < outer:
+        told = f"inner radius {1e3 * inner:g} mm: give 0 or more, below the outer radius"
+        raise BalcliError(f"--sector: {told} of {1e3 * outer:g} mm")
+    if not 0 < opening < 360:
+        raise BalcliError(f"--sector: opening {opening:g} deg: give above 0, below 360")
+    return Sector.model_construct(
+        inner_radius=as_millimetres(inner), outer_radius=as_millimetres(outer), opening=opening
+    )
+
+
+def _name_shafts(
+    engine: Engine, devices: Sequence[DeviceTable], places: tuple[float, ...]
+) -> Iterator[DeviceTable]:
+    """Yield the devices; those that turn on one axis at one speed are eccentrics of one shaft, the
+    first of which has the bearings.
+    """
+    used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
+    free = (name for name in map("balancer {}".format, count(1)) if name not in used)
+    names: dict[object, str] = {}
+    for device in devices:
+        if not isinstance(device, Shaft):
+            yield device
+            continue
+        key = device.ratio, device.at
+        has_bearings = {} if key in names else {"bearings": places}
+        names[key] = names.get(key) or next(free)
+        yield device.model_copy(update={"name": names[key], **has_bearings})
