@@ -63,6 +63,8 @@ unbalance = 9000
 sector = { inner_radius = 20, outer_radius = 70, opening = 130 }
 [[shaft]]
 ratio = -1
+unbalance = 50
+at = [5, 6]
 inertia = 150
 [[slider]]
 order = 2

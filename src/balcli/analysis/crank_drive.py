@@ -35,7 +35,7 @@ from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Grid, degrees, number
-from ..show.units import SI, ShownUnit, System, name_with_unit
+from ..show.units import System, name_with_unit
 from .records import Journal, JournalTorque, Masses, ShearStress
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
@@ -251,13 +251,6 @@ _LABELS = {
 }
 
 
-def choose_part_units(system: System) -> dict[str, ShownUnit]:
-    """Return the units in which people read masses, inertias and lengths of parts, by SI unit."""
-    if system is not SI:
-        return {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
-    return {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6), "m": system.length}
-
-
 def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     """Return a table: a figure a row, cylinders with equal parts a column.
 
@@ -265,7 +258,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each distinct set of parts.
         system: System of units.
     """
-    units = choose_part_units(system)
+    units = system.of_parts
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
     rows = []
     for key, label in _LABELS.items():

@@ -27,7 +27,6 @@ from ..file.model import Counterweight, Shaft, group_eccentrics
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Facts, Grid, Text, degrees, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
-from .crank_drive import choose_part_units
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
 _ROUNDING = 1e-12  # of the sum of all loads: less is no load
@@ -239,7 +238,7 @@ def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
 
 def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
     """Return in words ratio, bending, inertia and drag of a shaft."""
-    inertia, length = choose_part_units(system)["kg·m²"], system.length
+    inertia, length = system.of_parts["kg·m²"], system.length
     told = [f"ratio {shaft.ratio:+d}"]
     if shaft.bending_Nm is not None:
         bending = f"bending {size_text(shaft.bending_Nm, system.moment)}"
@@ -256,7 +255,7 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
 
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     length, largest = system.length, max(abs(part.unbalance_kg_m) for part in parts)
-    units = choose_part_units(system) | {
+    units = system.of_parts | {
         "deg": ShownUnit("deg", 1),
         "mm": ShownUnit(length.name, 1e3 * length.size),
         "kg·m": system.unbalance.fit(largest),

@@ -105,23 +105,16 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.masses is not None:
         yield _import_seldom().lay_out_masses(result.masses, system)
     if result.parts is not None:
-        yield from _import_parts().lay_out_parts(result.parts, system)
+        yield from _import_seldom("parts").lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
 
 
-def _import_parts() -> ModuleType:
-    """Return the module of balancer shafts and counterweights as parts."""
-    from . import parts
+def _import_seldom(name: str = "crank_drive") -> ModuleType:
+    """Return a module of what is seldom asked for: crank_drive (journals, masses), or parts."""
+    from . import crank_drive, parts
 
-    return parts
-
-
-def _import_seldom() -> ModuleType:
-    """Return the module of parts that are seldom asked for: journals and masses."""
-    from . import crank_drive
-
-    return crank_drive
+    return {"crank_drive": crank_drive, "parts": parts}[name]
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -263,7 +256,7 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.masses is not None:
         yield from _import_seldom().list_mass_rows(result.masses)
     if result.parts is not None:
-        yield from _import_parts().list_part_rows(result.parts)
+        yield from _import_seldom("parts").list_part_rows(result.parts)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.answer import Analysis, analyze
+from ..analysis.parts import describe_parts
 from ..analysis.records import BalanceParts
 from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
@@ -181,8 +182,6 @@ def _answer(
     """Return a remedy with its analyses and its figures for the workshop."""
     tools, parts = tools or Tools(), None
     if shapes is not None and shapes != Shapes():
-        from ..analysis.parts import describe_parts  # for those who ask
-
         remedy = shape_devices(engine, remedy, shapes)
         parts = describe_parts(engine, remedy.shafts, remedy.counterweights)
     practical = find_practical(engine, remedy, tools)

@@ -176,8 +176,10 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
     return Tools(**found)
 
 
-def parse_shapes(units: Units, bearings: str | None, sector: str | None) -> Shapes:
-    """Return the shapes of new devices; each argument is an option as typed, or None.
+def parse_shapes(
+    units: Units, bearings: str | None, sector: str | None
+) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
+    """Return the figures of `Shapes`; each argument is an option as typed, or None.
 
     Args:
         units: Units of the command.
@@ -187,8 +189,6 @@ def parse_shapes(units: Units, bearings: str | None, sector: str | None) -> Shap
     Raises:
         BalcliError: A text that cannot be read.
     """
-    from ..sizing.workshop import Shapes
-
     places, sizes = None, None
     if bearings is not None:
         wanted = "the places of two bearings along z in mm, such as -130,130"
@@ -200,7 +200,7 @@ def parse_shapes(units: Units, bearings: str | None, sector: str | None) -> Shap
             raise BalcliError(f'--sector "{sector:.60}": give {wanted}')
         lengths = read_lengths("--sector", radii, wanted, 2, units)
         sizes = (*lengths, read_angle("--sector", opening))
-    return Shapes(places, sizes)
+    return places, sizes
 
 
 def parse_grade(text: str | None) -> float | None:
@@ -298,7 +298,7 @@ def balance(
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..sizing.fit import list_to_fit, remove_to_fit
-    from ..sizing.workshop import HolesDoNotFitError
+    from ..sizing.workshop import HolesDoNotFitError, Shapes
     from . import answer
 
     options = parse_scheme_options(
@@ -307,7 +307,7 @@ def balance(
     options = options._replace(step=step)
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
-    shapes = parse_shapes(units, bearings, sector)
+    shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
     mass_kg = None if mass is None else read_mass("--mass", mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)

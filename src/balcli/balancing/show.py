@@ -21,6 +21,7 @@ from ..analysis.devices_show import (
 )
 from ..analysis.order_tables import fit_largest
 from ..analysis.overview import name_column
+from ..analysis.parts import lay_out_parts
 from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
@@ -88,8 +89,6 @@ def sheet(result: Balance, system: System) -> Sheet:
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
         if result.parts is not None:
-            from ..analysis.parts import lay_out_parts  # for those who ask
-
             parts += lay_out_parts(result.parts, system)
     elif remedy.beyond:
         parts.append(

@@ -1,13 +1,10 @@
 """Depth of a radial hole that removes a given unbalance, or adds it with a slug of heavier metal;
-moments of a sector of a disc; and the permitted residual unbalance by ISO 21940-11.
+and the permitted residual unbalance by ISO 21940-11.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
-
-from .phasors import Figure, unit
 
 STEEL = 7850.0  # kg/m3, plain carbon steel
 # kg/m3, of slugs: heavy alloy of 90 % tungsten (ASTM B777, class 1), which shops also know as
@@ -42,38 +39,6 @@ def find_drilled_unbalance(depth: float, rim: float, drill: float, density: floa
         density: Density of the rotor, kg/m3.
     """
     return density * math.pi / 4 * drill**2 * depth * (rim - depth / 2)
-
-
-class SectorMoments(NamedTuple):
-    """Moments of the area of a sector of a disc about the axis of the disc.
-
-    Attributes:
-        area: Area, m2.
-        first: First moment, along the middle of the sector, m3.
-        polar: Polar second moment, m4.
-    """
-
-    area: Figure
-    first: Figure
-    polar: Figure
-
-
-def find_sector_moments(inner: Figure, outer: Figure, opening_deg: Figure) -> SectorMoments:
-    """Return the moments of a sector: `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 -
-    r^4)`, integrals of r, r^2 cos and r^3 over the sector.
-
-    Args:
-        inner: Inner radius r, m.
-        outer: Outer radius R, m.
-        opening_deg: Full angle q, deg.
-    """
-    angle = opening_deg * (math.pi / 180)
-    sine = unit(opening_deg / 2).imag + 0.0  # exactly 0 for a whole ring
-    return SectorMoments(
-        angle / 2 * (outer**2 - inner**2),
-        2 / 3 * (outer**3 - inner**3) * sine,
-        angle / 4 * (outer**4 - inner**4),
-    )
 
 
 def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,7 +10,6 @@ import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
-from ..core.unbalance import find_sector_moments
 from ..errors import InputError, Problem
 from ..file.fields import shorten
 from ..file.model import Counterweight, EngineFile, Sector, Shaft, Slider, group_eccentrics
@@ -103,6 +103,38 @@ def find_given_unbalance(
     if mass is not None or radius is not None:
         raise InputError([Problem(path, "the file gives neither mass nor radius; vary unbalance")])
     return None
+
+
+class SectorMoments(NamedTuple):
+    """Moments of the area of a sector of a disc about the axis of the disc.
+
+    Attributes:
+        area: Area, m2.
+        first: First moment, along the middle of the sector, m3.
+        polar: Polar second moment, m4.
+    """
+
+    area: Figure
+    first: Figure
+    polar: Figure
+
+
+def find_sector_moments(inner: Figure, outer: Figure, opening_deg: Figure) -> SectorMoments:
+    """Return the moments of a sector: `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 -
+    r^4)`, integrals of r, r^2 cos and r^3 over the sector.
+
+    Args:
+        inner: Inner radius r, m.
+        outer: Outer radius R, m.
+        opening_deg: Full angle q, deg.
+    """
+    angle = opening_deg * (math.pi / 180)
+    sine = unit(opening_deg / 2).imag + 0.0  # exactly 0 for a whole ring
+    return SectorMoments(
+        angle / 2 * (outer**2 - inner**2),
+        2 / 3 * (outer**3 - inner**3) * sine,
+        angle / 4 * (outer**4 - inner**4),
+    )
 
 
 class SectorFigures(NamedTuple):
