@@ -90,6 +90,10 @@ def explain_still(engine: Engine) -> str:
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
         return "it has articulated rods"
+    if engine.model is not None:
+        devices = (*engine.model.counterweight, *engine.model.shaft)
+        if any(one.unbalance is None and one.mass is None for one in devices):
+            return "a counterweight or shaft has no unbalance in the file"
     return "its speed is uneven" if engine.ripple else ""
 
 
@@ -225,12 +229,18 @@ def _describe_new(dimension: Dimension, usual: float) -> Node:
     return {"unit": dimension.unit, "usual": usual, **least}
 
 
+def _is_unused(name: str) -> bool:
+    """Return whether a number counts only at an uneven speed."""
+    of_device = name.startswith(_DEVICES) and (name.endswith(".inertia") or ".sector." in name)
+    return of_device or name.startswith(_UNUSED)
+
+
 def _list_numbers(model: EngineFile) -> Iterator[Node]:
     """Yield the numbers of the file that the page may change, with values, units and limits."""
     tables = dict(model.tables())
     for name, number in find_numbers(model).items():
         value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or _is_unused(name):
             continue
         yield {"name": name, "value": value, **_describe_limits(number)}
     for path, table in tables.items():
