@@ -180,10 +180,11 @@ def _answer(
     shapes: Shapes | None = None,
 ) -> Balance:
     """Return a remedy with its analyses and its figures for the workshop."""
-    tools, parts = tools or Tools(), None
-    if shapes is not None and shapes != Shapes():
-        remedy = shape_devices(engine, remedy, shapes)
-        parts = describe_parts(engine, remedy.shafts, remedy.counterweights)
+    tools, shapes, parts = tools or Tools(), shapes or Shapes(), None
+    remedy = shape_devices(engine, remedy, shapes)
+    shafts = () if shapes.bearings is None else remedy.shafts
+    if shafts or any(weight.sector for weight in remedy.counterweights):
+        parts = describe_parts(engine, shafts, remedy.counterweights)
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
     note = _UNEVEN if engine.ripple else ""

@@ -25,6 +25,7 @@ from ..core.phasors import Array, Complex, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..engine.engine import Engine, find_row
 from ..errors import BalcliError
+from ..file.model import Override
 from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
@@ -278,7 +279,12 @@ def silence(engine: Engine, number: int) -> Engine:
     """
     gas, row = take_gas(engine), find_row(engine, number, "--misfire")
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
-    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=None)
+    model = engine.model
+    if model is not None:
+        table = model.cylinder.get(number, Override.model_construct())
+        own = table.model_copy(update={"gas": 0.0})
+        model = model.model_copy(update={"cylinder": {**model.cylinder, number: own}})
+    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=model)
 
 
 def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:

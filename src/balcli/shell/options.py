@@ -25,6 +25,7 @@ from .values import optional, read_length, read_share, read_speed
 # words of `analyze --only` that name a table or text of what is computed anyway
 PARTS = ("xy", "textbook", "verdict")
 CLOSER = ("inner", "guide", "journals", "masses", "parts")  # computed only when they are named
+OF_ONE = (*PARTS, *CLOSER[2:])  # of one engine at one speed
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
