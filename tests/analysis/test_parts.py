@@ -13,13 +13,17 @@ from support.engines import GOOD, RADIAL, build_text, changed
 from support.paths import ENGINES, write
 
 from balcli import BalcliError, Shapes, analyze, curves, load, load_example
-from balcli.analysis.parts import find_parts
+from balcli.analysis import parts
 from balcli.balancing.answer import balance
 from balcli.forces.curves import EngineMotion
 
 PLACES = st.floats(-300, 300).map(lambda z: round(z, 1))
 SECTOR = "sector = { inner_radius = 30, outer_radius = 75, opening = 140 }\n"
 BALANCED = GOOD + "[[shaft]]\nratio = -1\ninertia = 150\nunbalance = 900\n"
+
+
+def find_parts(engine):
+    return parts.find_parts(engine, engine.model.shaft, engine.model.counterweight)
 
 
 def describe_shaft(text, speed=3000):

@@ -10,7 +10,7 @@ from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, Node, WrittenAs
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import Engine, check_engine, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -251,10 +251,11 @@ def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
         return {}
     from . import crank_drive, parts
 
+    model = take_model(engine) if "parts" in wanted else None
     return {
         "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
         "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
-        "parts": parts.find_parts(engine) if "parts" in wanted else None,
+        "parts": model and parts.find_parts(engine, model.shaft, model.counterweight),
     }
 
 

@@ -153,7 +153,8 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
     arms = (np.conj(places)[:, None] * force).imag
-    momentum, energy = (-value * motion.xi[None] for value in engine.inertia_beyond_pins)
+    turning = engine.find_turning_inertia(beyond_pins=True)
+    momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
     couple = np.concatenate([_couple_of_cylinders(motion), arms, momentum])
     torque = np.concatenate([_torque_of_cylinders(motion), energy])
     return {

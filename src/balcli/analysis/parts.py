@@ -13,42 +13,29 @@ still; the lever rule shares it, too.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from ..core.cylinders import find_innermost
 from ..core.loads import find_arms
 from ..core.phasors import Array, Complex, unit, wrap_degrees
-from ..core.records import find_unit, list_figures, to_document
+from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
 from ..engine.devices import build_device, find_given_unbalance, find_sector
-from ..engine.engine import Engine, take_model
+from ..engine.engine import Engine
 from ..file.model import Counterweight, Shaft, group_eccentrics
 from ..show.figures import FigureRow
-from ..show.sheet import UNKNOWN, Facts, Grid, Text, degrees, number, size_text
+from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
 _ROUNDING = 1e-12  # of the sum of all loads: less is no load
 
 
-def find_parts(engine: Engine) -> BalanceParts:
-    """Return the balancer shafts and counterweights of an engine file as parts, at the mean speed.
-
-    Args:
-        engine: Engine without trailing axes.
-
-    Raises:
-        BalcliError: No file describes this engine.
-    """
-    model = take_model(engine)
-    return describe_parts(engine, model.shaft, model.counterweight)
-
-
-def describe_parts(
+def find_parts(
     engine: Engine, shafts: Sequence[Shaft], counterweights: Sequence[Counterweight]
 ) -> BalanceParts:
-    """Return balancer shafts and counterweights of an engine as parts.
+    """Return balancer shafts and counterweights of an engine as parts, at the mean speed.
 
     Args:
         engine: Engine without trailing axes.
@@ -59,11 +46,9 @@ def describe_parts(
     lowest = None
     if skirt is not None and not engine.rotary:  # counterweights there turn with the cylinders
         lowest = float(find_innermost(engine.cylinders).min()) - skirt / 1e3
+    omega, groups = float(engine.omega), group_eccentrics(shafts)
     return BalanceParts(
-        tuple(
-            _describe_shaft(name, [*entries.values()], float(engine.omega))
-            for name, entries in group_eccentrics(shafts)
-        ),
+        tuple(_describe_shaft(name, [*entries.values()], omega) for name, entries in groups),
         tuple(_describe_counterweight(one, lowest) for one in counterweights),
     )
 
@@ -78,30 +63,45 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
         omega: Crank speed, rad/s.
     """
     devices = [build_device(entry, 0.0) for entry in entries]
-    order, ratio = devices[0].order, entries[0].ratio
-    shaft = BalancerShaft(name, ratio, order * sum(abs(float(d.spin)) for d in devices))
+    order = devices[0].order
+    inertia = order * sum(abs(float(device.spin)) for device in devices)
+    shaft = BalancerShaft(name, entries[0].ratio, inertia)
     bearings = next((entry.bearings for entry in entries if entry.bearings), None)
     if bearings is None:
         return shaft
-    gear = next((entry.gear for entry in entries if entry.gear), None)
-    drag = max(entry.drag for entry in entries)
+    places, planes = np.array([float(d.z) for d in devices]), np.array(bearings) / 1e3
     vectors: Complex = np.array([d.forward + d.backward for d in devices], complex)
     loads: Complex = (order * omega) ** 2 * vectors
-    places, planes = np.array([float(d.z) for d in devices]), np.array(bearings) / 1e3
     turning = _share(loads, places, planes)
-    fixed, described = np.zeros(2, complex), None
-    if gear is not None:
-        tangential, slope = 1e3 * drag / gear.radius, math.tan(math.radians(gear.pressure_angle))
-        described = ShaftGear(tangential, tangential * slope, drag * order * omega)
-        force = tangential * unit(gear.direction) * (1j * np.sign(ratio) - slope)
-        fixed = _share(np.array([force]), np.array([gear.position / 1e3]), planes)
+    gear, fixed = _describe_gear(entries, order * omega, planes)
+    pairs = zip(bearings, turning.tolist(), fixed.tolist(), strict=True)
     bending, place = _find_bending(loads, places, turning, planes)
     return shaft._replace(
-        bearings=tuple(map(_describe_bearing, bearings, turning.tolist(), fixed.tolist())),
+        bearings=tuple(_describe_bearing(*pair) for pair in pairs),
         bending_Nm=bending,
         bending_position_mm=place,
-        gear=described,
+        gear=gear,
     )
+
+
+def _describe_gear(
+    entries: Sequence[Shaft], omega: float, planes: Array
+) -> tuple[ShaftGear | None, Complex]:
+    """Return the gear of a shaft, None without one, and its loads of the bearings, N, shape (2,).
+
+    Args:
+        entries: Tables of the shaft.
+        omega: Speed of the shaft, rad/s.
+        planes: Places of the bearings, m, shape (2,).
+    """
+    gear = next((entry.gear for entry in entries if entry.gear), None)
+    if gear is None:
+        return None, np.zeros(2, complex)
+    drag, sense = max(entry.drag for entry in entries), np.sign(entries[0].ratio)
+    tangential, slope = 1e3 * drag / gear.radius, math.tan(math.radians(gear.pressure_angle))
+    force: Complex = np.array([tangential * unit(gear.direction) * (1j * sense - slope)])
+    loads = _share(force, np.array([gear.position / 1e3]), planes)
+    return ShaftGear(tangential, tangential * slope, drag * omega), loads
 
 
 def _share(loads: Complex, places: Array, planes: Array) -> Complex:
@@ -118,19 +118,14 @@ def _share(loads: Complex, places: Array, planes: Array) -> Complex:
 
 
 def _describe_bearing(position_mm: float, turning: complex, fixed: complex) -> ShaftBearing:
-    return ShaftBearing(
-        position_mm=position_mm,
-        rotating_N=abs(turning),
-        fixed_N=abs(fixed),
-        largest_N=abs(turning) + abs(fixed),
-        rotating_deg=_find_direction(turning) if turning else None,
-        fixed_deg=_find_direction(fixed) if fixed else None,
-    )
+    sizes = abs(turning), abs(fixed), abs(turning) + abs(fixed)
+    return ShaftBearing(position_mm, *sizes, _find_direction(turning), _find_direction(fixed))
 
 
-def _find_direction(vector: complex) -> float:
-    """Return the direction of a vector from x, deg, in (-180, 180]."""
-    return float(wrap_degrees(math.degrees(math.atan2(vector.imag, vector.real)), 360))
+def _find_direction(vector: complex) -> float | None:
+    """Return the direction of a vector from x, deg, in (-180, 180]; None if it is 0."""
+    angle = math.degrees(math.atan2(vector.imag, vector.real))
+    return float(wrap_degrees(angle, 360)) if vector else None
 
 
 def _find_bending(
@@ -161,20 +156,12 @@ def _describe_counterweight(table: Counterweight, lowest: float | None) -> Count
         table: The counterweight.
         lowest: Least distance of a piston's lowest edge from the crank axis, m; None: not known.
     """
-    angle = float(wrap_degrees(table.angle, 360))
-    if (sector := table.sector) is None:
-        return CounterweightPart(table.position, angle, float(find_given_unbalance(table) or 0.0))
-    found = find_sector(table, sector)
-    return CounterweightPart(
-        position_mm=table.position,
-        angle_deg=angle,
-        unbalance_kg_m=float(found.unbalance),
-        mass_kg=float(found.mass),
-        center_of_mass_m=float(found.center_of_mass),
-        thickness_m=float(found.thickness),
-        inertia_kg_m2=float(found.inertia),
-        clearance_m=None if lowest is None else lowest - sector.outer_radius / 1e3,
-    )
+    place = table.position, float(wrap_degrees(table.angle, 360))
+    if table.sector is None:
+        return CounterweightPart(*place, float(find_given_unbalance(table) or 0.0))
+    unbalance, mass, radius, thickness, inertia = map(float, find_sector(table, table.sector))
+    clearance = None if lowest is None else lowest - table.sector.outer_radius / 1e3
+    return CounterweightPart(*place, unbalance, mass, radius, thickness, inertia, clearance)
 
 
 # ------------------------------------------------------------------ how it is shown
@@ -182,20 +169,19 @@ _BEARINGS_NOTE = (
     "Bearing loads depend on the resultant force and moment and on the bearing places only; "
     "moving weights without changing both changes bending only."
 )
-_CLEARANCE_NOTE = (
-    "Clearance: from the rim to the lowest edge of a piston at its inner dead centre; on the safe "
-    "side where a counterweight does not stand opposite its pin."
-)
-_LABELS = {
-    "position_mm": "z",
-    "angle_deg": "at",
-    "unbalance_kg_m": "unbalance",
-    "mass_kg": "mass",
-    "center_of_mass_m": "centre of mass",
-    "thickness_m": "thickness",
-    "inertia_kg_m2": "inertia",
-    "clearance_m": "clearance",
+_RADIUS_NOTE = "Radius: of the centre of mass."
+_CLEARANCE_NOTE = "Clearance: to the lowest piston, as if it stood over the counterweight."
+
+
+_BEARING = {
+    "position_mm": "bearing",
+    "rotating_N": "turning",
+    "rotating_deg": "at",
+    "fixed_N": "fixed",
+    "largest_N": "largest",
 }
+_SHORT = {"position_mm": "z", "angle_deg": "at", "center_of_mass_m": "radius"}
+_WEIGHT = {key: remove_unit(key) for key in CounterweightPart._fields} | _SHORT
 
 
 def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts | Text]:
@@ -219,63 +205,60 @@ def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts 
 
 def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
     pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
-    unit = system.force.fit(max(bearing.largest_N for _, bearing in pairs))
-    heads = (f"bearing, {system.length.name}", f"turning, {unit.name}", "at, deg")
-    largest = (f"fixed, {unit.name}", f"largest, {unit.name}")
-    rows = tuple(
-        (
-            name,
-            number(system.length.of(bearing.position_mm / 1e3)),
-            number(unit.of(bearing.rotating_N)),
-            "" if bearing.rotating_deg is None else degrees(bearing.rotating_deg),
-            number(unit.of(bearing.fixed_N)),
-            number(unit.of(bearing.largest_N)),
-        )
-        for name, bearing in pairs
-    )
-    return Grid("Balancer shafts", ("shaft", *heads, *largest), rows, _BEARINGS_NOTE)
+    names, bearings = zip(*pairs, strict=True)
+    unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
+    columns = [("shaft", names), *_list_columns(bearings, _BEARING, {"N": unit}, system)]
+    return Grid.of_columns("Balancer shafts", columns, _BEARINGS_NOTE)
+
+
+def _list_columns(
+    records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
+) -> Iterator[tuple[str, list[str]]]:
+    """Yield heading and cells of each figure that some records have.
+
+    Args:
+        records: One a row.
+        labels: Labels of the figures, by their keys.
+        units: Units of unbalance and force.
+        system: System of units.
+    """
+    length, angle = system.length, ShownUnit("deg", 1)
+    units = units | system.of_parts | {"deg": angle, "mm": length._replace(size=1e3 * length.size)}
+    for key, label in labels.items():
+        values, unit_ = [getattr(record, key) for record in records], units[find_unit(key)]
+        cells = [UNKNOWN if value is None else number(unit_.of(value)) for value in values]
+        if set(cells) != {UNKNOWN}:
+            yield name_with_unit(label, unit_.name), cells
 
 
 def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
     """Return in words ratio, bending, inertia and drag of a shaft."""
-    inertia, length = system.of_parts["kg·m²"], system.length
     told = [f"ratio {shaft.ratio:+d}"]
     if shaft.bending_Nm is not None:
-        bending = f"bending {size_text(shaft.bending_Nm, system.moment)}"
-        if shaft.bending_position_mm is not None:
-            place = number(length.of(shaft.bending_position_mm / 1e3))
-            bending += f" at z = {place} {length.name}"
-        told.append(bending)
-    if shaft.inertia_at_crank_kg_m2:
-        told.append(f"inertia at the crank {size_text(shaft.inertia_at_crank_kg_m2, inertia)}")
+        told.append(f"bending {size_text(shaft.bending_Nm, system.moment)}")
+    if shaft.bending_position_mm is not None:
+        told[-1] += f" at z = {size_text(shaft.bending_position_mm / 1e3, system.length)}"
+    if inertia := shaft.inertia_at_crank_kg_m2:
+        told.append(f"inertia at the crank {size_text(inertia, system.of_parts['kg·m²'])}")
     if shaft.gear is not None:
         told.append(f"drag {size_text(shaft.gear.power_W, system.heat)}")
     return ", ".join(told)
 
 
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
-    length, largest = system.length, max(abs(part.unbalance_kg_m) for part in parts)
-    units = system.of_parts | {
-        "deg": ShownUnit("deg", 1),
-        "mm": ShownUnit(length.name, 1e3 * length.size),
-        "kg·m": system.unbalance.fit(largest),
-    }
-    columns = [("counterweight", [str(k) for k in range(1, len(parts) + 1)])]
-    for key, label in _LABELS.items():
-        values, unit = [getattr(part, key) for part in parts], units[find_unit(key)]
-        if any(value is not None for value in values):
-            cells = [UNKNOWN if value is None else number(unit.of(value)) for value in values]
-            columns.append((name_with_unit(label, unit.name), cells))
-    has_clearance = any(part.clearance_m is not None for part in parts)
-    return Grid.of_columns("Counterweights", columns, _CLEARANCE_NOTE if has_clearance else "")
+    unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
+    numbers = [str(k) for k in range(1, len(parts) + 1)]
+    columns = list(_list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
+    notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
+    notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
+    columns.insert(0, ("counterweight", numbers))
+    return Grid.of_columns("Counterweights", columns, " ".join(notes))
 
 
 def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
     """Yield every figure of shafts and counterweights, SI."""
-    for shaft in parts.shafts:
-        for name, value, unit_ in list_figures(to_document(shaft), ("name",)):
-            label = f"shaft {shaft.name.removeprefix('shaft ')}"
+    shafts = ((f"shaft {one.name.removeprefix('shaft ')}", one) for one in parts.shafts)
+    weights = ((f"counterweight {k}", one) for k, one in enumerate(parts.counterweights, 1))
+    for label, record in (*shafts, *weights):
+        for name, value, unit_ in list_figures(to_document(record), ("name",)):
             yield FigureRow(0, label, None, name, value, unit_)
-    for k, part in enumerate(parts.counterweights, 1):
-        for name, value, unit_ in list_figures(to_document(part)):
-            yield FigureRow(0, f"counterweight {k}", None, name, value, unit_)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.answer import Analysis, analyze
-from ..analysis.parts import describe_parts
+from ..analysis.parts import find_parts
 from ..analysis.records import BalanceParts
 from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
@@ -184,7 +184,7 @@ def _answer(
     remedy = shape_devices(engine, remedy, shapes)
     shafts = () if shapes.bearings is None else remedy.shafts
     if shafts or any(weight.sector for weight in remedy.counterweights):
-        parts = describe_parts(engine, shafts, remedy.counterweights)
+        parts = find_parts(engine, shafts, remedy.counterweights)
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
     note = _UNEVEN if engine.ripple else ""

@@ -189,18 +189,16 @@ def parse_shapes(
     Raises:
         BalcliError: A text that cannot be read.
     """
-    places, sizes = None, None
+    places = None
     if bearings is not None:
         wanted = "the places of two bearings along z in mm, such as -130,130"
         places = read_lengths("--bearings", bearings, wanted, 2, units)
-    if sector is not None:
-        wanted = "inner and outer radius in mm and opening in deg, such as 30,75,140"
-        radii, _, opening = sector.rpartition(",")
-        if sector.count(",") != 2:
-            raise BalcliError(f'--sector "{sector:.60}": give {wanted}')
-        lengths = read_lengths("--sector", radii, wanted, 2, units)
-        sizes = (*lengths, read_angle("--sector", opening))
-    return places, sizes
+    if sector is None:
+        return places, None
+    wanted = "inner and outer radius in mm and opening in deg, such as 30,75,140"
+    radii, _, opening = sector.rpartition(",")
+    lengths = read_lengths("--sector", radii, wanted, 2, units)
+    return places, (*lengths, read_angle("--sector", opening))
 
 
 def parse_grade(text: str | None) -> float | None:

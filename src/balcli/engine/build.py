@@ -342,15 +342,8 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
-    (
-        check_cylinders,
-        check_articulation,
-        check_rods,
-        check_half_orders,
-        check_speed,
-        check_shafts,
-    ),
-    (check_knuckles,),  # pins
+    (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
+    (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
     (check_gas,),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -105,53 +106,21 @@ def find_given_unbalance(
     return None
 
 
-class SectorMoments(NamedTuple):
-    """Moments of the area of a sector of a disc about the axis of the disc.
-
-    Attributes:
-        area: Area, m2.
-        first: First moment, along the middle of the sector, m3.
-        polar: Polar second moment, m4.
-    """
-
-    area: Figure
-    first: Figure
-    polar: Figure
-
-
-def find_sector_moments(inner: Figure, outer: Figure, opening_deg: Figure) -> SectorMoments:
-    """Return the moments of a sector: `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 -
-    r^4)`, integrals of r, r^2 cos and r^3 over the sector.
-
-    Args:
-        inner: Inner radius r, m.
-        outer: Outer radius R, m.
-        opening_deg: Full angle q, deg.
-    """
-    angle = opening_deg * (math.pi / 180)
-    sine = unit(opening_deg / 2).imag + 0.0  # exactly 0 for a whole ring
-    return SectorMoments(
-        angle / 2 * (outer**2 - inner**2),
-        2 / 3 * (outer**3 - inner**3) * sine,
-        angle / 4 * (outer**4 - inner**4),
-    )
-
-
 class SectorFigures(NamedTuple):
     """Figures of a counterweight in the shape of a sector, SI.
 
     Attributes:
-        thickness: Thickness, m.
+        unbalance: Mass x distance of its center of mass, kg m.
         mass: Mass, kg.
         center_of_mass: Distance of its center of mass from the crank axis, m.
-        unbalance: Mass x distance, kg m.
+        thickness: Thickness, m.
         inertia: Polar moment of inertia about the crank axis, kg m2.
     """
 
-    thickness: Figure
+    unbalance: Figure
     mass: Figure
     center_of_mass: Figure
-    unbalance: Figure
+    thickness: Figure
     inertia: Figure
 
 
@@ -160,6 +129,9 @@ def find_sector(
 ) -> SectorFigures:
     """Return the figures of a counterweight from the thickness of its sector, or from its
     unbalance.
+
+    With the radii r and R and the opening q, the integrals of r, r^2 cos and r^3 over the sector
+    are `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 - r^4)`.
 
     Args:
         table: The counterweight.
@@ -174,24 +146,20 @@ def find_sector(
         figures.take(f"{path}.sector.{key}", getattr(sector, key))
         for key in ("inner_radius", "outer_radius", "opening", "density")
     )
-    moments, per_volume = find_sector_moments(inner / 1e3, outer / 1e3, opening), density * 1e3
     thickness = figures.take_optional(f"{path}.sector.thickness", sector.thickness)
     unbalance = find_given_unbalance(table, figures, path)
     is_double = thickness is not None and unbalance is not None
     if is_double or figures.is_displaced(f"{path}.sector"):
         told = "the file gives a sector, by its thickness or by an unbalance; vary that one"
         raise InputError([Problem(path, told)])
-    if thickness is None:
-        thickness = or_zero(unbalance) / (per_volume * moments.first)
-    else:
-        thickness = thickness / 1e3
-        unbalance = per_volume * thickness * moments.first
+    inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
+    area = angle / 2 * (outer**2 - inner**2)
+    first = 2 / 3 * (outer**3 - inner**3) * (unit(opening / 2).imag + 0.0)  # 0 for a whole ring
+    # kg of each m2
+    weight = density * or_zero(thickness) if unbalance is None else unbalance / first
+    polar = angle / 4 * (outer**4 - inner**4)
     return SectorFigures(
-        thickness,
-        per_volume * thickness * moments.area,
-        moments.first / moments.area,
-        or_zero(unbalance),
-        per_volume * thickness * moments.polar,
+        weight * first, weight * area, first / area, weight / (1e3 * density), weight * polar
     )
 
 
@@ -204,18 +172,17 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
     stands in one of them, and that a shaft with drag has a gear.
     """
     for name, entries in group_eccentrics(parts.model.shaft):
-        (first, table), *others = entries.items()
-        for number, other in others:
-            for key in ("ratio", "at"):
-                if (value := getattr(other, key)) != (wanted := getattr(table, key)):
-                    told = f'is {shorten(value)}, but shaft.{first} of the name "{name}" has '
-                    told += f"{shorten(wanted)}: give eccentrics of one shaft the same {key}"
-                    yield Problem(f"shaft.{number}.{key}", told)
-        given = {key: [k for k, one in entries.items() if one.has(key)] for key in _OF_SHAFT}
-        for key, numbers in given.items():
-            for number in numbers[1:]:
-                told = f'stands in shaft.{numbers[0]} of the name "{name}" already; give it once'
+        first, *others = entries
+        for number, key in product(others, ("ratio", "at")):
+            value, wanted = (shorten(getattr(entries[k], key)) for k in (number, first))
+            if value != wanted:
+                told = f'is {value}, but shaft.{first} of the name "{name}" has {wanted}: '
+                yield Problem(f"shaft.{number}.{key}", f"{told}give one shaft the same {key}")
+        for key in _OF_SHAFT:
+            for number in [k for k, one in entries.items() if one.has(key)][1:]:
+                told = f'is given twice for the shaft "{name}"; give it once'
                 yield Problem(f"shaft.{number}.{key}", told)
-        if given["drag"] and not given["gear"]:
+        driven = [number for number, one in entries.items() if one.drag]
+        if driven and not any(one.gear for one in entries.values()):
             told = "needs gear, such as { position = -150, radius = 35, direction = 90 }"
-            yield Problem(f"shaft.{given['drag'][0]}.drag", told)
+            yield Problem(f"shaft.{driven[0]}.drag", told)

@@ -241,30 +241,28 @@ class Engine:
         """Number of revolutions after which a cylinder's forces repeat, gas included."""
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
 
-    @property
-    def turning_inertia(self) -> TurningInertia:
-        """All that turns in a constant ratio to the crank: crankshaft, flywheel and shafts; without
-        `crank.inertia` the counterweights. The crankshaft of a rotary engine stands still.
+    def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:
+        """Return the inertia of all that turns in a constant ratio to the crank: crankshaft,
+        flywheel and shafts; without `crank.inertia` the counterweights. The crankshaft of a rotary
+        engine stands still.
+
+        Args:
+            beyond_pins: Whether to leave out the throw masses in `crank.inertia`, which count with
+                the pins.
         """
         crank = None if self.rotary else self.crank_inertia
-        on_crank: Figure = 0.0 if crank is None else crank
-        if self.flywheel_inertia is not None:
-            on_crank = on_crank + self.flywheel_inertia
+        on_crank: Figure = 0.0
+        for inertia in (crank, self.flywheel_inertia):
+            on_crank = on_crank + (0.0 if inertia is None else inertia)
+        if beyond_pins and crank is not None:
+            throws = sum(masses.share for masses in self.weighed)
+            on_crank = on_crank - throws * self.cylinders.radius**2
         momentum, energy = on_crank, on_crank
         for device in self.devices:
             if device.kind is DeviceKind.SHAFT or crank is None:
                 momentum = momentum + device.spin
                 energy = energy + np.abs(device.spin) * device.order
         return TurningInertia(momentum, energy)
-
-    @property
-    def inertia_beyond_pins(self) -> TurningInertia:
-        """`turning_inertia` less the throw masses in `crank.inertia`, which count with the pins."""
-        found = self.turning_inertia
-        if self.crank_inertia is None or self.rotary:
-            return found
-        throws = sum(masses.share for masses in self.weighed) * self.cylinders.radius**2
-        return TurningInertia(found.momentum - throws, found.energy - throws)
 
     # -------------------------------------------------------------- cylinders and crank pins
     @property

@@ -262,7 +262,7 @@ def find_constant_inertia(engine: Engine) -> float | None:
     crank, kg m2; None where the file gives none.
     """
     crank = None if engine.rotary else engine.crank_inertia
-    found = float(engine.turning_inertia.energy)
+    found = float(engine.find_turning_inertia().energy)
     is_given = found or crank is not None or engine.flywheel_inertia is not None
     return found if is_given else None
 

@@ -254,7 +254,7 @@ def _compute_inertia(
     if not uneven:
         return steady
     scale = engine.omega**2 / (c.count if each else 1)
-    momentum, energy = (scale * value for value in engine.inertia_beyond_pins)
+    momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
     found = {}
     for name, phasors in steady.items():
         if name == "torque":

@@ -59,7 +59,8 @@ _TABLES = (
     "cylinder",
 )  # with numbers to change
 _DEVICES = ("counterweight", "shaft", "slider")
-_UNUSED = ("crank.inertia", "operation.speed_ripple")
+# Numbers that count only at an uneven speed.
+_UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
 _UNITS = {  # spellings that the page reads, by dimension
     LENGTH: ("cm", "m", "in", "inch", "ft"),
@@ -229,18 +230,12 @@ def _describe_new(dimension: Dimension, usual: float) -> Node:
     return {"unit": dimension.unit, "usual": usual, **least}
 
 
-def _is_unused(name: str) -> bool:
-    """Return whether a number counts only at an uneven speed."""
-    of_device = name.startswith(_DEVICES) and (name.endswith(".inertia") or ".sector." in name)
-    return of_device or name.startswith(_UNUSED)
-
-
 def _list_numbers(model: EngineFile) -> Iterator[Node]:
     """Yield the numbers of the file that the page may change, with values, units and limits."""
     tables = dict(model.tables())
     for name, number in find_numbers(model).items():
         value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or _is_unused(name):
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or re.match(_UNUSED, name):
             continue
         yield {"name": name, "value": value, **_describe_limits(number)}
     for path, table in tables.items():

@@ -5,7 +5,7 @@ steel.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import NamedTuple
@@ -16,8 +16,9 @@ from ..core.phasors import wrap_degrees
 from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
-from ..errors import BalcliError, check_number, check_type
+from ..errors import BalcliError, InputError, check_number
 from ..file.model import Counterweight, Sector, Shaft, Slider
+from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
 
@@ -210,7 +211,7 @@ def _find_disc(unbalance: float, tools: Tools) -> Node:
 # ------------------------------------------------------------------ shapes of new devices
 def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
     """Return the remedy with its counterweights as sectors, and its shafts with names and bearings,
-    as far as these shapes are given.
+    as far as these shapes are given. What turns on one axis at one speed is one shaft.
 
     Args:
         engine: Engine without the new devices.
@@ -218,79 +219,49 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         shapes: Bearings and sector.
 
     Raises:
-        BalcliError: Bearings or a sector that cannot be, or that no new device has.
-        TypeError: One is no list of numbers.
+        BalcliError: No new device has a given shape.
+        InputError: Bearings or a sector that cannot be.
     """
-    devices = list(remedy.devices)
-    if shapes.sector is not None:
-        sector = _read_sector(shapes.sector)
-        _require(remedy.counterweights, "--sector", remedy.scheme, "counterweights")
-        for k, device in enumerate(devices):
-            if isinstance(device, Counterweight):
-                devices[k] = device.model_copy(update={"sector": sector})
-    if shapes.bearings is not None:
-        places = _read_places(shapes.bearings)
-        _require(remedy.shafts, "--bearings", remedy.scheme, "shafts")
-        devices = list(_name_shafts(engine, devices, places))
+    for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
+        if getattr(shapes, option) is not None and not found:
+            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that has it")
+    of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector else {}
+    bearings = _read_bearings(shapes.bearings) if shapes.bearings else {}
+    used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
+    free = (name for name in map("balancer {}".format, count(1)) if name not in used)
+    axes = dict.fromkeys((shaft.ratio, shaft.at) for shaft in remedy.shafts)
+    of_axes: dict[object, Node] = {}
+    if bearings:
+        of_axes = {axis: {"name": name, **bearings} for axis, name in zip(axes, free, strict=False)}
+    devices = []
+    for device in remedy.devices:
+        shape: Node = of_weights if isinstance(device, Counterweight) else {}
+        if isinstance(device, Shaft):
+            shape = of_axes.get((device.ratio, device.at), {})
+        devices.append(device.model_copy(update=shape))
+        shape.pop("bearings", None)  # the first of a shaft has them
     return remedy._replace(devices=tuple(devices))
 
 
-def _require(found: Sequence[object], option: str, scheme: str, what: str) -> None:
-    if not found:
-        raise BalcliError(f"{option} is for new {what}, and scheme {scheme} fits none")
-
-
-def _check_numbers(name: str, values: Sequence[float], size: int, wanted: str) -> list[float]:
-    """Return so many finite numbers.
-
-    Raises:
-        BalcliError: There are more or fewer.
-        TypeError: They are no list of numbers.
-    """
-    check_type(f"Shapes: {name}", values, (list, tuple), f"give {wanted}")
-    numbers = [check_number(f"Shapes: {name}", value, f"give {wanted}") for value in values]
-    if len(numbers) != size or not all(map(math.isfinite, numbers)):
-        raise BalcliError(f"--{name}: give {wanted}")
-    return numbers
-
-
-def _read_places(values: Sequence[float]) -> tuple[float, ...]:
-    """Return the places of two bearings, mm."""
-    wanted = "two places z in m, such as (-0.13, 0.13)"
-    places = [as_millimetres(z) for z in _check_numbers("bearings", values, 2, wanted)]
-    if places[0] == places[1]:
-        raise BalcliError(f"--bearings are both at {places[0]:g} mm; give two different places")
-    return tuple(places)
-
-
-def _read_sector(values: Sequence[float]) -> Sector:
+def _read_sector(values: Sequence[float]) -> Sector | None:
     """Return a sector whose thickness follows from the unbalance."""
-    wanted = "inner and outer radius in m and opening in deg, such as (0.03, 0.075, 140)"
-    inner, outer, opening = _check_numbers("sector", values, 3, wanted)
-    if not 0 <= inner < outer:
-        told = f"inner radius {1e3 * inner:g} mm: give 0 or more, below the outer radius"
-        raise BalcliError(f"--sector: {told} of {1e3 * outer:g} mm")
-    if not 0 < opening < 360:
-        raise BalcliError(f"--sector: opening {opening:g} deg: give above 0, below 360")
-    return Sector.model_construct(
-        inner_radius=as_millimetres(inner), outer_radius=as_millimetres(outer), opening=opening
-    )
+    keys = ("inner_radius", "outer_radius", "opening")
+    inner, outer, *opening = values
+    sizes = (as_millimetres(inner), as_millimetres(outer), *opening)
+    sector = dict(zip(keys, sizes, strict=False))
+    return _read_table("--sector", {"unbalance": 1, "sector": sector}, Counterweight).sector
 
 
-def _name_shafts(
-    engine: Engine, devices: Sequence[DeviceTable], places: tuple[float, ...]
-) -> Iterator[DeviceTable]:
-    """Yield the devices; those that turn on one axis at one speed are eccentrics of one shaft, the
-    first of which has the bearings.
-    """
-    used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
-    free = (name for name in map("balancer {}".format, count(1)) if name not in used)
-    names: dict[object, str] = {}
-    for device in devices:
-        if not isinstance(device, Shaft):
-            yield device
-            continue
-        key = device.ratio, device.at
-        has_bearings = {} if key in names else {"bearings": places}
-        names[key] = names.get(key) or next(free)
-        yield device.model_copy(update={"name": names[key], **has_bearings})
+def _read_bearings(values: Sequence[float]) -> Node:
+    """Return the key `bearings` of a shaft."""
+    places = [as_millimetres(z) for z in values]
+    shaft = _read_table("--bearings", {"ratio": 1, "inertia": 1, "bearings": places}, Shaft)
+    return {"bearings": shaft.bearings}
+
+
+def _read_table(option: str, values: Node, table: type[T]) -> T:
+    reader = TableReader("an option")
+    found = reader.read_table(option, values, table)
+    if found is None:
+        raise InputError(reader.problems)
+    return found

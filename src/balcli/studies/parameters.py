@@ -64,13 +64,8 @@ class Place(NamedTuple):
 
 
 # Keys without effect on any quantity: names of directions, and what `--only parts` shows.
-_SHOWN_ALONE = {
-    (Frame, "up"),
-    (Piston, "skirt"),
-    (Shaft, "bearings"),
-    (Shaft, "drag"),
-    *((Gear, key) for key in Gear.model_fields),
-}
+_SHOWN_ALONE = {(Frame, "up"), (Piston, "skirt"), (Shaft, "bearings"), (Shaft, "drag")}
+_SHOWN_ALONE |= {(Gear, key) for key in Gear.model_fields}
 
 
 def find_numbers(model: EngineFile) -> dict[str, Number]:
