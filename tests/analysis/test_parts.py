@@ -211,7 +211,7 @@ def test_new_shafts_have_names_of_their_own(tmp_path):
 def test_shapes_in_python():
     found = balance(load_example("i3"), "complete", shapes=Shapes((-0.13, 0.13), (0.03, 0.09, 140)))
     assert found.parts.shafts[0].bearings[0].position_mm == -130
-    with pytest.raises(BalcliError, match="bearings are both at 10 mm"):
+    with pytest.raises(BalcliError, match="bearings: bearings are both at 10 mm"):
         balance(load_example("i3"), "complete", shapes=Shapes(bearings=(0.01, 0.01)))
 
 

@@ -251,7 +251,7 @@ def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) 
     columns = list(_list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
     notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
     notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
-    columns.insert(0, ("counterweight", numbers))
+    columns.insert(0, ("no.", numbers))
     return Grid.of_columns("Counterweights", columns, " ".join(notes))
 
 

@@ -16,7 +16,7 @@ from ..core.phasors import wrap_degrees
 from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
-from ..errors import BalcliError, InputError, check_number
+from ..errors import BalcliError, check_number
 from ..file.model import Counterweight, Sector, Shaft, Slider
 from ..file.read import T, TableReader
 from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
@@ -219,14 +219,13 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         shapes: Bearings and sector.
 
     Raises:
-        BalcliError: No new device has a given shape.
-        InputError: Bearings or a sector that cannot be.
+        BalcliError: Bearings or a sector that cannot be, or that no new device has.
     """
     for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
         if getattr(shapes, option) is not None and not found:
             raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that has it")
-    of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector else {}
-    bearings = _read_bearings(shapes.bearings) if shapes.bearings else {}
+    of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
+    bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
     free = (name for name in map("balancer {}".format, count(1)) if name not in used)
     axes = dict.fromkeys((shaft.ratio, shaft.at) for shaft in remedy.shafts)
@@ -245,10 +244,8 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
 
 def _read_sector(values: Sequence[float]) -> Sector | None:
     """Return a sector whose thickness follows from the unbalance."""
-    keys = ("inner_radius", "outer_radius", "opening")
-    inner, outer, *opening = values
-    sizes = (as_millimetres(inner), as_millimetres(outer), *opening)
-    sector = dict(zip(keys, sizes, strict=False))
+    sector = dict(zip(("inner_radius", "outer_radius", "opening"), values, strict=False))
+    sector |= {key: as_millimetres(value) for key, value in sector.items() if key != "opening"}
     return _read_table("--sector", {"unbalance": 1, "sector": sector}, Counterweight).sector
 
 
@@ -263,5 +260,5 @@ def _read_table(option: str, values: Node, table: type[T]) -> T:
     reader = TableReader("an option")
     found = reader.read_table(option, values, table)
     if found is None:
-        raise InputError(reader.problems)
+        raise BalcliError(f"{option}: {'; '.join(one.message for one in reader.problems)}")
     return found
