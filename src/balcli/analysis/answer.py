@@ -1,4 +1,4 @@
-"""Engine -> Analysis: forces and moments by order, peaks, sizing, as far as they are asked."""
+"""Analyze an engine: forces and moments by order, peaks, devices, and further parts on request."""
 
 from __future__ import annotations
 
@@ -51,9 +51,15 @@ from .records import (
     name_devices,
 )
 
-UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
+UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide", "journals", "masses", "parts")  # computed only when they are named
+EXTRAS = (
+    "inner",
+    "guide",
+    "journals",
+    "masses",
+    "parts",
+)  # quantities that are computed only on request
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
@@ -113,29 +119,31 @@ class Analysis(Result):
 
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Each kind whose peak was asked for, with its peak."""
+        """Each kind whose peak was computed, with its peak."""
         return [] if self.peak is None else self.peak.items()
 
     @property
     def moments_known(self) -> bool:
-        """Whether the file says where the throws stand; else moments are of coincident ones."""
+        """Whether the file gives the positions of the throws. If not, moments are those of throws
+        in one plane.
+        """
         return self.engine.places_known
 
     @property
     def has_higher_orders(self) -> bool:
-        """Whether there may be orders above those that are shown unless they are asked for."""
+        """Whether the engine has orders above those that are shown by default."""
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
     def textbook(self) -> Textbook:
-        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        """Force and moment as textbooks state them, if they were computed and are known."""
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Largest force and moment of one cylinder, by kind: the scale that makes a value small."""
+        """Largest force and moment of one cylinder, by kind, with which values are compared."""
         scales = self.scales
         return {
             "force": scales.force,
@@ -145,12 +153,12 @@ class Analysis(Result):
 
     @property
     def scales(self) -> Scales:
-        """Largest first-order force of one cylinder, and its moments."""
+        """Largest first-order force, moment and roll of one cylinder."""
         return find_scales(self.engine)
 
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
-    """Return peaks, which must have been asked for, and orders alone."""
+    """Return only peaks, which must have been computed, and orders."""
     assert analysis.peak is not None
     return PeaksAndOrders(analysis.peak, analysis.spectra)
 
@@ -160,7 +168,7 @@ class Sizing:
     """Devices of the scheme `auto`, and the forces left with them.
 
     Attributes:
-        remedy: The devices.
+        remedy: New devices.
         after: Analysis with the devices.
     """
 
@@ -220,7 +228,7 @@ def analyze(
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)
-    else:  # near its lock an engine has tens of thousands: peaks need them, gas and tables do not
+    else:  # an engine close to locking has tens of thousands: only peaks need all of them
         few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
@@ -246,7 +254,7 @@ def analyze(
 
 
 def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
-    """Return results that are seldom asked for; their modules are loaded for them alone."""
+    """Return results that are seldom wanted; their modules are loaded only for them."""
     if not {"journals", "masses", "parts"}.intersection(wanted):
         return {}
     from . import crank_drive, parts
@@ -270,8 +278,8 @@ def _check_height(guide_height_m: float | None) -> None:
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """Return the quantities that are computed unless some are named: all but sizing and ladder;
-    those of gas if the engine has gas.
+    """Return the quantities that are computed by default; with gas, these include all quantities of
+    gas.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
@@ -308,13 +316,13 @@ def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collectio
 
 
 def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
-    """Return strokes and dead centres by the numbers of the cylinders, in rising order."""
+    """Return strokes and dead centres, sorted by cylinder number."""
     columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
     return tuple(sorted(map(Stroke, engine.numbers, *columns)))
 
 
 def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
-    """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
+    """Return whether orders are balanced by symmetry, without order 0 and without moments that are
     not known.
     """
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
@@ -322,11 +330,12 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Return shear, bending and bearing loads along the crankshaft, with gas as far as it is known.
+    """Return shear, bending and bearing loads along the crankshaft; with gas if its loads are
+    known.
 
     Args:
         engine: Engine without trailing axes.
-        asked: Orders to show, shape (orders,); None: the usual ones.
+        asked: Orders to show, shape (orders,); None: the default ones.
     """
     inner = compute_inner_loads(engine, asked)
     return inner if engine.gas is None else add_gas_loads(inner, engine, asked)

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 def build_devices(
     model: EngineFile, figures: FileFigures, first_axis_deg: Figure
 ) -> Iterator[Device]:
-    """Yield the counterweights, shafts and sliders of a file, in this order, as `build_device`
-    does.
+    """Yield the counterweights, shafts and sliders of a file, in this order.
 
     Args:
         model: Engine file.
@@ -42,12 +41,12 @@ def build_device(
     figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
-    """Return one device, SI.
+    """Return a device in SI units.
 
     Args:
         table: Table of an engine file.
-        first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, from which the angle
-            of a counterweight counts. The angles of other devices count from x.
+        first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, deg. Angles of
+            counterweights count from it, angles of other devices from x.
         figures: Figures of the file.
         path: Dotted name of the table.
     """
@@ -76,7 +75,7 @@ def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | 
     """Return mass x radius, kg m.
 
     Raises:
-        InputError: It is still to be fitted.
+        InputError: The unbalance is "fit".
     """
     if device.to_fit:
         command = "run balcli balance FILE --write OUT, which puts a figure in its place"
