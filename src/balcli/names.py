@@ -29,7 +29,7 @@ _ROOMS = {
     "report.plot": "plot",
     "show.result": "Result",
     "sizing.options": "SchemeOptions",
-    "sizing.workshop": "Tools",
+    "sizing.workshop": "Shapes Tools",
     "studies.scatter": "Scatter scatter",
     "studies.search.answer": "Search search",
     "studies.sweep": "Swept sweep",

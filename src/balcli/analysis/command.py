@@ -12,7 +12,7 @@ from ..errors import BalcliError
 from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
 from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
-    PARTS,
+    OF_ONE,
     EnginePath,
     EnginePaths,
     FormatOption,
@@ -123,7 +123,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
     Raises:
         BalcliError: There is such a part; the error names the command that shows it.
     """
-    if of_one := [word for word in words if word in PARTS]:
+    if of_one := [word for word in words if word in OF_ONE]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 

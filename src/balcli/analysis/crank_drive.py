@@ -42,7 +42,7 @@ from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
-from ..show.units import SI, ShownUnit, System, name_with_unit
+from ..show.units import System, name_with_unit
 from .records import (
     Journal,
     JournalTorque,
@@ -342,9 +342,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each distinct set of parts.
         system: System of units.
     """
-    units = {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
-    if system is SI:
-        units |= {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6)}
+    units = system.of_parts
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
     rows = []
     for key, label in _LABELS.items():

@@ -40,7 +40,6 @@ from ..forces.rod_forces import compute_rod_forces
 from ..forces.spectrum import (
     check_orders,
     compute_spectra,
-    find_turning_inertia,
     take_gas,
 )
 from ..shell.arguments import check_count, tell_arguments
@@ -199,9 +198,10 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
     arms = (np.conj(places)[:, None] * force).imag
-    turning = -float(find_turning_inertia(engine)) * motion.xi[None]
-    couple = np.concatenate([_couple_of_cylinders(motion), arms, turning])
-    torque = np.concatenate([_torque_of_cylinders(motion), turning])
+    turning = engine.find_turning_inertia(beyond_pins=True)
+    momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
+    couple = np.concatenate([_couple_of_cylinders(motion), arms, momentum])
+    torque = np.concatenate([_torque_of_cylinders(motion), energy])
     return {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,

@@ -2,6 +2,7 @@
 moments, strokes, devices, journals and masses.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -420,6 +421,110 @@ class Journal(NamedTuple):
     position_mm: float | None = None
     total: JournalTorque | None = None
     stress: ShearStress | None = None
+
+
+class ShaftBearing(NamedTuple):
+    """Load of one bearing of a balancer shaft.
+
+    Attributes:
+        position_mm: Place along the crank.
+        rotating_N: Constant load that turns with the shaft, of its eccentrics.
+        fixed_N: Load that stands still, of the gear force.
+        largest_N: Largest load over a turn: the sum of both.
+        rotating_deg: Direction of the turning load at crank angle 0; left out without load.
+        fixed_deg: Direction of the other; left out without load.
+    """
+
+    position_mm: float
+    rotating_N: float
+    fixed_N: float
+    largest_N: float
+    rotating_deg: float | None = None
+    fixed_deg: float | None = None
+
+
+class ShaftGear(NamedTuple):
+    """The gear that drives a balancer shaft against its drag.
+
+    Attributes:
+        tangential_N: Tangential force.
+        radial_N: Radial force, towards the axis of the shaft.
+        power_W: Power of the drag.
+    """
+
+    tangential_N: float
+    radial_N: float
+    power_W: float
+
+
+class BalancerShaft(NamedTuple):
+    """A balancer shaft with all its eccentrics. Directions count from x, deg, in (-180, 180].
+
+    Attributes:
+        name: Name of the shaft.
+        ratio: Speed over crank speed; negative: it turns against the crank.
+        inertia_at_crank_kg_m2: Its moment of inertia times the square of the ratio.
+        bearings: Its bearings; left out, like all that follows, where the file gives none.
+        bending_Nm: Largest bending moment of the turning loads.
+        bending_position_mm: Its place; left out where nothing bends the shaft.
+        gear: Its gear; left out where the file gives none.
+    """
+
+    name: str
+    ratio: int
+    inertia_at_crank_kg_m2: float
+    bearings: tuple[ShaftBearing, ...] | None = None
+    bending_Nm: float | None = None
+    bending_position_mm: float | None = None
+    gear: ShaftGear | None = None
+
+
+class CounterweightPart(NamedTuple):
+    """A counterweight; all beyond its unbalance only of a sector.
+
+    Attributes:
+        position_mm: Place along the crank.
+        angle_deg: Angle from cylinder 1's crank pin, in (-180, 180].
+        unbalance_kg_m: Unbalance.
+        mass_kg: Mass.
+        center_of_mass_m: Distance of its center of mass from the crank axis.
+        thickness_m: Thickness.
+        inertia_kg_m2: Polar moment of inertia about the crank axis.
+        clearance_m: Least distance of a piston's lowest edge from the rim, as if each piston stood
+            at its inner dead centre over the counterweight; left out without `piston.skirt`.
+    """
+
+    position_mm: float
+    angle_deg: float
+    unbalance_kg_m: float
+    mass_kg: float | None = None
+    center_of_mass_m: float | None = None
+    thickness_m: float | None = None
+    inertia_kg_m2: float | None = None
+    clearance_m: float | None = None
+
+
+class BalanceParts(NamedTuple):
+    """Balancer shafts and counterweights as parts.
+
+    Attributes:
+        shafts: Balancer shafts.
+        counterweights: Counterweights.
+    """
+
+    shafts: tuple[BalancerShaft, ...]
+    counterweights: tuple[CounterweightPart, ...]
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """Warnings: counterweights that meet a piston."""
+        for number, part in enumerate(self.counterweights, 1):
+            if part.clearance_m is not None and part.clearance_m < 0:
+                gap = f"{1e3 * part.clearance_m:.4g} mm"
+                yield (
+                    f"counterweight.{number} has a clearance of {gap} to the lowest piston; make "
+                    "its outer radius smaller"
+                )
 
 
 def write_need(need: str | None) -> str | None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
+from ..forces.curves import find_constant_inertia
 from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
 from ..forces.spectrum import Spectra
 from ..show.csv import Columns, Rows
@@ -56,6 +57,7 @@ _UNCOUNTED = (
     "[flywheel] for all turning parts."
 )
 Part: TypeAlias = Grid | Facts | Text
+STEADY = ("journals", "masses", "parts", "pru")  # words in which an uneven speed does not count
 TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
 TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
 
@@ -77,7 +79,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
     else:
         if view.parts - TEXTS:
-            yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
+            yield speed_facts(result.engine, steady=view.parts <= {*STEADY})
         yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
@@ -111,15 +113,19 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield import_seldom().lay_out_masses(result.masses, system)
     if result.power_related_unbalance is not None:
         yield import_seldom().lay_out_related(result.power_related_unbalance, system)
+    if result.parts is not None:
+        yield from import_seldom("parts").lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
 
 
-def import_seldom() -> ModuleType:
-    """Return the module of parts that are seldom asked for."""
-    from . import crank_drive
+def import_seldom(name: str = "crank_drive") -> ModuleType:
+    """Return a module of parts that are seldom asked for: `crank_drive` (journals, masses, power
+    related unbalance), or `parts`.
+    """
+    from . import crank_drive, parts
 
-    return crank_drive
+    return {"crank_drive": crank_drive, "parts": parts}[name]
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -175,7 +181,7 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
 def _tell_uncounted(result: Analysis) -> Iterator[Text]:
     """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
     engine, shown = result.engine, result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
-    if engine.ripple and shown and engine.crank_inertia is engine.flywheel_inertia is None:
+    if engine.ripple and shown and find_constant_inertia(engine) is None:
         yield Text("Note", (_UNCOUNTED,))
 
 
@@ -275,6 +281,8 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
         yield from import_seldom().list_mass_rows(result.masses)
     if result.power_related_unbalance is not None:
         yield from import_seldom().list_related(result.power_related_unbalance)
+    if result.parts is not None:
+        yield from import_seldom("parts").list_part_rows(result.parts)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

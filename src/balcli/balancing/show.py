@@ -21,7 +21,8 @@ from ..analysis.devices_show import (
 )
 from ..analysis.order_tables import fit_largest
 from ..analysis.overview import name_column, name_orders, tell_couple
-from ..analysis.records import Devices, PeaksAndOrders, describe_devices
+from ..analysis.parts import lay_out_parts
+from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
@@ -89,6 +90,8 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
+        if result.parts is not None:
+            parts += lay_out_parts(result.parts, system)
     elif remedy.beyond:
         parts.append(
             Text("Fitted devices", ("Shafts that no engine file describes; see Details.",))
@@ -343,6 +346,7 @@ class BalanceDocument:
         after: Peaks and orders with the devices.
         permitted: Residual unbalance that a balance grade permits in each plane.
         ladder: Devices that balance the engine, step by step.
+        parts: New shafts in their bearings and new counterweights as sectors.
     """
 
     format: Literal["balcli.balance/1"] = "balcli.balance/1"
@@ -358,6 +362,7 @@ class BalanceDocument:
     after: PeaksAndOrders
     permitted: PermittedUnbalance | None = None
     ladder: Ladder | None = None
+    parts: BalanceParts | None = None
 
 
 def _shorten(analysis: Analysis) -> PeaksAndOrders:
@@ -380,6 +385,7 @@ def document(result: Balance) -> Node:
         after=_shorten(result.after),
         permitted=result.permitted,
         ladder=result.ladder,
+        parts=result.parts,
     )
     return to_document(described)
 
@@ -421,8 +427,8 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
         yield "step", "", "", "name", result.remedy.step, ""
     for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
         yield "ladder", step, "", name, value, unit
-    if result.permitted is not None:
-        yield from _rows_of("permitted", result.permitted)
+    yield from _rows_of("permitted", result.permitted)
+    yield from _rows_of("parts", result.parts)
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
@@ -432,7 +438,8 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
 
 
 def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
-    for name, value in _with_paths(write_each(record)):
+    """Yield the figures of a record; none of None."""
+    for name, value in () if record is None else _with_paths(write_each(record)):
         yield part, "", "", name, value, ""
 
 

@@ -130,6 +130,8 @@ class Device(NamedTuple):
         z: Position along the crank, m.
         kind: Kind of the device.
         compensates: Whether it is there for its moment, and its force is meant to remain.
+        spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
+            kg m2.
     """
 
     order: int
@@ -139,6 +141,7 @@ class Device(NamedTuple):
     z: Figure
     kind: DeviceKind = DeviceKind.OTHER
     compensates: bool = False
+    spin: Figure = 0.0
 
 
 _STEPS = 720
@@ -159,22 +162,35 @@ def find_travel(c: Cylinders) -> Travel:
     `sin tau = e/(l + r)` at the top and `e/(l - r)` at the bottom. Other mechanisms are solved
     numerically.
     """
+    high, low, top_deg, bottom_deg = _find_dead_centres(c)
+    shape, found = c.pin_deg.shape, (c.radius * (high - low), top_deg, bottom_deg)
+    return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
+
+
+def find_innermost(c: Cylinders) -> Array:
+    """Return the distance of each piston pin from the crank axis along its cylinder at the inner
+    dead centre, m, shape (cylinders or 1, *trailing).
+    """
+    return np.asarray(c.radius * _find_dead_centres(c)[1])
+
+
+def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
+    """Return the distances of the piston pins from the crank axis at both dead centres, in crank
+    radii, and the crank angles as of `Travel`.
+    """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
         high = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) / c.lam
         low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
-        top_deg, bottom_deg = np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
-    else:
-        psi = revolution(_STEPS)
-        place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
-        top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
-        bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
-        high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
-        low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
-        top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
-        bottom_deg = np.degrees(bottom) - 180
-    shape, found = c.pin_deg.shape, (c.radius * (high - low), top_deg, bottom_deg)
-    return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
+        return high, low, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
+    psi = revolution(_STEPS)
+    place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
+    top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
+    bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
+    high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
+    low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
+    top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
+    return high, low, top_deg, np.degrees(bottom) - 180
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:

@@ -39,7 +39,7 @@ from ..file.fields import counted, join_words
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
-from .devices import build_devices
+from .devices import build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
 from .figures import FileFigures, divide
 from .layout import Plan, are_places_known
@@ -351,7 +351,7 @@ STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
-    (check_knuckles,),  # pins
+    (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
     (check_gas,),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import Cylinders, Device, find_travel
+from ..core.cylinders import Cylinders, Device, DeviceKind, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.records import Node
@@ -49,6 +49,18 @@ class Rating(NamedTuple):
 
     speed_rpm: float
     power_W: float | None = None
+
+
+class TurningInertia(NamedTuple):
+    """Constant inertia of turning parts, by the crank speed, kg m2.
+
+    Attributes:
+        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, k the ratio of a shaft.
+        energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
+    """
+
+    momentum: Figure
+    energy: Figure
 
 
 class SilentCylinders(NamedTuple):
@@ -202,6 +214,7 @@ class Engine:
                 mount, flywheel.
             without: Keys to omit.
         """
+        chapters = (*chapters, "flywheel") if self.ripple else chapters
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
         return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
@@ -241,6 +254,29 @@ class Engine:
     def cycle_revolutions(self) -> int:
         """Number of revolutions after which a cylinder's forces repeat, gas included."""
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:
+        """Return the inertia of all that turns in a constant ratio to the crank: crankshaft,
+        flywheel and shafts; without `crank.inertia` the counterweights. The crankshaft of a rotary
+        engine stands still.
+
+        Args:
+            beyond_pins: Whether to leave out the throw masses in `crank.inertia`, which count with
+                the pins.
+        """
+        crank = None if self.rotary else self.crank_inertia
+        on_crank: Figure = 0.0
+        for inertia in (crank, self.flywheel_inertia):
+            on_crank = on_crank + (0.0 if inertia is None else inertia)
+        if beyond_pins and crank is not None:
+            throws = sum(masses.share for masses in self.weighed)
+            on_crank = on_crank - throws * self.cylinders.radius**2
+        momentum, energy = on_crank, on_crank
+        for device in self.devices:
+            if device.kind is DeviceKind.SHAFT or crank is None:
+                momentum = momentum + device.spin
+                energy = energy + np.abs(device.spin) * device.order
+        return TurningInertia(momentum, energy)
 
     # -------------------------------------------------------------- cylinders and crank pins
     @property

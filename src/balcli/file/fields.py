@@ -317,21 +317,24 @@ class Choice(NamedTuple):
         required: Whether one group must be given.
         complete: Whether all keys of a group must be given if one is; or the only group for which
             this holds.
+        instead: Keys that may be given in place of a required group, or next to it.
     """
 
     groups: tuple[tuple[str, ...], ...]
     required: bool = False
     complete: bool | tuple[str, ...] = False
+    instead: tuple[str, ...] = ()
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """Yield the mistakes in the given keys, as text that follows the name of the table."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         keys = [key for group in begun for key in group if key in given]
-        choices = " or ".join(map(join_words, self.groups))
+        instead = [] if begun else self.instead
+        choices = " or ".join([*map(join_words, self.groups), *instead])
         wanted = f"give {'either' if len(self.groups) > 1 else 'both'} {choices}"
         if len(begun) > 1:
             yield f"has {join_words(keys)}; {wanted}"
-        elif not begun and self.required:
+        elif not begun and self.required and not set(self.instead).intersection(given):
             yield f"has neither {' nor '.join(map(join_words, self.groups))}; {wanted}"
         elif begun and self.complete in (True, begun[0]) and len(keys) < len(begun[0]):
             missing = [key for key in begun[0] if key not in given]

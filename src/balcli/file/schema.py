@@ -33,7 +33,8 @@ def describe_engine_file() -> Node:
         rules: list[Node] = []
         for choice in table.choices:
             if choice.required:
-                rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})
+                ways = (*choice.groups, *((key,) for key in choice.instead))
+                rules.append({"anyOf": [{"required": list(group)} for group in ways]})
             for group, other in combinations(choice.groups, 2):
                 rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
         document["$defs"][table.__name__] |= {"allOf": rules} if rules else {}

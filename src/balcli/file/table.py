@@ -17,7 +17,20 @@ from pydantic.fields import FieldInfo
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Flag, Label, Number, Whole
-from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, POWER, SPEED, TIME, UNBALANCE
+from .units import (
+    ANGLE,
+    DENSITY,
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    POWER,
+    SPEED,
+    TIME,
+    TORQUE,
+    UNBALANCE,
+)
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -25,17 +38,22 @@ if TYPE_CHECKING:
 
 INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
 
-# The bounds of figures are far beyond every engine, and low enough that products and powers do not
-# overflow.
+# Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
+Density = Annotated[float, Number(DENSITY, above=0, most=30)]
+
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
-Angle = Annotated[float, Number(ANGLE, most=1e9)]  # more than a million turns
+Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+
+OpeningAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
+
+PressureAngle = Annotated[float, Number(ANGLE, least=0, below=90)]
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -43,8 +61,10 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
 GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-FIT = "fit"  # instead of an unbalance: `balance` computes it
+FIT = "fit"  # in place of an unbalance: `balance` finds it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
+
+Drag = Annotated[float, Number(TORQUE, least=0, most=1e12)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
 
@@ -160,7 +180,7 @@ def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
         if issubclass(base, FileTable) and base is not FileTable:
             found |= _read_documents(base)
     for key, field in table.keys().items():
-        if field.description:  # a table that declares pydantic descriptions
+        if field.description:  # a table that uses pydantic's own words
             found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
     return found
 

@@ -11,10 +11,9 @@ from pydantic import Field
 from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
 from .fields import RIGID, Number, OneOf, Whole, as_written, counted, shorten
-from .table import FileTable, GivenInertia, Name, Size
+from .table import Density, FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
-    DENSITY,
     INERTIA,
     MASS,
     PLAIN,
@@ -56,7 +55,6 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
-Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]

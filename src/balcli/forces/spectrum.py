@@ -31,7 +31,7 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Figure, Phasors, join_orders, unit
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
 from ..engine.engine import Engine
 from ..engine.figures import place_in_plane
 from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
@@ -255,31 +255,18 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
+    scale = engine.omega**2 / (c.count if each else 1)
+    momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
     found = {}
-    turning = find_turning_inertia(engine) * engine.omega**2 / (c.count if each else 1)
     for name, phasors in steady.items():
         if name == "torque":
-            inertia = lowest.mean_inertia + turning
+            inertia = lowest.mean_inertia + energy
             mixed = ripple.apply_to_torque(phasors.drop_noise(), speed, inertia)
         else:
-            momentum = lowest.mean_momentum + turning if name == "couple" else 0.0
-            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
+            spin = lowest.mean_momentum + momentum if name == "couple" else 0.0
+            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, spin)
         found[name] = mixed.select_orders(orders)
     return found
-
-
-def find_turning_inertia(engine: Engine) -> Figure:
-    """Return the moment of inertia of crankshaft and flywheel, kg m2, as far as the file gives
-    them, without the throw masses, which count with the pins.
-
-    Args:
-        engine: Engine, or variants along trailing axes.
-    """
-    wheel = 0.0 if engine.flywheel_inertia is None else engine.flywheel_inertia
-    if engine.crank_inertia is None or engine.rotary:
-        return wheel
-    throws = sum(masses.share for masses in engine.weighed) * engine.cylinders.radius**2
-    return engine.crank_inertia - throws + wheel
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:

@@ -51,7 +51,8 @@ from ..studies.parameters import find_numbers
 # tables with numbers to change
 _TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
-_UNUSED = ("crank.inertia", "operation.speed_ripple")
+# Numbers that count only at an uneven speed.
+_UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # axes, pins or positions
 _UNITS = {  # further units that the page reads, by dimension
     LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
@@ -82,6 +83,10 @@ def explain_still(engine: Engine) -> str:
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
         return "it has articulated rods"
+    if engine.model is not None:
+        devices = (*engine.model.counterweight, *engine.model.shaft)
+        if any(one.unbalance is None and one.mass is None for one in devices):
+            return "a counterweight or shaft has no unbalance in the file"
     return "its speed is uneven" if engine.ripple else ""
 
 
@@ -224,7 +229,7 @@ def _list_numbers(model: EngineFile) -> Iterator[Node]:
     tables = dict(model.tables())
     for name, number in find_numbers(model).items():
         value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or re.match(_UNUSED, name):
             continue
         yield {"name": name, "value": value, **_describe_limits(number)}
     for path, table in tables.items():

@@ -82,8 +82,6 @@ def read_engine(
         turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
         engine = replace(engine, speed_rpm=speed_rpm, model=turned)
     warn_each(engine.unlikely, name_file(path))
-    if speed_rpm is not None:
-        engine = replace(engine, model=None)
     return LoadedEngine(text, model, engine)
 
 

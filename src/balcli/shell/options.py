@@ -24,7 +24,8 @@ from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` for tables and texts of quantities that are computed anyway
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses", "pru")  # computed only if named
+CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only if named
+OF_ONE = (*PARTS, *CLOSER[2:])  # of one engine at one speed
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -101,7 +102,8 @@ OnlyParts = Annotated[
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
         "bearing loads along crankshaft and block), guide (H- and X-type), "
-        "journals (torque along the crankshaft), masses, pru (power related unbalance); or xy, "
+        "journals (torque along the crankshaft), masses, parts (balancer shafts in their "
+        "bearings, counterweights as sectors), pru (power related unbalance); or xy, "
         "textbook, verdict.",
         "--only",
     ),

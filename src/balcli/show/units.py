@@ -65,6 +65,14 @@ class System(NamedTuple):
         """Unit of moment over angular velocity."""
         return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
 
+    @property
+    def of_parts(self) -> dict[str, ShownUnit]:
+        """Units of masses, moments of inertia and lengths of single parts, by the SI unit."""
+        mass, inertia = self.mass, self.inertia
+        if self is SI:
+            mass, inertia = ShownUnit("g", 1e-3), ShownUnit("kg·mm²", 1e-6)
+        return {"kg": mass, "kg·m²": inertia, "m": self.length}
+
     def unit(self, kind: Kind) -> ShownUnit:
         """Return the unit of a kind of force or moment."""
         return self.force if kind.dimension == "force" else self.moment

@@ -229,7 +229,7 @@ def ignore_compensators(engine: Engine) -> Engine:
     """
     *_, z = engine.reference_m
     opposite = [
-        device._replace(forward=-device.forward, backward=-device.backward, z=float(z))
+        device._replace(forward=-device.forward, backward=-device.backward, z=float(z), spin=0.0)
         for device in engine.devices
         if device.compensates
     ]
