@@ -77,6 +77,7 @@ MOST_TOLERANCE_SAMPLES = 2_000_000  # of random variants as arrays, all of which
 MOST_SINGLE_SAMPLES = 20_000  # of random variants computed one by one: 2 to 100 ms each
 MOST_FOUND = 1000  # designs that a search lists: nobody reads more
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of them
+MOST_GAS_POINTS = 200  # speeds with a gas of their own: each is a diagram or a cycle
 MOST_DESIGNS_ONE_BY_ONE = 2000  # of gas, mounts or torsion: each takes 10 to 50 ms
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: each of them is tried
 MOST_CYLINDERS_FIRED = 64  # whose firing orders are looked for

@@ -70,7 +70,7 @@ def answer(
     find, renderer = _choose_result(asked, for_people)
 
     def find_one(path: str) -> tuple[str, str, object]:
-        engine = read_engine(path, rpm, asked.words).engine
+        engine = read_engine(path, rpm, asked.words, over=asked.speeds_rpm or None).engine
         return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
     found, errors = try_each(paths, find_one)

@@ -9,7 +9,7 @@ also called vertical: M1V is My of order 1, M1H its Mx.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -97,7 +97,7 @@ def analyze_speeds(
     Raises:
         BalcliError: whatever `analyze_one` raises.
     """
-    engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
+    engines = [engine.at_speed(speed) for speed in speeds_rpm]
     asked = None if orders is None else list(orders)
     return SpeedSeries(
         engine=engine,
@@ -232,11 +232,11 @@ def find_marine_sheet(
         analyze, only=("force", "moment", "guide", torque.name), guide_height_m=guide_height_m
     )
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
-    found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
+    found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
     guide = found[0].guide
     listed = [_list_amplitudes(one, torque.name) for one in found]
     return MarineSheet(
-        engine=replace(engine, speed_rpm=speeds[0]),
+        engine=engine.at_speed(speeds[0]),
         includes=name_included(engine.gas is not None),
         height_m=np.array([]) if guide is None else guide.height_m,
         assumed=found[0].assumed,

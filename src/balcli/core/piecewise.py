@@ -62,7 +62,8 @@ class PiecewiseCurve:
     Attributes:
         breaks: Rising angles between which the panels lie, rad, shape (panels + 1,); the last is a
             period after the first.
-        series: Legendre coefficients on each panel, shape (terms, panels).
+        series: Legendre coefficients on each panel, shape (terms, panels); or those of many
+            functions, shape (terms, panels, *figure), of which `within` alone makes values.
     """
 
     breaks: Array
@@ -92,11 +93,14 @@ class PiecewiseCurve:
         return self.within(start + turned - _SAME)
 
     def within(self, angle: Array) -> Array:
-        """Return values at angles between the first and the last breakpoint."""
+        """Return values at angles between the first and the last breakpoint, shape (*angle,
+        *figure); beyond these the value there.
+        """
         panel = np.searchsorted(self.breaks, angle + _SAME, side="right") - 1
         panel = np.clip(panel, 0, len(self.breaks) - 2)
         middle, half = _find_middles(self.breaks)
         x = np.clip((angle - middle[panel]) / half[panel], -1, 1)
+        x = x.reshape(x.shape + (1,) * (self.series.ndim - 2))
         return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
 
     def repeated(self, times: int) -> PiecewiseCurve:
@@ -182,25 +186,28 @@ def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
     return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
 
 
-def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
+def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> PiecewiseCurve:
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
     value, or until there are so many panels that they show rounding errors alone.
 
     Args:
-        function: Values at angles strictly between breakpoints, of the shape of the angles.
+        function: Values at angles strictly between breakpoints, of the shape of the angles, or
+            (*angles, *figure).
         breaks: Rising, rad; the last a period after the first.
+        widest: Largest width of a panel before any is halved, rad.
     """
-    edges = cut(np.asarray(breaks, float), _WIDEST)
+    edges = cut(np.asarray(breaks, float), widest)
     low, high = edges[:-1], edges[1:]
     size, starts, found = 0.0, [], []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
-        series = values_to_series(_TERMS) @ values
+        series = np.tensordot(values_to_series(_TERMS), values, 1)
         size = max(size, float(np.abs(values).max()))
-        halve = np.abs(series[-2:]).max(axis=0) > _RESOLVED * size
+        last = np.abs(series[-2:]).reshape(2, len(low), -1)
+        halve = last.max(axis=(0, 2)) > _RESOLVED * size
         halve &= halvings < _HALVINGS and len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
         found.append(series[:, ~halve])
@@ -220,9 +227,9 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
 
     Args:
         angle: Rising angles, rad, shape (points,).
-        value: Values at the angles, shape (points,).
+        value: Values at the angles, shape (points, *figure).
     """
-    angles, values = np.asarray(angle, float), np.asarray(value, float)
+    angles, values = np.asarray(angle, float), np.asarray(value)
     wide = np.diff(angles) > 0
     first, last = values[:-1][wide], values[1:][wide]
     breaks = np.append(angles[:-1][wide], angles[-1])

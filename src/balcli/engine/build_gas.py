@@ -8,24 +8,27 @@ same mechanism and the same source share one torque over their cycle.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import fields, replace
-from functools import cache
-from typing import NamedTuple
+from functools import cache, lru_cache, partial
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, pistons, press
-from ..core.gas_cycle import GasCycle, Goal, Process, gas_cycle
+from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, blend, pistons, press
+from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
 from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
 from ..file.gas_tables import DIAGRAM_KEYS, Gas
 from ..file.model import Override
+from ..file.table import FileTable
 from ..file.units import BAR
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
-from .gas import CylinderGas, EngineGas
+from .gas import CylinderGas, EngineGas, GasLaw
 from .indicator import HEADS, build_diagram, list_doubts
 from .layout import find_first
 from .parts import Parts
@@ -34,6 +37,10 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # Heat of fuel over pressure times volume of the charge that is doubted: where all air burns it is
 # 34, from 2.95 MJ/kg for petrol and Diesel fuel alike, at 300 K.
 HEAT_MOST = 40.0
+_KEPT = 256  # speeds at which the gas is remembered
+_OVERSPEED = 1.6  # of the rated speed: more is computed speed by speed
+_NOTHING = 1e-9  # of the rated imep: a least imep below this is 0
+Table = TypeVar("Table", bound=FileTable)
 
 
 class _Source(NamedTuple):
@@ -57,18 +64,111 @@ class _Source(NamedTuple):
 
 
 def build_gas(parts: Parts) -> EngineGas:
-    """Return the gas of an engine with [gas], whose tables fit together otherwise.
+    """Return the gas of an engine with [gas], whose tables fit together otherwise; where it depends
+    on the speed, that at the first speed of the file.
 
     Raises:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
             error lists all of them.
     """
-    gas, strokes = _vary(parts), parts.model.layout.strokes
-    sources = [_find_source(parts, gas, number) for number in parts.numbers]
-    bore = _take(parts, "piston.bore", parts.model.piston.bore)
-    if problems := list(_list_contradictions(parts, gas, sources, bore)):
+    gas, bore = _vary(parts), _take(parts, "piston.bore", parts.model.piston.bore)
+    if problems := list(_list_contradictions(parts, gas, bore)):
         raise InputError(problems)
     found = pistons(parts.cylinders, math.pi / 4 * ((bore or 0.0) / 1e3) ** 2)
+
+    @cache
+    def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
+        return read_columns(locate_beside(parts.model.folder, name), heads)
+
+    make = partial(_build_steady, parts, found, read)
+    return _follow_speed(gas, make) if gas.speeds else make(gas)
+
+
+def _follow_speed(gas: Gas, make: Callable[..., EngineGas]) -> EngineGas:
+    """Return the gas at the first speed of the file, with its law for other speeds.
+
+    Args:
+        gas: Table of a gas that depends on the speed.
+        make: Function of a table for one speed to the gas, as `_build_steady`.
+
+    Raises:
+        InputError: As of `build_gas`.
+    """
+    nodes, problems, doubts = dict[float, EngineGas](), list[Problem](), list[str]()
+    for number, speed in enumerate(gas.speeds, 1):
+        name = partial(_name_point, gas, number)
+        try:
+            nodes[speed] = make(gas.at_speed(speed))
+            doubts += map(name, nodes[speed].doubts)
+        except InputError as error:
+            problems += (one._replace(path=name(one.path)) for one in error.problems)
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
+
+    @lru_cache(_KEPT)
+    def solve(speed: float) -> EngineGas:
+        if speed in nodes:
+            return nodes[speed]
+        if gas.cycle is None:
+            return _blend(nodes, speed)
+        return make(gas.at_speed(speed), at_least=gas.law is not None and speed < gas.speeds[-1])
+
+    first, low, high = nodes[gas.speeds[0]], list[float](), list[float]()
+    if gas.law is not None:  # at 0 rpm each cylinder has its least imep, if that is above 0
+        pairs = zip(solve(0.0).cylinders, first.cylinders, strict=True)
+        shares = {max(least.torque.imep, 0.0) / most.torque.imep for least, most in pairs}
+        parts_of_rated = {0.0, *(share**0.5 for share in shares if _NOTHING < share < 1)}
+        low = sorted(gas.speeds[0] * part for part in parts_of_rated)
+        with suppress(InputError):  # of cycles that cannot have so much
+            high = [gas.speeds[0] * _OVERSPEED] * bool(solve(gas.speeds[0] * _OVERSPEED))
+    law = GasLaw(solve, (*low, *gas.speeds, *high), gas.cycle is None, *low[-1:])
+    return replace(first, doubts=tuple(dict.fromkeys(doubts)), law=law)
+
+
+def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
+    """Return the gas at a speed, whose pressures are linear between those at the nodes."""
+    low = max((node for node in nodes if node < speed), default=min(nodes))
+    high = min((node for node in nodes if node > speed), default=low)
+    if high == low or speed < low:
+        return nodes[low]
+    share, other = (speed - low) / (high - low), nodes[high].cylinders
+    torques = [
+        blend(one.torque, two.torque, share) if one.like == row else None
+        for row, (one, two) in enumerate(zip(nodes[low].cylinders, other, strict=True))
+    ]
+    each = (one._replace(torque=torques[one.like]) for one in nodes[low].cylinders)
+    return replace(nodes[low], cylinders=tuple(each))
+
+
+def _name_point(gas: Gas, number: int, text: str) -> str:
+    """Return a path or warning with the keys of a point (from 1) by their paths in the file."""
+    if not (keys := "|".join(gas.keys_of_points)):
+        return text
+    return re.sub(rf"\bgas\.({keys})\b", rf"gas.at.{number}.\1", text)
+
+
+def _build_steady(
+    parts: Parts,
+    found: Sequence[GasPiston],
+    read: Callable[[str, tuple[Head, ...]], NumberColumns],
+    gas: Gas,
+    *,
+    at_least: bool = False,
+) -> EngineGas:
+    """Return the gas of a table that is the same at all speeds.
+
+    Args:
+        parts: Stages of the engine.
+        found: Piston of each row.
+        read: Function of the name and headings of a file to its columns.
+        gas: The table.
+        at_least: Whether a cycle has its least imep where the table asks for less.
+
+    Raises:
+        InputError: As of `build_gas`.
+    """
+    strokes, problems = parts.model.layout.strokes, list[Problem]()
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
     keys = [
         (*mechanism, source.indicator, source.heat)
         for mechanism, source in zip(parts.cylinders.mechanisms, sources, strict=True)
@@ -79,17 +179,13 @@ def build_gas(parts: Parts) -> EngineGas:
         told = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
         raise InputError([Problem("gas", many + told)])
 
-    @cache
-    def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
-        return read_columns(locate_beside(parts.model.folder, name), heads)
-
     torques, doubts, overfed = dict[int, GasTorque](), list[str](), list[str]()
     for row in sorted(set(like)):
         source, piston = sources[row], found[row]
         name = source.indicator or gas.harmonics
         try:
             if name is None:
-                cycle = _compute_cycle(gas, source, piston, strokes)
+                cycle = _compute_cycle(gas, source, piston, strokes, at_least=at_least)
                 torques[row] = press(piston, cycle.pressure, cycle.breaks, gas.crankcase * BAR)
                 overfed += _doubt_heat(gas, source, piston, cycle)
             elif source.indicator is None:
@@ -128,12 +224,20 @@ def build_gas(parts: Parts) -> EngineGas:
 # ------------------------------------------------------------------ keys of the file
 def _vary(parts: Parts) -> Gas:
     """Return [gas] with the figures that vary in place of its own and of their rivals."""
-    gas, varied = parts.model.gas or Gas.model_construct(), parts.figures.of_table("gas")
+    gas = _vary_table(parts, "gas", parts.model.gas or Gas.model_construct())
+    points = (_vary_table(parts, f"gas.at.{k}", point) for k, point in enumerate(gas.at, 1))
+    return gas.model_copy(update={"at": tuple(points)}) if gas.at else gas
+
+
+def _vary_table(parts: Parts, path: str, table: Table) -> Table:
+    """Return a table (at this path) with the figures that vary, without their rivals."""
+    varied = parts.figures.of_table(path)
     if not varied:
-        return gas
-    displaced = {rival for key in varied for rival in gas.rivals(key)}
-    kept = {key: getattr(gas, key) for key in gas.model_fields_set - displaced}
-    return Gas.model_construct(**kept | {key: float(value) for key, value in varied.items()})
+        return table
+    displaced = {rival for key in varied for rival in table.rivals(key)}
+    kept = {key: getattr(table, key) for key in table.model_fields_set - displaced}
+    changed = kept | {key: float(value) for key, value in varied.items()}
+    return type(table).model_construct(**changed)
 
 
 def _take(parts: Parts, path: str, given: float | None) -> float | None:
@@ -153,9 +257,7 @@ def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
     return _Source(number, "gas.indicator", gas.indicator, heat, heat_path, share)
 
 
-def _list_contradictions(
-    parts: Parts, gas: Gas, sources: Sequence[_Source], bore: float | None
-) -> Iterator[Problem]:
+def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator[Problem]:
     """Yield keys of [gas] and of single cylinders that do not fit together."""
     two_stroke = parts.model.layout.strokes == 2
     yield from (Problem("gas", fault) for fault in gas.contradictions())  # of figures that vary
@@ -168,9 +270,12 @@ def _list_contradictions(
         if gas.cycle is None and table.heat is not None:
             told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
             yield Problem(f"cylinder.{number}.heat", told)
-    measured = any(source.indicator is not None for source in sources)
-    for key in () if measured else DIAGRAM_KEYS:
-        if key in gas.model_fields_set:
+        for key in sorted(gas.keys_of_points & table.model_fields_set):
+            told = f"[[gas.at]] has {key} for all cylinders at each speed; leave one of both out"
+            yield Problem(f"cylinder.{number}.{key}", told)
+    own = any(table.indicator is not None for table in parts.model.cylinder.values())
+    for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
+        if gas.has(key):
             yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
         told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
@@ -218,8 +323,10 @@ def _read_harmonics(
 
 
 # ------------------------------------------------------------------ computed cycles
-def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -> GasCycle:
-    """Return the computed cycle of a cylinder.
+def _compute_cycle(
+    gas: Gas, source: _Source, piston: GasPiston, strokes: int, *, at_least: bool
+) -> GasCycle:
+    """Return the computed cycle of a cylinder; arguments as of `_build_steady`.
 
     Raises:
         InputError: A key from which no cycle can be computed.
@@ -232,6 +339,8 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
     if source.heat == 0:  # it expands as it was compressed
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
     try:
+        if at_least and goal.name == "imep":
+            goal = Goal("imep", max(goal.value, find_least_imep(piston, process)))
         return gas_cycle(piston, process, goal)
     except GasError as error:
         raise InputError([_locate(error, gas, source)]) from None

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
@@ -81,7 +82,8 @@ class Engine:
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
             all throws stand in one plane, and moments have no meaning.
-        gas: Gas in the cylinders; None where the file has no [gas], and for arrays of variants.
+        gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
+            variants.
         gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
             None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
@@ -141,6 +143,11 @@ class Engine:
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
 
+    def at_speed(self, speed_rpm: Figure) -> Engine:
+        """Return the engine at another speed (rpm), with its gas there."""
+        gas = None if self.gas is None else self.gas.at(float(speed_rpm))
+        return replace(self, speed_rpm=speed_rpm, gas=gas)
+
     def explore(self) -> Any:
         """Return the page of the engine for a notebook: the engine in motion, and its numbers to
         change.
@@ -163,7 +170,7 @@ class Engine:
     def doubts(self) -> tuple[str, ...]:
         """Warnings: unlikely figures of the file, and positions that it does not give."""
         unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
-        return (*unknown, *self.unlikely)
+        return (*unknown, *self.unlikely, *self.doubt_speeds(self.speed_rpm))
 
     @property
     def unlikely(self) -> tuple[str, ...]:
@@ -172,6 +179,11 @@ class Engine:
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+
+    def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
+        """Return a warning if the file does not give the gas at some of these speeds."""
+        law = None if self.gas is None else self.gas.law
+        return () if law is None else tuple(law.list_doubts(speeds_rpm))
 
     @property
     def speed_assumed(self) -> bool:

@@ -51,6 +51,7 @@ def read_engine(
     speed_rpm: float | None = None,
     asked: Collection[str] | None = None,
     prepare: Callable[[EngineFile], EngineFile] = lambda model: model,
+    over: Sequence[float] | None = None,
 ) -> LoadedEngine:
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
@@ -59,6 +60,7 @@ def read_engine(
         asked: names of requested quantities and tables; None: all that the command shows. Without
             moments among them, no warning of unknown moments is printed.
         prepare: Changes the file before the engine is built.
+        over: Speeds at which the engine is looked at, rpm; None: its own.
 
     Raises:
         BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
@@ -80,8 +82,9 @@ def read_engine(
         require_gas(engine, path)
     if speed_rpm is not None:
         turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
-        engine = replace(engine, speed_rpm=speed_rpm, model=turned)
-    warn_each(engine.unlikely, name_file(path))
+        engine = replace(engine.at_speed(speed_rpm), model=turned)
+    speeds = [float(engine.speed_rpm)] if over is None else over
+    warn_each((*engine.unlikely, *engine.doubt_speeds(speeds)), name_file(path))
     if speed_rpm is not None:
         engine = replace(engine, model=None)
     return LoadedEngine(text, model, engine)

@@ -10,9 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.phases import RPM
 from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
+from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
 
@@ -39,24 +41,28 @@ class Excitation(NamedTuple):
     Attributes:
         orders: (orders,) rising, above 0.
         nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
-        steady: (orders, sources) N m, whatever the speed.
+        steady: (orders, sources) N m, at the engine's own speed if the gas depends on the speed.
         growing: (orders, sources) kg m2, the part that grows with the square of the speed.
+        gas: Gas that depends on the speed, by cylinder, in place of `steady`; None: it does not.
     """
 
     orders: Real
     nodes: Indices
     steady: Complex
     growing: Complex
+    gas: GasAtSpeeds | None = None
 
     def at(self, speeds: Real) -> Complex:
         """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
-        return np.asarray(self.steady[:, None, :] + grown, complex)
+        steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
+        return np.asarray(steady + grown, complex)
 
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
-        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
+        gas = None if self.gas is None else self.gas.select_orders(kept)
+        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept], gas)
 
 
 @dataclass(frozen=True)
