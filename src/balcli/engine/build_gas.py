@@ -121,7 +121,8 @@ def _follow_speed(gas: Gas, make: Callable[..., EngineGas]) -> EngineGas:
         low = sorted(gas.speeds[0] * part for part in parts_of_rated)
         with suppress(InputError):  # of cycles that cannot have so much
             high = [gas.speeds[0] * _OVERSPEED] * bool(solve(gas.speeds[0] * _OVERSPEED))
-    law = GasLaw(solve, (*low, *gas.speeds, *high), gas.cycle is None, *low[-1:])
+    power, least = (2, low[-1]) if gas.law else (1, 0.0)
+    law = GasLaw(solve, (*low, *gas.speeds, *high), gas.cycle is None, power, least)
     return replace(first, doubts=tuple(dict.fromkeys(doubts)), law=law)
 
 
@@ -131,12 +132,10 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
     high = min((node for node in nodes if node > speed), default=low)
     if high == low or speed < low:
         return nodes[low]
-    share, other = (speed - low) / (high - low), nodes[high].cylinders
-    torques = [
-        blend(one.torque, two.torque, share) if one.like == row else None
-        for row, (one, two) in enumerate(zip(nodes[low].cylinders, other, strict=True))
-    ]
-    each = (one._replace(torque=torques[one.like]) for one in nodes[low].cylinders)
+    share, one, two = (speed - low) / (high - low), nodes[low].cylinders, nodes[high].cylinders
+    rows = {cylinder.like for cylinder in one}
+    torques = {row: blend(one[row].torque, two[row].torque, share) for row in rows}
+    each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in one)
     return replace(nodes[low], cylinders=tuple(each))
 
 

@@ -159,39 +159,36 @@ class EngineGas:
 
 @dataclass(frozen=True, eq=False)
 class GasLaw:
-    """Gas of an engine by its speed. Between the nodes it is smooth; before the first one and after
-    the last point of the file it is that at these.
+    """Gas of an engine by its speed: smooth between the nodes; before the first point of the file
+    and after the last one it is that of this point.
 
     Attributes:
         solve: Function of a speed, rpm, to the gas there; InputError if no cycle can be computed.
         nodes_rpm: Rising speeds: the points of the file; or 0, those up to which the propeller law
             asks for less than a cycle with the least heat, the rated speed, and an overspeed.
         linear: Whether all pressures are linear in the speed between the nodes.
-        least_rpm: Speed up to which that law asks for less than a cycle with the least heat; None:
-            the gas is that of points.
+        power: Power of the speed in which mean pressures are linear between the nodes: 1 between
+            points, 2 by the propeller law, which holds beyond the last node as well.
+        least_rpm: Speed up to which that law asks for less than a cycle with the least heat.
     """
 
     solve: Callable[[float], EngineGas]
     nodes_rpm: tuple[float, ...]
     linear: bool
-    least_rpm: float | None = None
-
-    @property
-    def power(self) -> int:
-        """Power of the speed in which mean pressures are linear between the nodes."""
-        return 1 if self.least_rpm is None else 2
+    power: int = 1
+    least_rpm: float = 0.0
 
     def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
         """Yield a warning if some speeds (rpm) are beyond the points, or the propeller law asks for
-        less at them than a cycle has without heat.
+        less at them than a cycle has with the least heat.
         """
         low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
         first, last = self.nodes_rpm[0], self.nodes_rpm[-1]
-        if least is None and (low < first or high > last):
-            beyond = [(first, low)] * bool(low < first) + [(last, high)] * bool(high > last)
-            ends = (f"the gas of {point:g} rpm holds at {speed:g} rpm" for point, speed in beyond)
+        ends = [f"the gas of {first:g} rpm holds at {low:g} rpm"] * bool(low < first)
+        ends += [f"the gas of {last:g} rpm holds at {high:g} rpm"] * bool(high > last)
+        if ends and self.power == 1:
             yield f"gas.at: beyond its points {' and '.join(ends)}"
-        if least is not None and low < least:
+        if low < least:
             imep = max(cylinder.torque.imep for cylinder in self.solve(least).cylinders)
             yield (
                 f"gas.law: up to {least:.4g} rpm it asks for less than the {imep / BAR:.3g} bar of "

@@ -452,7 +452,7 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
     by_speed = gas.follow(lambda own: find(replace(engine, gas=own)))
 
     def find_torque(speeds_rpm: ArrayLike) -> Complex:
-        return np.moveaxis(by_speed(speeds_rpm), np.ndim(speeds_rpm), 0)
+        return np.moveaxis(np.asarray(by_speed(speeds_rpm), complex), np.ndim(speeds_rpm), 0)
 
     return GasAtSpeeds(find_torque, gas.follow(lambda own: own.work / volume), gas.law)
 

@@ -170,7 +170,12 @@ def find_loads(
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
     by_speed, mean, silent = None, 0.0, NONE_SILENT
     if fired:
-        by_speed = follow_gas(engine, lambda own: _find_gas_torque(own, found.orders))
+
+        def find_torque(own: Engine) -> NDArray[np.complex128]:
+            torque = compute_spectra_in_time(own, found.orders, ("gas",))[0]["gas"]
+            return np.asarray(torque.drop_noise().x, complex)
+
+        by_speed = follow_gas(engine, find_torque)
         indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
         mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
     omega = turns * float(engine.omega)
@@ -180,8 +185,3 @@ def find_loads(
         return loads
     by_speed = by_speed and by_speed.select_orders(kept)
     return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)
-
-
-def _find_gas_torque(engine: Engine, orders: Array) -> Complex:
-    """Return the torque of the gas by orders of the time, N m, shape (orders,)."""
-    return compute_spectra_in_time(engine, orders, ("gas",))[0]["gas"].drop_noise().x
