@@ -117,8 +117,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
 
 
 def find_least_imep(piston: GasPiston, process: Process) -> float:
-    """Return the indicated mean effective pressure (Pa) of the cycle with the least heat: without
-    any, or of a dual cycle with what takes it to `max_pressure`.
+    """Return the indicated mean effective pressure (Pa) of the cycle with the least heat: none, or
+    what takes a dual cycle to its `max_pressure`.
 
     Args:
         piston: Piston of the cylinder.

@@ -23,7 +23,7 @@ from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
-from ..file.gas_tables import DIAGRAM_KEYS, Gas
+from ..file.gas_tables import DIAGRAM_KEYS, MEAN_PRESSURES, Gas
 from ..file.model import Override
 from ..file.table import FileTable
 from ..file.units import BAR
@@ -39,7 +39,6 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 HEAT_MOST = 40.0
 _KEPT = 256  # speeds at which the gas is remembered
 _OVERSPEED = 1.6  # of the rated speed: more is computed speed by speed
-_NOTHING = 1e-9  # of the rated imep: a least imep below this is 0
 Table = TypeVar("Table", bound=FileTable)
 
 
@@ -81,15 +80,30 @@ def build_gas(parts: Parts) -> EngineGas:
         return read_columns(locate_beside(parts.model.folder, name), heads)
 
     make = partial(_build_steady, parts, found, read)
-    return _follow_speed(gas, make) if gas.speeds else make(gas)
+    if not gas.speeds:
+        return make(gas)
+    knees = _find_knees(gas, found, parts.model.layout.strokes) if gas.law else ()
+    return _follow_speed(gas, make, knees)
 
 
-def _follow_speed(gas: Gas, make: Callable[..., EngineGas]) -> EngineGas:
+def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> tuple[Array, ...]:
+    """Return the shares of the rated speed up to which the propeller law asks for less imep than
+    the cycle of each piston has without heat, and than takes a dual one to its pressure.
+    """
+    process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
+    kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
+    processes = [replace(process, cycle=kind) for kind in kinds]
+    least = [[find_least_imep(piston, one) for piston in found] for one in processes]
+    return tuple(np.sqrt(np.maximum(each, 0.0) / rated) for each in least)
+
+
+def _follow_speed(gas: Gas, make: Callable[..., EngineGas], knees: Sequence[Array]) -> EngineGas:
     """Return the gas at the first speed of the file, with its law for other speeds.
 
     Args:
         gas: Table of a gas that depends on the speed.
         make: Function of a table for one speed to the gas, as `_build_steady`.
+        knees: As of `_find_knees`; none between points.
 
     Raises:
         InputError: As of `build_gas`.
@@ -98,7 +112,7 @@ def _follow_speed(gas: Gas, make: Callable[..., EngineGas]) -> EngineGas:
     for number, speed in enumerate(gas.speeds, 1):
         name = partial(_name_point, gas, number)
         try:
-            nodes[speed] = make(gas.at_speed(speed))
+            nodes[speed] = make(_take_at(gas, speed))
             doubts += map(name, nodes[speed].doubts)
         except InputError as error:
             problems += (one._replace(path=name(one.path)) for one in error.problems)
@@ -111,19 +125,17 @@ def _follow_speed(gas: Gas, make: Callable[..., EngineGas]) -> EngineGas:
             return nodes[speed]
         if gas.cycle is None:
             return _blend(nodes, speed)
-        return make(gas.at_speed(speed), at_least=gas.law is not None and speed < gas.speeds[-1])
+        return make(_take_at(gas, speed), at_least=gas.law is not None and speed < gas.speeds[-1])
 
-    first, low, high = nodes[gas.speeds[0]], list[float](), list[float]()
-    if gas.law is not None:  # at 0 rpm each cylinder has its least imep, if that is above 0
-        pairs = zip(solve(0.0).cylinders, first.cylinders, strict=True)
-        shares = {max(least.torque.imep, 0.0) / most.torque.imep for least, most in pairs}
-        parts_of_rated = {0.0, *(share**0.5 for share in shares if _NOTHING < share < 1)}
-        low = sorted(gas.speeds[0] * part for part in parts_of_rated)
-        with suppress(InputError):  # of cycles that cannot have so much
-            high = [gas.speeds[0] * _OVERSPEED] * bool(solve(gas.speeds[0] * _OVERSPEED))
-    power, least = (2, low[-1]) if gas.law else (1, 0.0)
-    law = GasLaw(solve, (*low, *gas.speeds, *high), gas.cycle is None, power, least)
-    return replace(first, doubts=tuple(dict.fromkeys(doubts)), law=law)
+    first, high, doubts = gas.speeds[0], list[float](), list(dict.fromkeys(doubts))
+    if not knees:
+        law = GasLaw(solve, gas.speeds, gas.cycle is None)
+        return replace(nodes[first], doubts=tuple(doubts), law=law)
+    with suppress(InputError):  # of cycles that cannot have so much
+        high = [first * _OVERSPEED] * bool(solve(first * _OVERSPEED))
+    low = {0.0, *(first * share for share in np.ravel(knees).tolist() if share < 1)}
+    law = GasLaw(solve, (*sorted(low), first, *high), False, 2, first * float(knees[0].max()))
+    return replace(nodes[first], doubts=tuple(doubts), law=law)
 
 
 def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
@@ -137,6 +149,23 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
     torques = {row: blend(one[row].torque, two[row].torque, share) for row in rows}
     each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in one)
     return replace(nodes[low], cylinders=tuple(each))
+
+
+def _take_at(gas: Gas, speed: float) -> Gas:
+    """Return the table of a gas that is at all speeds as this one is at one speed (rpm). Texts are
+    those of the nearest point.
+    """
+    if gas.rated_speed is not None:
+        grown = (speed / gas.rated_speed) ** 2
+        found = {key: getattr(gas, key) * grown for key in MEAN_PRESSURES if gas.has(key)}
+    else:
+        nearest = min(gas.at, key=lambda point: abs(point.speed - speed))
+        found = {key: getattr(nearest, key) for key in gas.keys_of_points}
+        for key in filter(lambda key: isinstance(found[key], float), gas.keys_of_points):
+            values = [getattr(point, key) for point in gas.at]
+            found[key] = float(np.interp(speed, gas.speeds, values))
+    kept = gas.model_fields_set - {"at", "law", "rated_speed"}
+    return Gas.model_construct(**{key: getattr(gas, key) for key in kept} | found)
 
 
 def _name_point(gas: Gas, number: int, text: str) -> str:
@@ -161,7 +190,8 @@ def _build_steady(
         found: Piston of each row.
         read: Function of the name and headings of a file to its columns.
         gas: The table.
-        at_least: Whether a cycle has its least imep where the table asks for less.
+        at_least: Whether a cycle may burn less than its kind needs: a dual one less than takes it
+            to its pressure, and others nothing where the table asks for less imep than that has.
 
     Raises:
         InputError: As of `build_gas`.
@@ -330,25 +360,32 @@ def _compute_cycle(
     Raises:
         InputError: A key from which no cycle can be computed.
     """
-    keys = [field.name for field in fields(Process) if field.name != "strokes"]
-    given = {key: getattr(gas, key) for key in keys}
-    for key in ("intake", "exhaust", "max_pressure"):
-        given[key] = given[key] and given[key] * BAR
-    process, goal = Process(strokes=strokes, **given), _find_goal(gas, source)
+    process, goal = _describe_process(gas, strokes), _find_goal(gas, source.heat)
     if source.heat == 0:  # it expands as it was compressed
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
     try:
         if at_least and goal.name == "imep":
+            if process.cycle == "dual" and goal.value < find_least_imep(piston, process):
+                process = replace(process, cycle="otto")
             goal = Goal("imep", max(goal.value, find_least_imep(piston, process)))
         return gas_cycle(piston, process, goal)
     except GasError as error:
         raise InputError([_locate(error, gas, source)]) from None
 
 
-def _find_goal(gas: Gas, source: _Source) -> Goal:
-    """Return the figure that a computed cycle has to reach."""
-    if source.heat is not None:
-        return Goal("heat", source.heat)
+def _describe_process(gas: Gas, strokes: int) -> Process:
+    """Return the laws of a computed cycle."""
+    keys = [field.name for field in fields(Process) if field.name != "strokes"]
+    given = {key: getattr(gas, key) for key in keys}
+    for key in ("intake", "exhaust", "max_pressure"):
+        given[key] = given[key] and given[key] * BAR
+    return Process(strokes=strokes, **given)
+
+
+def _find_goal(gas: Gas, heat: float | None) -> Goal:
+    """Return the figure that a computed cycle has to reach; this heat (J) if it is not None."""
+    if heat is not None:
+        return Goal("heat", heat)
     if gas.cut_off is not None:
         return Goal("cut_off", gas.cut_off)
     if gas.bmep is not None:
@@ -375,7 +412,7 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     ratio = gas.compression_ratio or math.nan
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:
-        path = _locate(GasError(_find_goal(gas, source).name, ""), gas, source).path
+        path = _locate(GasError(_find_goal(gas, source.heat).name, ""), gas, source).path
         yield (
             f"{path} takes {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
             f"charge burns; is gas.intake = {gas.intake:.4g} bar right? It is absolute, and more "

@@ -19,7 +19,6 @@ from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
 from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
-from ..file.units import BAR
 
 
 class CylinderGas(NamedTuple):
@@ -164,12 +163,12 @@ class GasLaw:
 
     Attributes:
         solve: Function of a speed, rpm, to the gas there; InputError if no cycle can be computed.
-        nodes_rpm: Rising speeds: the points of the file; or 0, those up to which the propeller law
-            asks for less than a cycle with the least heat, the rated speed, and an overspeed.
+        nodes_rpm: Rising speeds: the points of the file; or by the propeller law 0, those at which
+            a cycle begins to burn or reaches its limit, the rated speed, and an overspeed.
         linear: Whether all pressures are linear in the speed between the nodes.
         power: Power of the speed in which mean pressures are linear between the nodes: 1 between
             points, 2 by the propeller law, which holds beyond the last node as well.
-        least_rpm: Speed up to which that law asks for less than a cycle with the least heat.
+        least_rpm: Speed up to which that law asks for less than a cycle has without heat.
     """
 
     solve: Callable[[float], EngineGas]
@@ -180,7 +179,7 @@ class GasLaw:
 
     def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
         """Yield a warning if some speeds (rpm) are beyond the points, or the propeller law asks for
-        less at them than a cycle has with the least heat.
+        less at them than a cycle has without heat.
         """
         low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
         first, last = self.nodes_rpm[0], self.nodes_rpm[-1]
@@ -189,8 +188,7 @@ class GasLaw:
         if ends and self.power == 1:
             yield f"gas.at: beyond its points {' and '.join(ends)}"
         if low < least:
-            imep = max(cylinder.torque.imep for cylinder in self.solve(least).cylinders)
             yield (
-                f"gas.law: up to {least:.4g} rpm it asks for less than the {imep / BAR:.3g} bar of "
-                "imep that the cycle has with the least heat; that holds there"
+                f"gas.law: up to {least:.4g} rpm it asks for less than the cycle has without heat; "
+                "that cycle holds there"
             )

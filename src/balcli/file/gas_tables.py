@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated
 
-import numpy as np
 from pydantic import Field
 
 from ..limits import MOST_GAS_POINTS
@@ -35,7 +34,7 @@ _CYCLE_KEYS = (
 )
 
 
-_MEAN_PRESSURES = ("imep", "bmep")
+MEAN_PRESSURES = ("imep", "bmep")
 
 
 class GasPoint(FileTable):
@@ -156,23 +155,6 @@ class Gas(FileTable):
             return (self.rated_speed,)
         return tuple(point.speed for point in self.at)
 
-    def at_speed(self, speed: float) -> "Gas":
-        """Return the table of a gas that is at all speeds as this one is at one speed (rpm). Texts
-        are those of the nearest point.
-        """
-        if self.law is not None and self.rated_speed is not None:
-            grown = (speed / self.rated_speed) ** 2
-            found = {key: getattr(self, key) * grown for key in _MEAN_PRESSURES if self.has(key)}
-        else:
-            nearest = min(self.at, key=lambda point: abs(point.speed - speed))
-            found = {key: getattr(nearest, key) for key in self.keys_of_points}
-            for key, value in found.items():
-                if isinstance(value, float):
-                    values = [getattr(point, key) for point in self.at]
-                    found[key] = float(np.interp(speed, self.speeds, values))
-        kept = self.model_fields_set - {"at", "law", "rated_speed"}
-        return Gas.model_construct(**{key: getattr(self, key) for key in kept} | found)
-
     @property
     def goals(self) -> tuple[str, ...]:
         """Keys of which exactly one sets the heat; the highest pressure of a dual cycle stands next
@@ -243,7 +225,7 @@ class Gas(FileTable):
         """Check that a law has a mean pressure to act on."""
         if self.law is not None and self.cycle is None:
             yield "has law, which a diagram does not have; give [[gas.at]] with a diagram each"
-        elif self.law is not None and not any(map(self.has, _MEAN_PRESSURES)):
+        elif self.law is not None and not any(map(self.has, MEAN_PRESSURES)):
             yield "has law without imep; give imep, or bmep, at rated_speed"
 
     def _check_misplaced(self) -> Iterator[str]:
