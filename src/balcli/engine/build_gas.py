@@ -80,13 +80,15 @@ def build_gas(parts: Parts) -> EngineGas:
         return read_columns(locate_beside(parts.model.folder, name), heads)
 
     make = partial(_build_steady, parts, found, read)
-    if not gas.speeds:
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
+    rows = [row for row, one in enumerate(sources) if one.heat is None and one.indicator is None]
+    if not gas.speeds or (gas.law and not rows):  # cylinders with heats or diagrams of their own
         return make(gas)
-    knees = _find_knees(gas, found, parts.model.layout.strokes) if gas.law else ()
-    return _follow_speed(gas, make, knees)
+    strokes = parts.model.layout.strokes
+    return _follow_speed(gas, make, partial(_find_knees, gas, [found[k] for k in rows], strokes))
 
 
-def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> tuple[Array, ...]:
+def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
     """Return the shares of the rated speed up to which the propeller law asks for less imep than
     the cycle of each piston has without heat, and than takes a dual one to its pressure.
     """
@@ -94,16 +96,18 @@ def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> tuple[Arr
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
     processes = [replace(process, cycle=kind) for kind in kinds]
     least = [[find_least_imep(piston, one) for piston in found] for one in processes]
-    return tuple(np.sqrt(np.maximum(each, 0.0) / rated) for each in least)
+    return [np.sqrt(np.maximum(each, 0.0) / rated) for each in least]
 
 
-def _follow_speed(gas: Gas, make: Callable[..., EngineGas], knees: Sequence[Array]) -> EngineGas:
+def _follow_speed(
+    gas: Gas, make: Callable[..., EngineGas], find_knees: Callable[[], list[Array]]
+) -> EngineGas:
     """Return the gas at the first speed of the file, with its law for other speeds.
 
     Args:
         gas: Table of a gas that depends on the speed.
         make: Function of a table for one speed to the gas, as `_build_steady`.
-        knees: As of `_find_knees`; none between points.
+        find_knees: As `_find_knees`, for a valid propeller law.
 
     Raises:
         InputError: As of `build_gas`.
@@ -127,15 +131,16 @@ def _follow_speed(gas: Gas, make: Callable[..., EngineGas], knees: Sequence[Arra
             return _blend(nodes, speed)
         return make(_take_at(gas, speed), at_least=gas.law is not None and speed < gas.speeds[-1])
 
-    first, high, doubts = gas.speeds[0], list[float](), list(dict.fromkeys(doubts))
-    if not knees:
-        law = GasLaw(solve, gas.speeds, gas.cycle is None)
-        return replace(nodes[first], doubts=tuple(doubts), law=law)
-    with suppress(InputError):  # of cycles that cannot have so much
-        high = [first * _OVERSPEED] * bool(solve(first * _OVERSPEED))
-    low = {0.0, *(first * share for share in np.ravel(knees).tolist() if share < 1)}
-    law = GasLaw(solve, (*sorted(low), first, *high), False, 2, first * float(knees[0].max()))
-    return replace(nodes[first], doubts=tuple(doubts), law=law)
+    first, speeds, least = nodes[gas.speeds[0]], gas.speeds, 0.0
+    if gas.law is not None:
+        (rated,), knees = gas.speeds, find_knees()
+        low = {0.0, *(rated * share for share in np.ravel(knees).tolist() if share < 1)}
+        speeds, least = (*sorted(low), rated), rated * float(knees[0].max())
+        with suppress(InputError):  # of cycles that cannot have so much
+            solve(rated * _OVERSPEED)
+            speeds = (*speeds, rated * _OVERSPEED)
+    law = GasLaw(solve, speeds, gas.cycle is None, 2 if gas.law else 1, least)
+    return replace(first, doubts=tuple(dict.fromkeys(doubts)), law=law)
 
 
 def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
