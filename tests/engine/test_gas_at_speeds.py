@@ -179,6 +179,19 @@ def test_responses_have_the_gas_of_each_speed(tmp_path, subject):
     assert "at every speed" in " ".join(run_here(command, steady, *options).out.split())
 
 
+def test_criticals_have_the_gas_of_their_speed(tmp_path):
+    """With a misfire the sum over the cylinders depends on how much gas there is next to the inertia."""
+    text, options = SUBJECTS["torsion"][0], ("--orders", "3-6", "--misfire", 2)
+    moving = write(tmp_path / "moving.toml", text.replace("{gas}", cycle("otto", **GAS)))
+    criticals = ask_json("torsion", moving, *options)["criticals"][:4]
+    assert any(LOW < found["speed_rpm"] < HIGH for found in criticals)
+    for found in criticals:
+        steady = write(tmp_path / "s.toml", text.replace("{gas}", cycle("otto", **hold(found["speed_rpm"], **GAS))))
+        each = ask_json("torsion", steady, *options)["criticals"]
+        (alone,) = (one for one in each if (one["mode"], one["order"]) == (found["mode"], found["order"]))
+        assert found["phase_sum"] == pytest.approx(alone["phase_sum"], rel=1e-10)
+
+
 def test_speeds_without_a_point_are_warned_of_once(tmp_path):
     file = write(tmp_path / "four.toml", FOUR + cycle("otto", **GAS))
     for *command, told in (
