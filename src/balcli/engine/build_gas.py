@@ -37,7 +37,7 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # Heat of fuel over pressure times volume of the charge that is doubted: where all air burns it is
 # 34, from 2.95 MJ/kg for petrol and Diesel fuel alike, at 300 K.
 HEAT_MOST = 40.0
-_KEPT = 256  # speeds at which the gas is remembered
+_KEPT = 512  # speeds at which the gas is remembered
 _OVERSPEED = 1.6  # of the rated speed: more is computed speed by speed
 Table = TypeVar("Table", bound=FileTable)
 
