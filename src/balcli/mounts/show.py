@@ -116,9 +116,8 @@ def _tell_gas(response: BodyResponse) -> str:
     if response.loads.gas is None:
         return "Inertia only: gas torque, which also rolls an engine, is not included."
     silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
-    same = response.loads.law is None
-    which = "the same gas diagram at every speed" if same else "the gas of each speed"
-    return f"Inertia and gas torque, with {which}{silent}."
+    gas = "gas of each speed" if response.loads.law else "same gas diagram at every speed"
+    return f"Inertia and gas torque, with the {gas}{silent}."
 
 
 def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
