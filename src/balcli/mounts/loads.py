@@ -1,8 +1,8 @@
-"""Load of an engine on a body on mounts: free forces, moments and gas torque about the center of
-gravity, by order.
+"""Load that an engine puts on its body on mounts: free forces, moments and gas torque about the
+center of gravity, by order.
 
-At uneven speed, orders of the time excite vibration. An order of the crank angle, cycles in a turn,
-is then no frequency: a force of order 1 over the angle has sidebands over the time.
+At uneven speed, an order of the crank angle (cycles in a turn) is not one frequency: a force of
+order 1 over the angle has sidebands over time. The loads are then computed by orders of time.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from .rigid_body import ROLL, load_at_centre
 if TYPE_CHECKING:
     from ..engine.gas import GasLaw
 
-_MOST_COUNTED = 1 << 26  # samples, each for every order: seconds
+_MOST_COUNTED = 1 << 26  # most samples times orders, which take seconds
 
 
 def compute_spectra_in_time(
@@ -66,7 +66,9 @@ def compute_spectra_in_time(
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))  # enough where it is slowest
+    samples = 1 << math.ceil(
+        math.log2(32 * len(fastest) / slowest)
+    )  # enough samples where the crank is slowest
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
@@ -77,7 +79,7 @@ def compute_spectra_in_time(
     timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
     reach = find_reach(timetable, highest)
     in_time: dict[str, Phasors] = {}
-    for name in kinds:  # gas has orders without end: all that are felt in those of the time
+    for name in kinds:  # the series of gas is infinite: all orders that reach the orders of time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
         ((kind, phasors),) = found.items()
@@ -142,13 +144,13 @@ def find_loads(
     """Return the free forces and moments of an engine as a load on the body.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: Single engine (no trailing axes).
         centre: Center of gravity of the body, m, shape (3,).
-        orders: Orders of the load; default: all that are considerable.
-        gas_orders: Orders of the gas torque among these; default: as of `list_gas_orders`.
+        orders: Orders of the load; default: all relevant orders.
+        gas_orders: Default orders of the gas torque; None: those of `list_gas_orders`.
 
     Raises:
-        BalcliError: The file does not say where the throws stand.
+        BalcliError: The file does not give the positions of the throws.
     """
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
