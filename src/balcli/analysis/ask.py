@@ -78,7 +78,7 @@ def answer(
     find, renderer = _choose_result(asked, for_people)
 
     def find_one(path: str) -> tuple[str, str, object]:
-        engine = read_engine(path, rpm, asked.words).engine
+        engine = read_engine(path, rpm, asked.words, over=asked.speeds_rpm or None).engine
         result = find(silence_cylinders(engine, asked.misfires, path))
         if isinstance(result, Analysis) and result.parts is not None:
             warn_each(result.parts.doubts, name_file(path))

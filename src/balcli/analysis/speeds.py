@@ -11,7 +11,7 @@ about the y axis, is also called vertical: M1V is My of order 1, M1H is its Mx.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -101,7 +101,7 @@ def analyze_speeds(
     Raises:
         BalcliError: As for `analyze_one`.
     """
-    engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
+    engines = [engine.at_speed(speed) for speed in speeds_rpm]
     asked = None if orders is None else list(orders)
     return SpeedSeries(
         engine=engine,
@@ -236,11 +236,11 @@ def find_marine_sheet(
     words = ["force", "moment", "guide", torque.name, *(["pru"] if has_power(engine) else [])]
     ask = partial(analyze, only=words, guide_height_m=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
-    found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
+    found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
     guide = found[0].guide
     listed = [_list_amplitudes(one, torque.name) for one in found]
     return MarineSheet(
-        engine=replace(engine, speed_rpm=speeds[0]),
+        engine=engine.at_speed(speeds[0]),
         includes=name_included(engine.gas is not None),
         height_m=np.array([]) if guide is None else guide.height_m,
         assumed=found[0].assumed,

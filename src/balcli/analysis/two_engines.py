@@ -225,7 +225,7 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
         RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
         for line in leader.ripple
     )
-    return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
+    return replace(engine.at_speed(leader.speed_rpm), ripple=ripple)
 
 
 def place_spectra(

@@ -331,7 +331,7 @@ def balance_knuckles(
     )
     old, new = build(model), build(found.model)
     if speed_rpm is not None:
-        old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
+        old, new = old.at_speed(speed_rpm), new.at_speed(speed_rpm)
     before, after = analyze_both(old, new, orders)
     return Balance(remedy, before, after, every_order=orders is not None)
 

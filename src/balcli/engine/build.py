@@ -341,10 +341,11 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)
-    elif parts.gas is None and not parts.rank:
+    elif not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
 
-        parts.gas = build_gas(parts)
+        speed = parts.figures.take("operation.speed", parts.model.operation.speed)
+        parts.gas = (parts.gas or build_gas(parts)).at(float(speed))
 
 
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0

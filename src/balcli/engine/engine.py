@@ -6,12 +6,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.cylinders import Cylinders, Device, DeviceKind, find_travel
 from ..core.phases import RPM
@@ -83,37 +84,39 @@ _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
 
-    In variants, a figure that varies is an array whose axes are those of the variants ("trailing
-    axes"). All figures of an engine broadcast against each other.
+    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
+    an engine broadcast against each other.
 
     Attributes:
         name: Name in the file; may be empty.
         source: Source of the figures; may be empty.
         numbers: Cylinder number of each row of `cylinders`.
-        cylinders: Geometry and masses, one row for each cylinder, sorted by bank.
-        fires_deg: Crank angle at which each cylinder fires, counted from the first, by cylinder
-            number in the firing order; empty without a firing order.
+        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
+            of the variants.
+        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
+            the firing order; empty without a firing order.
         strokes: 2 or 4.
-        bore_m: Cylinder bore; nan if the file gives none.
+        bore_m: Cylinder bore; nan where the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
-        up_deg: Direction that points up, deg from x; None if the file gives none.
+        up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
-            all throws are in one plane, and moments have no meaning.
-        gas: Gas in the cylinders; None if the file has no [gas], and for arrays of variants.
-        gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
-            (orders,); None except in sweeps.
+            all throws stand in one plane, and moments have no meaning.
+        gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
+            variants.
+        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
+            None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
             kg m2; None if the file gives none.
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
         bearings: Bearings of the crankshaft; None if the file gives none.
         rated: Speed of the file, and brake power at it.
         inferred: Keys that the file leaves out and on which results depend, with the values that
-            are used (`layout.strokes = 4`).
+            are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
     """
 
@@ -166,6 +169,11 @@ class Engine:
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
 
+    def at_speed(self, speed_rpm: Figure) -> Engine:
+        """Return the engine at another speed (rpm), with its gas there."""
+        gas = None if self.gas is None else self.gas.at(float(speed_rpm))
+        return replace(self, speed_rpm=speed_rpm, gas=gas)
+
     def explore(self) -> Any:
         """Return the live page of the engine for a notebook: it shows the engine in motion, and its
         numbers can be changed.
@@ -188,7 +196,7 @@ class Engine:
     def doubts(self) -> tuple[str, ...]:
         """Warnings of unlikely figures in the file, and of missing positions."""
         unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
-        return (*unknown, *self.unlikely)
+        return (*unknown, *self.unlikely, *self.doubt_speeds(self.speed_rpm))
 
     @property
     def unlikely(self) -> tuple[str, ...]:
@@ -197,6 +205,11 @@ class Engine:
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+
+    def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
+        """Return a warning if the file does not give the gas at some of these speeds."""
+        law = None if self.gas is None else self.gas.law
+        return () if law is None else tuple(law.list_doubts(speeds_rpm))
 
     @property
     def speed_assumed(self) -> bool:

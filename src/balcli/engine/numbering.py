@@ -493,7 +493,7 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
     if gas is not None:
         diagrams = sum(one.indicator is not None for one in model.cylinder.values())
         computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
-        measured = gas.indicator is not None or diagrams > 0
+        measured = gas.has("indicator") or diagrams > 0
         yield from gas.list_assumed(layout.strokes, measured, computed)
 
 

@@ -96,9 +96,12 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     question = ask_unit("bar", "130 psi", "0.9 MPa")
-    for key, usual in PRESSURES.items() if model.gas else ():
-        if (value := getattr(model.gas, key)) is not None:
-            figures.append(Figure(f"gas.{key} is", value, *usual, question))
+    points = () if model.gas is None else model.gas.at
+    tables = {"gas": model.gas} | {f"gas.at.{k}": point for k, point in enumerate(points, 1)}
+    for path, table in tables.items():
+        for key, usual in PRESSURES.items():
+            if (value := getattr(table, key, None)) is not None:
+                figures.append(Figure(f"{path}.{key} is", value, *usual, question))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
 

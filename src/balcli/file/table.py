@@ -128,8 +128,7 @@ class FileTable(BaseModel):
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
         """Reject contradictions; each is an argument of the error."""
-        given = self.model_fields_set
-        of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
+        of_choices = [fault for choice in self.choices for fault in choice.mistakes(self.given)]
         if found := [*of_choices, *self.contradictions()]:
             raise ValueError(*found)
         return self
@@ -143,9 +142,14 @@ class FileTable(BaseModel):
                 if name.startswith("_check_"):
                     yield from rule(self)
 
+    @property
+    def given(self) -> set[str]:
+        """Keys that the file gives."""
+        return self.model_fields_set
+
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""
-        return key in self.model_fields_set
+        return key in self.given
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Return the keys that exclude this one, because they give the same figure."""

@@ -105,7 +105,8 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
     first, last = (given(float(speed)) for speed in (speeds_rpm[0], speeds_rpm[-1]))
-    gas = "" if engine.gas is None else "; gas as in the file at every speed"
+    same = engine.gas is not None and engine.gas.law is None
+    gas = "; gas as in the file at every speed" if same else ""
     return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
 
 

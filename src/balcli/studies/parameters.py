@@ -104,7 +104,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
         return [path for path in own if path.endswith((".gas", ".heat"))]
     cylinders = {*plan_cylinders(model).numbers}
     with_diagram = {n for n, table in model.cylinder.items() if table.indicator is not None}
-    if model.gas.indicator is not None:
+    if model.gas.has("indicator"):
         with_diagram = cylinders
     with_heat = {n for n, table in model.cylinder.items() if table.heat is not None}
     computed = model.gas.cycle is not None and not cylinders <= with_diagram

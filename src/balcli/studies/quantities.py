@@ -216,7 +216,7 @@ class _VariedGas:
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
         self._model, self._engines = model, list[Engine]()
-        self._figures = {path: value for path, value in figures.items() if concerns_gas(path)}
+        self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
     def __call__(self, orders: Array) -> Phasors:

@@ -174,8 +174,12 @@ class TorsionAnalysis(Result):
         """Warnings of shafts without inertia, swings too large for the linear model, and a stress
         that breaks the shaft.
         """
-        found = () if self.response is None else _find_doubts(self.system, self.response)
-        return *self.system.doubts, *found
+        if self.response is None:
+            return self.system.doubts
+        excitation, found = self.system.excitation, _find_doubts(self.system, self.response)
+        law = excitation and excitation.gas and excitation.gas.law
+        of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
+        return *self.system.doubts, *of_gas, *found
 
     @property
     def summary(self) -> str:

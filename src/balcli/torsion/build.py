@@ -41,7 +41,7 @@ from ..file.torsion_tables import (
     find_stiffness,
 )
 from ..forces.crankshaft import find_shear_stress
-from ..forces.spectrum import compute_spectra, list_gas_orders
+from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
     SAME_RATIO,
@@ -530,8 +530,13 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     spectra = compute_spectra(engine, orders, parts, each=True)
     growing = spectra["torque"].x
     steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
-    moves = np.any((growing != 0) | (steady != 0), axis=1)
-    return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+    moves, gas = np.any((growing != 0) | (steady != 0), axis=1), None
+    if engine.gas is not None and engine.gas.nodes_rpm:
+        gas = follow_gas(
+            engine, lambda own: compute_spectra(own, orders, ["gas"], each=True)["gas"].x
+        )
+        moves |= np.any(gas.torque(engine.gas.nodes_rpm) != 0, axis=(1, 2))
+    return Excitation(orders, nodes, steady, growing, gas).only(orders[moves])
 
 
 # ------------------------------------------------------------------ contradictions in [torsion]

@@ -217,6 +217,7 @@ class TorsionResponse:
 
     Attributes:
         speeds_rpm: Speeds.
+        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all.
         shafts: Torque of each shaft.
         free_end_deg: Half of the swing of the free end, by speed.
         free_end_worst: Largest swing of the free end.
@@ -225,6 +226,7 @@ class TorsionResponse:
     """
 
     speeds_rpm: Real
+    imep_Pa: Real | None = None
     shafts: tuple[ShaftResponse, ...]
     free_end_deg: Real
     free_end_worst: WorstSwing
@@ -246,8 +248,8 @@ def find_response(
         BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
-    orders, end = system.require_excitation().orders, len(system.shafts)
-    found = []
+    excitation, end, found = system.require_excitation(), len(system.shafts), []
+    orders = excitation.orders
     for phasors, lost in compute_in_parts(system, speeds_rpm):
         found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
         tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
@@ -284,6 +286,7 @@ def find_response(
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
+        imep_Pa=None if excitation.gas is None else excitation.gas.imep(speeds_rpm),
         shafts=tuple(shafts),
         free_end_deg=degrees[:, end],
         free_end_worst=WorstSwing(float(at[end]), worst_deg[end]),

@@ -119,6 +119,8 @@ def _list_response(response: Node) -> Iterator[Line]:
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):
         head = Line("response", speed_rpm=speed)
+        if "imep_Pa" in response:
+            yield from _put(head, [Figure("imep", response["imep_Pa"][s], "Pa")])
         for shaft in shafts:
             yield from _put(head._replace(name=shaft["name"]), list_series(shaft, s))
         yield from _put(head, [Figure("free_end", response["free_end_deg"][s], "deg")])
@@ -345,6 +347,8 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
     excitation = result.system.excitation
     if excitation is None or not excitation.growing.any():
         return ""
+    if excitation.gas is not None:
+        return where_counted.replace("at every", "for each")
     alone = " Inertia only; gas torque is not included."
     return where_counted if excitation.steady.any() else alone
 
