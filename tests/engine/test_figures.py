@@ -106,6 +106,7 @@ IDLE = {  # nothing moves by them: one bank, one throw, articulated rods
     ("knuckles", "crank.spacing"),
     ("rotary", "crank.spacing"),
     ("vee", "counterweight.3.sector.density"),  # its thickness follows
+    *((name, "operation.power") for name in FILES),  # for the power related unbalance
 }
 
 

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import ask_json, refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
 from support.paths import ENGINES
 from support.remedies import fit_scheme, size_scheme
 
 from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
+from balcli.show.sheet import size_text
+from balcli.show.units import SI
 from balcli.sizing.fitting import Slot
 from balcli.sizing.ladder import SHAFTS, find_ladder
 from balcli.sizing.options import SchemeOptions
@@ -149,20 +151,31 @@ def test_compensators_cancel_the_moment_about_y_alone(path, order, places):
     assert turned == pytest.approx(abs(np.exp(1j * np.radians(1)) - 1))
 
 
+COMPENSATED = ("--scheme", "compensator", "--position", "3 m")
+
+
 def test_the_force_of_a_compensator_is_meant_to_remain(tmp_path):
     """It counts in figures, but no step of the ladder cancels it; the file that is written says so."""
     written = tmp_path / "aft.toml"
-    run_here("balance", I5, "--scheme", "compensator", "--position", "3 m", "--write", written)
+    run_here("balance", I5, *COMPENSATED, "--write", written)
     fitted = load(written)
     promised = fit_devices(load(I5), size_scheme(load(I5), "compensator", position=3.0))
     assert fitted.devices == promised.devices
     ladder = find_ladder(fitted)
     assert SHAFTS in [step.step for step in find_ladder(load(I5)).steps]
     assert SHAFTS not in [step.step for step in ladder.steps]
+    told = ask("analyze", "-q", written)
+    verdict = " ".join(told[told.index("Verdict") : told.index("Largest by")].split())
+    force = size_text(ask_json("balance", I5, *COMPENSATED)["details"]["force_introduced_N"], SI.force)
+    assert (
+        "Second order: vertical moment balanced by the compensator at z = 3000 mm; the compensator introduces "
+        f"a force of {force} by design." in verdict
+    )
+    assert "+2 and -2" not in verdict
     drawn = ladder.steps[0].peak_force_N
     assert drawn > 1.5 * find_ladder(load(I5)).steps[0].peak_force_N + 1
     assert written.read_text().count('role = "compensator"') == 2
-    (first, _) = ask_json("balance", I5, "--scheme", "compensator", "--position", "3 m")["shafts"]
+    (first, _) = ask_json("balance", I5, *COMPENSATED)["shafts"]
     assert first["role"] == "compensator"
 
 

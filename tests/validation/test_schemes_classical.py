@@ -235,7 +235,7 @@ def test_eccentric_stands_where_the_force_acts():
             SchemeOptions(),
             "there is no scheme 'magic': choose from auto, complete, step, counterweights, factor, minimax, ellipse, "
             "single-shaft, two-shaft, four-shaft, "
-            "couple-shaft, slider, eccentric-slider, oldham, knuckles",
+            "couple-shaft, compensator, slider, eccentric-slider, oldham, knuckles",
         ),
         ("knuckle", SchemeOptions(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
         ("knuckles", SchemeOptions(), "scheme knuckles is fitted by `balcli balance --scheme knuckles` alone"),

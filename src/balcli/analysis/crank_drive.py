@@ -382,7 +382,7 @@ def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
     """
     power, kind = 0.0, "file"
     if (rated := engine.rated) is not None:
-        engine = replace(engine, speed_rpm=rated.speed_rpm)
+        engine = engine.at_speed(rated.speed_rpm)
         power = rated.power_W or 0.0
     if not power and engine.gas is not None:
         efficiency = engine.mechanical_efficiency

@@ -15,7 +15,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Array, Complex, Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
-from ..forces.kinds import COUPLE, ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
 from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import SMALL
 from ..show.engine_facts import tell_pivot
@@ -152,6 +152,7 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
+_ROUNDING = 1e-9  # share of a force or moment below which a sum of opposite ones is 0
 _MOST_WORDS = 25  # words in a sentence
 _MOST_NAMED = 5  # orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
@@ -225,16 +226,20 @@ class _Order(NamedTuple):
         """Whether force and moment are balanced."""
         return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
+    @property
+    def name(self) -> str:
+        """The order in words, as a sentence begins with it."""
+        n = int(self.order)
+        if self.order % 1:
+            return f"Order {order_name(self.order)}"
+        return f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
+
     def tell(self) -> str:
         """Return the sentence on the order: the most detailed one that is not too long."""
-        n = int(self.order)
-        name = f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
-        if self.order % 1:
-            name = f"Order {order_name(self.order)}"
         told = ""
         for directed, sizes in ((True, True), (True, False), (False, False)):
             there = " and ".join(one.describe(self.k, directed=directed) for one in self.large)
-            told = f"{name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
+            told = f"{self.name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
             if len(told.split()) <= _MOST_WORDS:
                 break
         return told
@@ -275,6 +280,7 @@ def verdict(
     small: float = SMALL,
     steady: bool = True,
     devices: Sequence[Device] = (),
+    omega: float = 0.0,
 ) -> tuple[str, ...]:
     """Return a sentence for every order to 2 that is not small, one on higher orders that are not,
     and one on the others, each of at most 25 words; none without forces and moments.
@@ -287,6 +293,7 @@ def verdict(
         steady: Whether the speed is. If not, no cure is named: most of an order may come from
             another one through the unevenness, and vanishes with that one.
         devices: Devices of the file; a device that turns like one of these is a further one.
+        omega: Crank speed, rad/s, for the force of compensators among the devices.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -312,16 +319,22 @@ def verdict(
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
-    matter = [one for one in every if one.large]
+    compensated = {device.order for device in devices if device.compensates}
+    matter = [one for one in every if one.large and one.order not in compensated]
     high = [one for one in matter if one.order > 2]
     told = [one.tell() for one in matter if len(high) < 2 or one not in high]
+    for one in every:
+        if one.order in compensated:
+            told.append(_tell_compensated(one, devices, system, omega))
     if len(high) > 1:
         told.append(_tell_higher(high))
     if not steady and matter:
         told.append(_UNEVEN)
     names = [vector.kind.name for vector in vectors]
-    balanced = [one.order for one in every if one.balanced]
-    small_ones = _tell_largest([(one, vector) for one in every for vector in one.rest])
+    balanced = [one.order for one in every if one.balanced and one.order not in compensated]
+    small_ones = _tell_largest(
+        [(one, vector) for one in every if one.order not in compensated for vector in one.rest]
+    )
     if told or small_ones or min(balanced, default=3) <= 2:  # name only orders 1 and 2 then
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
@@ -330,6 +343,42 @@ def verdict(
     rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
     last = "; ".join(filter(None, rest))
     return (*told, sentence(last)) if last else tuple(told)
+
+
+def _tell_compensated(one: _Order, devices: Sequence[Device], system: System, omega: float) -> str:
+    """Return sentences on an order with moment compensators: the vertical moment (about y, of
+    forces along x), the force that the compensators introduce, and what the engine leaves itself.
+    """
+    pairs = [device for device in devices if device.compensates and device.order == one.order]
+    places = sorted({float(device.z) for device in pairs})
+    square, unit = (one.order * omega) ** 2, system.length
+    where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in places])
+    named = "compensators" if len(places) > 1 else "compensator"
+    forward = square * sum(complex(device.forward) for device in pairs)
+    backward = square * sum(complex(device.backward) for device in pairs)
+    size = abs(forward + backward.conjugate())
+    rounding = _ROUNDING * square * sum(abs(complex(device.forward)) for device in pairs)
+    introduced = f"a force of {size_text(size, system.force)} by design"
+    introduced = introduced if size > rounding else "no force"
+    by_kind = {vector.kind: vector for vector in (*one.large, *one.rest)}
+    told = []
+    if (moment := by_kind.get(MOMENT)) is not None:
+        vertical, across = (abs(part[one.k]) for part in (moment.phasors.y, moment.phasors.x))
+        noise = float(np.broadcast_to(moment.phasors.noise, moment.phasors.x.shape)[one.k])
+        left = f"of {size_text(vertical, system.moment)} left with"
+        is_balanced = vertical <= max(noise, _ROUNDING * moment.scale)
+        told.append(
+            f"{one.name}: vertical moment {'balanced by' if is_balanced else left} the {named} at "
+            f"{where}; the {named} introduce{'s' * (len(places) == 1)} {introduced}."
+        )
+        if across > NEGLIGIBLE * moment.scale:
+            told.append(f"Moment left: up to {size_text(across, system.moment)} about x.")
+    if (force := by_kind.get(FORCE)) is not None:
+        own = force.phasors.forward[one.k] - forward, force.phasors.backward[one.k] - backward
+        if (largest := float(sum(map(abs, own)))) > NEGLIGIBLE * force.scale:
+            most = size_text(largest, system.force)
+            told.append(f"The engine's own force of this order is up to {most}.")
+    return " ".join(told)
 
 
 _RODS = "the rods"

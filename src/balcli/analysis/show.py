@@ -198,6 +198,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         small=result.small,
         steady=not result.engine.ripple,
         devices=result.engine.devices,
+        omega=float(result.engine.omega),
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
