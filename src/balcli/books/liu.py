@@ -38,6 +38,9 @@ def _cos(degrees: Array) -> Array:
     return unit(degrees).real
 
 
+_LENGTHS = ["length of the path of b''/b from g = 0", "length of the path of b'''/b from g = 0"]
+
+
 def _rough(degrees: Array) -> Array:
     """Return the cosine with the rounded values by which Tables 1 and 3 were computed: 0.706 for
     cos 45 degrees and 0.258 for cos 75 degrees.
@@ -50,15 +53,17 @@ def _rough(degrees: Array) -> Array:
 
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
-    """Table 1: radii of the two shafts over gamma, their ratio, the same for their rates, and the
-    lengths of both paths from gamma = 0.
+    """Return Table 1: radii of the two shafts over gamma, their ratio, and the same for the
+    derivatives of the radii. With other angles than the printed ones, the lengths of both paths
+    follow; the text of the source gives them at 180 degrees: 3 b and b.
     """
     headings = ranges.angle or printed.headings()
-    gamma, stub = as_numbers(headings), printed.column(printed.columns[0])
+    gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
+    stub += _LENGTHS if ranges.angle else []
     columns = (printed.columns[0], *headings)
 
     def compute(cosine: Cosine) -> tuple[Row, ...]:
-        return head_rows(stub, _paths(gamma, cosine))
+        return head_rows(stub, _paths(gamma, cosine)[: len(stub)])
 
     return _compare(printed, columns, compute, printed.align_cells(stub, columns))
 
@@ -99,10 +104,11 @@ def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
 
 
 def _paths(gamma: Array, cosine: Cosine) -> Array:
-    """b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of these; ratios with the
-    zeros divided out; the lengths of both paths from gamma = 0, over b.
+    """Return b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of the derivatives,
+    and the lengths of both paths from gamma = 0 over b.
 
-    -cos 3x/cos x = 3 - 4 cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
+    The ratios are computed without division by zero, with x = gamma/2, from -cos 3x/cos x = 3 - 4
+    cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
     """
     near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
     rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)
