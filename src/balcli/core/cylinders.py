@@ -33,8 +33,10 @@ class Cylinders:
         starts: shape (banks,).
         first: bank of cylinder 1.
         z: shape (cylinders, *trailing), m.
-        radius: crank radius, m.
-        lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length.
+        radius, offset: shape (cylinders or 1, *trailing), crank radius and offset of the piston
+        pin's path, m.
+        lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length; 0 in
+        harmonic motion, as of an endless rod.
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
         that of the rod).
@@ -47,6 +49,7 @@ class Cylinders:
     first: int
     z: Array
     radius: Array
+    offset: Array
     lam: Array
     eps: Array
     reciprocating: Array
@@ -72,18 +75,29 @@ class Cylinders:
         return np.asarray(self.axis_deg[self.first] + self.pin_deg - self.axis_of_each_deg)
 
     @property
-    def offset(self) -> Array:
-        """Offset of the piston-pin path, m."""
-        return self.eps * self.radius / self.lam
+    def radius_of_each(self) -> Array:
+        """Crank radius of each cylinder, m, shape (cylinders, *trailing)."""
+        return np.broadcast_to(self.radius, (self.count, *self.radius.shape[1:]))
+
+    @property
+    def rod_length(self) -> Array:
+        """Length of the rods, m, shape (cylinders or 1, *trailing); infinite in harmonic motion."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(self.radius / self.lam)
+
+    @property
+    def harmonic(self) -> bool:
+        """Whether the pistons move as cosines of the crank angle."""
+        return not np.any(self.lam)
 
     @property
     def mechanisms(self) -> list[tuple[complex, ...]]:
-        """Figures of each cylinder's mechanism, by which equal ones are known, of an engine without
-        trailing axes.
+        """Figures of each cylinder's mechanism with its crank radius, by which equal ones are
+        known, of an engine without trailing axes.
         """
         lam, eps, linkage = self.lam, self.eps, self.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
-        each = [np.broadcast_to(column, self.count).tolist() for column in columns]
+        each = [np.broadcast_to(column, self.count).tolist() for column in (*columns, self.radius)]
         return list(zip(*each, strict=True))
 
     def find_distinct_harmonics(
@@ -154,23 +168,26 @@ def find_travel(c: Cylinders) -> Travel:
     """Return strokes and dead centres of all cylinders.
 
     They have a closed form for plain slider-cranks (`sin tau = e/(l + r)` at the top, `e/(l - r)`
-    at the bottom), and are found on the curve of the motion for others.
+    at the bottom), and are found on the curve of the motion for others. The stroke is `(l + r) cos
+    tau_top - (l - r) cos tau_bottom`, without the division by lambda, which may be 0.
     """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
-        high = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) / c.lam
-        low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
+        both = np.sqrt((1 - top) * (1 + top)) + np.sqrt((1 - bottom) * (1 + bottom))
+        stroke = both + 2 * c.eps * (top + bottom) / ((1 - c.lam) * (1 + c.lam) * both)
         top_deg, bottom_deg = np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
     else:
         psi = revolution(_STEPS)
         place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
         top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
         bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
-        high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
-        low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
+        high, low = (
+            c.linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom)
+        )
+        stroke = high - low
         top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
         bottom_deg = np.degrees(bottom) - 180
-    shape, found = c.pin_deg.shape, (c.radius * (high - low), top_deg, bottom_deg)
+    shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
     return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
 
 

@@ -33,7 +33,8 @@ def describe_engine_file() -> Node:
         rules: list[Node] = []
         for choice in table.choices:
             if choice.required:
-                rules.append({"anyOf": [{"required": list(group)} for group in choice.groups]})
+                groups = (*choice.groups, *([(choice.unless,)] if choice.unless else []))
+                rules.append({"anyOf": [{"required": list(group)} for group in groups]})
             for group, other in combinations(choice.groups, 2):
                 rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
         document["$defs"][table.__name__] |= {"allOf": rules} if rules else {}

@@ -72,9 +72,9 @@ def compute_guide_moments(
     c, z = engine.cylinders, np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
-    height = np.broadcast_to(np.ravel(c.radius / c.lam) if height_m is None else height_m, c.count)
+    height = np.broadcast_to(np.ravel(c.rod_length) if height_m is None else height_m, c.count)
     x = None
-    if np.ptp(z) and engine.places_known:
+    if np.ptp(z) and engine.places_known and np.isfinite(height).all():
         x = _sum_weighted(rolls, (z - z_ref) / height)
         due |= mark_considerable(x)
     if orders is None:

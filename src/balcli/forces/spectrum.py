@@ -258,7 +258,8 @@ def _compute_inertia(
     if crank is None or engine.rotary:
         crank = 0.0
     else:
-        throws = sum(masses.share for masses in engine.weighed) * c.radius**2
+        radii = zip(engine.weighed, c.radius_of_each, strict=True)
+        throws = sum(masses.share * radius**2 for masses, radius in radii)
         crank = (crank - throws) * engine.omega**2 / (c.count if each else 1)
     for name, phasors in steady.items():
         if name == "torque":

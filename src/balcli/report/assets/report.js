@@ -22,9 +22,11 @@ draw(scene) {
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
   const sense = scene.rotary ? -1 : 1;                    // in which a crank pin turns, seen from its cylinder
 
+  const radiusOf = (cylinder) => cylinder.radius ?? r;
+
   // Crank end of the rod and piston pin of a cylinder in its own frame [u along the axis, v ahead of it], mm.
   function drive(cylinder, theta) {
-    const psi = rad(theta + cylinder.phase);
+    const psi = rad(theta + cylinder.phase), r = radiusOf(cylinder);
     let lower = [r * Math.cos(psi), r * Math.sin(psi)];
     if (cylinder.master !== undefined) {                  // knuckle pin, turned from the master's frame into this one
       const master = scene.cylinders[cylinder.master], angle = rad(theta + master.phase), lead = rad(cylinder.lead);
@@ -35,7 +37,7 @@ draw(scene) {
       lower = [u * Math.cos(lead) + v * Math.sin(lead), v * Math.cos(lead) - u * Math.sin(lead)];
     }
     const beside = lower[1] - cylinder.offset;
-    const place = lower[0] + Math.sqrt(cylinder.rod ** 2 - beside ** 2);
+    const place = lower[0] + (cylinder.rod ? Math.sqrt(cylinder.rod ** 2 - beside ** 2) : 3 * r);    // else a yoke
     return {
       lower: [lower[0], sense * lower[1]],
       piston: [place, sense * cylinder.offset],
@@ -187,7 +189,7 @@ draw(scene) {
     });
     for (const { c, text } of cylinders) text.textContent = c.number;
     return (theta) => {
-      const bend = (c) => -height(turned([r, 0], pinAngle(c, theta)));
+      const bend = (c) => -height(turned([radiusOf(c), 0], pinAngle(c, theta)));
       const bends = throws.map(({ c, from, to }) => `H ${from} V ${bend(c)} H ${to} V 0`);
       set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
       for (const { c, rod, piston, text } of cylinders) {
