@@ -410,4 +410,4 @@ def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
 def find_cylinder_force(text: str) -> float:
     """m r omega^2 of the reciprocating mass of cylinder 1, N."""
     engine = build_text(text)
-    return float(engine.weighed[0].reciprocating * engine.cylinders.radius * engine.omega**2)
+    return float(engine.weighed[0].reciprocating * engine.cylinders.radius[0] * engine.omega**2)

@@ -231,10 +231,12 @@ def _check_firing_order(
     ):
         return
     told = _describe_not_once(order, numbers)
-    if first := next((n for n in numbers if n not in order), 0):
-        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     banks = count_banks(layout)
-    if 1 < banks <= throws == len(order) and layout.rods == "shared":
+    in_turn = 1 < banks <= throws == len(order) and layout.rods == "shared"
+    dummies = {*numbers} if {*order} <= {*numbers} and not in_turn else model.cylinder.keys()
+    if first := next((n for n in numbers if n not in order and n in dummies), 0):
+        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
+    if in_turn:
         told += (
             f"; every throw carries a rod of each of the {banks} banks: if they take the throws in "
             'turn, as in a boxer, say layout.rods = "alternating"'
