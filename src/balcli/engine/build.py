@@ -347,11 +347,10 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
     Raises:
         InputError: [gas], or a file that it names, has mistakes.
     """
-    order = parts.model.layout.firing_order
     if parts.model.gas is None:
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                dummy = key == "gas" and own.gas == 0 and number not in (order or {number})
+                dummy = key == "gas" and own.gas == 0
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)

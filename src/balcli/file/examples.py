@@ -125,8 +125,9 @@ def _read(path: Path) -> Example:
     return Example(path.stem, _group(path), content.partition("\n")[0].lstrip("# "), content)
 
 
-ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
+ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
 KINDS = (*ENGINE_KINDS, "field", "torsion")
+OTHER_WORDS = dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14")
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# Editors that know TOML check and complete what you type, with that file here: "
@@ -142,7 +143,8 @@ def template(kind: str) -> str:
         BalcliError: No such kind; the error lists all of them and the nearest.
     """
     if kind not in KINDS:
-        near, like = nearest(kind, KINDS), [name for name in names() if kind.lower() in name]
+        near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
+        like = [] if kind.lower() in OTHER_WORDS else [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."

@@ -118,6 +118,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
         why = "all cylinders stand at one place" if known else MOMENTS_UNKNOWN
+        if build(model).cylinders.harmonic:
+            why = "rods in harmonic motion have no length; analyze --guide-height takes a height"
         raise BalcliError(f"{of_x[0].name}: {why}")
 
 

@@ -353,8 +353,10 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     c = engine.cylinders
     # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)
-    tops = tops - tops[engine.numbers.index(1)]
+    own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 is a dummy
+    firing = [row for row, n in enumerate(engine.numbers) if n not in own or own[n].gas != 0]
+    tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)[firing]
+    tops = tops - tops[0]
     count = len(tops)
     ready = np.sort(np.mod(tops + TOLERANCE_DEG, TURN), axis=0) - TOLERANCE_DEG
     slots = np.sort(np.mod(cycle_deg(model.layout) * np.arange(count) / count, TURN))
