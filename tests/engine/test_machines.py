@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 from support.engines import engine
 
-from balcli import analyze_torque, curves, search
+from balcli import InputError, analyze_torque, curves, load, search
 from balcli.core.cylinders import find_travel
 from balcli.forces.spectrum import compute_spectra
 from balcli.torsion.build import weigh_running_gear
@@ -146,6 +146,15 @@ def test_forces_on_the_pin_of_a_yoke_do_its_work():
     torque = 0.045 * (across * np.cos(turned) - along * np.sin(turned))
     assert torque == pytest.approx(found.curves["torque_Nm"], rel=1e-9, abs=1e-6)
     assert not found.curves["side_thrust_N"].any() and not found.curves["rod_angle_deg"].any()
+
+
+def test_a_length_divides_the_mass_of_a_rod_in_harmonic_motion():
+    parts = {**harmonic({}), "rod": {"motion": "harmonic", "mass": 0.7, "cg": 40}}
+    with pytest.raises(InputError, match=r"rod\.length: is missing; it divides rod\.mass at rod\.cg"):
+        load(parts)
+    for rod in ({"length": 140}, {"ratio": 45 / 140}, {"mass": None, "cg": None, "small_end": 0.2, "big_end": 0.5}):
+        (weighed, _) = load({**parts, "rod": {**parts["rod"], **rod}}).weighed
+        assert (weighed.small_end, weighed.big_end) == pytest.approx((0.2, 0.5))
 
 
 # ------------------------------------------------------------------ radials in rows
