@@ -78,11 +78,14 @@ def test_opposed_pistons_on_one_crank_balance_order_1(mass, inner, outer):
         "cylinder": {n: {"piston_mass": mass * inner / outer / 2} for n in "13"},
     }
     found = compute_spectra(engine(**parts), [1, 2])
-    assert found.force.balanced[0] and found.moment.balanced[0] and not found.force.balanced[1]
+    assert found.force.balanced[0]
+    assert found.moment.balanced[0]
+    assert not found.force.balanced[1]
     parts["crank"] = {"stroke": [outer, inner], "throws": [0, 180], "spacing": 300}
     parts["cylinder"] = {"1": {"piston_mass": mass * inner / outer}}
     found = compute_spectra(engine(**parts), [1])
-    assert found.force.balanced[0] and not found.moment.balanced[0]
+    assert found.force.balanced[0]
+    assert not found.moment.balanced[0]
 
 
 def test_gas_motion_and_torsion_take_the_stroke_of_the_cylinder():
@@ -127,7 +130,9 @@ def test_harmonic_motion_is_the_limit_of_a_long_rod():
     cosine, long = (spectra(**harmonic(m)) for m in ({"motion": "harmonic"}, {"ratio": 1e-9}))
     scale = np.abs(long).max(axis=(1, 2), keepdims=True)
     assert np.allclose(cosine[[0, 1, 3]] / scale[[0, 1, 3]], long[[0, 1, 3]] / scale[[0, 1, 3]], rtol=0, atol=1e-8)
-    assert not cosine[:2, :, 1:].any() and not cosine[3][:, [0, 2, 3, 4]].any() and not cosine[2].any()
+    assert not cosine[:2, :, 1:].any()
+    assert not cosine[3][:, [0, 2, 3, 4]].any()
+    assert not cosine[2].any()
 
 
 def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
@@ -136,7 +141,8 @@ def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
     assert each == pytest.approx(2.2 * 0.005 * 0.045 * float(made.omega) ** 2, rel=1e-12)
     travel = find_travel(made.cylinders)
     assert travel.stroke == pytest.approx(0.09, rel=1e-15)
-    assert not np.any(travel.top_deg) and not np.any(travel.bottom_deg)
+    assert not np.any(travel.top_deg)
+    assert not np.any(travel.bottom_deg)
 
 
 def test_forces_on_the_pin_of_a_yoke_do_its_work():
@@ -145,7 +151,8 @@ def test_forces_on_the_pin_of_a_yoke_do_its_work():
     along, across, turned = found.curves["pin_x_N"], found.curves["pin_y_N"], np.radians(found.crank_deg)
     torque = 0.045 * (across * np.cos(turned) - along * np.sin(turned))
     assert torque == pytest.approx(found.curves["torque_Nm"], rel=1e-9, abs=1e-6)
-    assert not found.curves["side_thrust_N"].any() and not found.curves["rod_angle_deg"].any()
+    assert not found.curves["side_thrust_N"].any()
+    assert not found.curves["rod_angle_deg"].any()
 
 
 def test_a_length_divides_the_mass_of_a_rod_in_harmonic_motion():
@@ -195,5 +202,6 @@ def test_the_orders_of_makers_fire_evenly_round_two_rows(count, step):
         made = engine(**parts)
         assert np.diff([*made.fires_deg.values()]) == pytest.approx(720 / count, abs=1e-9)
         found = compute_spectra(made, [1, 2])
-        assert found.force.balanced.all() and found.moment.balanced[1]
+        assert found.force.balanced.all()
+        assert found.moment.balanced[1]
         assert found.moment.minor[0] == pytest.approx(found.moment.major[0])

@@ -144,11 +144,7 @@ def template(kind: str) -> str:
     """
     if kind not in KINDS:
         near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
-        like = (
-            []
-            if kind.lower() in OTHER_WORDS
-            else [name for name in names() if kind.lower() in name]
-        )
+        like = [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
