@@ -302,7 +302,7 @@ class ListOrEach:
     """
 
     def __init__(self, one: object) -> None:
-        self._one = one
+        self.one = one
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
@@ -314,7 +314,7 @@ class ListOrEach:
             several = any(isinstance(row, (list, tuple)) for row in rows)
             return tuple(map(one, rows)) if several else one(value)
 
-        one_schema = handler.generate_schema(self._one)
+        one_schema = handler.generate_schema(self.one)
         return core_schema.no_info_wrap_validator_function(read, one_schema)
 
     def __get_pydantic_json_schema__(

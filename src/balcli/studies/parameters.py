@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
-from ..file.fields import Number, OneOrEach, nearest, shorten
+from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
 from ..file.mount_tables import AlikeOrEach
@@ -139,9 +139,13 @@ def _number_of(table: type[FileTable], key: str) -> Number | None:
     because they change the layout of the engine.
     """
     field = table.model_fields[key]
-    marks = (*field.metadata, *_marks_of(field.annotation))
-    readers = (mark.one if isinstance(mark, OneOrEach) else mark for mark in marks)
-    return next((mark for mark in readers if isinstance(mark, Number)), None)
+    marks = [*field.metadata, *_marks_of(field.annotation)]
+    for mark in tuple(marks):
+        if isinstance(mark, OneOrEach):
+            marks.append(mark.one)
+        elif isinstance(mark, ListOrEach):
+            marks += _marks_of(mark.one)
+    return next((mark for mark in marks if isinstance(mark, Number)), None)
 
 
 def _marks_of(annotation: object) -> Iterator[object]:
