@@ -348,9 +348,10 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
         InputError: [gas], or a file that it names, has mistakes.
     """
     if parts.model.gas is None:
+        order = parts.model.layout.firing_order or ()
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                dummy = key == "gas" and own.gas == 0
+                dummy = key == "gas" and own.gas == 0 and number not in order
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)
