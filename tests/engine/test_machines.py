@@ -108,12 +108,15 @@ def test_a_mass_without_a_radius_has_that_of_the_nearest_throw():
     assert [made.find_radius(z / 1e3) for z in (-200, -45, 20, 46, 90)] == [0.03, 0.03, 0.04, 0.05, 0.05]
 
 
-def test_a_crank_seen_from_its_other_end_is_another_where_strokes_differ():
-    def count(stroke):
-        parts = in_line(stroke, [0, 1 / 4, 1 / 2, 3 / 4], 0, [0.5] * 4)
-        return len(search(engine(**parts), "throws", "force.1.major").results)
+def test_a_crank_seen_from_its_other_end_is_another_where_strokes_or_masses_differ():
+    """0-0-180 is 180-0-0 from the other end; no force of order 3 tells them apart."""
 
-    assert count([80, 90, 90, 80]) == count(90) < count([80, 90, 100, 110])
+    def count(stroke, mass):
+        parts = in_line(stroke, [0, 0, 1 / 2], mass, [0.5] * 3, piston={"mass": 0.5})
+        return len(search(engine(**parts), "throws", "force.3.major").results)
+
+    assert count(90, 1) == count([90, 80, 90], [1, 0, 1]) == 2
+    assert count([80, 90, 90], 1) == count(90, [0, 1, 1]) == 3
 
 
 # ------------------------------------------------------------------ harmonic motion
@@ -189,6 +192,12 @@ def test_rows_are_banks_of_single_cylinders(count, rows, turn, data):
     assert short.numbers == written.numbers
     found, same = (compute_spectra(each, ORDERS, KINDS) for each in (short, written))
     assert all(np.array_equal(found[kind].vectors, same[kind].vectors) for kind in KINDS)
+
+
+def test_each_row_has_its_master():
+    made = engine(**radial(2, layout={"radial": 7, "rows": 2}, articulation=HUNG | {"master": [1, 3]}))
+    strokes = zip(made.numbers, find_travel(made.cylinders).stroke, strict=True)
+    assert {number for number, stroke in strokes if abs(stroke - 0.14) < 1e-9} == {1, 10}
 
 
 @pytest.mark.parametrize(("count", "step"), [(14, 9), (18, 11)])

@@ -421,7 +421,7 @@ def _suggest(parts: Parts) -> str:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         ways.append(_change(model, "crank.throws", throws))
         ways[-1].change += ", which count in the sense of rotation"
-        if len(throws) > 1:
+        if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
             needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:

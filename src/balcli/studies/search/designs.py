@@ -107,10 +107,10 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
     """
     if (order := design.get("firing_order")) is not None:
         for row in (order, [other_end.get(number, number) for number in order]):
-            start = row.index(1)
+            start = row.index(min(row))
             turned = row[start:] + row[:start]
             yield tuple(turned)
-            yield (1, *reversed(turned[1:]))
+            yield (turned[0], *reversed(turned[1:]))
     elif (throws := design.get("throws")) is not None:
         for angles in (throws, throws[::-1] if other_end else throws):
             for sign in (1, -1):
