@@ -222,21 +222,13 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 
 
 def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
-    """Check that every row has a knuckle angle for each bank, and its master 0."""
-    rows, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
-    banks, throws = parts.plan.banks, parts.plan.throws
-    if rows is not None and len(rows) != throws:
-        told = f"has {counted(len(rows), 'list')} for {counted(throws, 'row')}"
-        yield Problem(path, f"{told}: give one list for all, or one per row")
-        return
-    for master, angles in zip(parts.find_master_places(), rows or (), strict=False):
-        if len(angles) != banks:
-            told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
-            yield Problem(path, f"{told}: give one for each, the master's own is 0")
-        elif np.any(np.asarray(angles[master - 1]) != 0):
+    """Check that the knuckle angle of every row's master is 0."""
+    rows = parts.find_knuckle_angles() or ()
+    for master, angles in zip(parts.find_master_places(), rows, strict=False):
+        if np.any(np.asarray(angles[master - 1]) != 0):
             angle = max(np.ravel(angles[master - 1]), key=abs)
             told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
-            yield Problem(path, told)
+            yield Problem("articulation.knuckle_angles", told)
 
 
 def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
@@ -248,9 +240,6 @@ def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
     if plan.rods_on_throw < banks:
         told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
         return Problem("articulation", told)
-    if len(masters) not in (1, plan.throws):
-        told = f"{counted(len(masters), 'master')} for {counted(plan.throws, 'row')}; give one "
-        return Problem("articulation.master", f"{told}from 1 to {banks}, or one per row")
     if (master := max(masters)) > banks:
         told = f"there is no bank {master}; this engine has banks 1 to {banks}"
         return Problem("articulation.master", told)

@@ -21,6 +21,8 @@ from ..core.cylinders import Cylinders, find_travel
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
+from ..errors import InputError, Problem
+from ..file.fields import counted
 from ..file.model import PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
@@ -478,7 +480,12 @@ class Parts:
         table = self.model.articulation
         if table is None:
             return ()
-        return table.masters if len(table.masters) > 1 else table.masters * self.plan.throws
+        masters, throws = table.masters, self.plan.throws
+        if len(masters) not in (1, throws):
+            told = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
+            told += f"from 1 to {self.plan.banks}, or one per row"
+            raise InputError([Problem("articulation.master", told)])
+        return masters if len(masters) > 1 else masters * throws
 
     def find_knuckle_angles(self) -> list[tuple[Figure, ...]] | None:
         """Return the angles of each throw's knuckle pins by bank, deg; None where the file gives
@@ -487,7 +494,19 @@ class Parts:
         table, path = self.model.articulation, "articulation.knuckle_angles"
         if table is None or table.knuckle_angles is None:
             return None
-        rows = [row for row in table.knuckle_angles if isinstance(row, tuple)]
-        if rows:
-            return [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
-        return [self.figures.take_each(path, table.knuckle_angles)] * self.plan.throws  # type: ignore[arg-type]
+        banks, throws = self.plan.banks, self.plan.throws
+        found = [self.figures.take_each(path, table.knuckle_angles)] * throws  # type: ignore[arg-type]
+        if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
+            found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
+        wrong = ""
+        if len(found) != throws:
+            wrong = f"has {counted(len(found), 'list')} for {counted(throws, 'row')}: give one "
+            wrong += "list for all, or one per row"
+        elif few := [row for row in found if len(row) != banks]:
+            wrong = (
+                f"has {counted(len(few[0]), 'angle')} for {counted(banks, 'bank')}: give one for "
+            )
+            wrong += "each, the master's own is 0"
+        if wrong:
+            raise InputError([Problem(path, wrong)])
+        return found
