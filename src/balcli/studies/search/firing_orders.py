@@ -1,9 +1,9 @@
-"""Even firing orders: the cranks that allow one, and all that a crank allows.
+"""Find the cranks that allow an even firing order, and all even firing orders of a crank.
 
-Cylinders whose crank pins stand alike, seen from their own axes, reach top dead centre together and
-share the slots of the cycle in which this happens. A crank allows an even firing order if there are
-as many slots as cylinders of each kind, and then any cylinder of its kind may take a slot: neither
-cranks nor orders have to be tried in vain.
+An even firing order has a slot for each firing, at equal angles. Cylinders that reach top dead
+centre at the same crank position form a group and can only fire in the slots at this position. A
+crank allows an even firing order if every group has as many slots as cylinders; the cylinders of a
+group may then fire in any sequence. Hence all results are constructed without trial and error.
 """
 
 from __future__ import annotations
@@ -58,11 +58,11 @@ class Slots:
         return min(cell.number for cell in self.cells)
 
     def find_cranks(self) -> list[tuple[float, ...]]:
-        """Return the angles of all throws, for every crank that allows an even firing order;
-        cylinder 1's throw is at 0.
+        """Return the throw angles of every crank that allows an even firing order; cylinder 1's
+        throw is at 0.
 
         Raises:
-            BalcliError: more than MOST_EVEN_CRANKS.
+            BalcliError: there are more than MOST_EVEN_CRANKS cranks.
         """
         first = next(c.throw for c in self.cells if c.number == self.first)
         throws = [first, *({c.throw for c in self.cells} - {first})]
@@ -78,8 +78,8 @@ class Slots:
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """Yield all cranks with some throws at these angles, the free ones at every angle with
-        slots left for all their cylinders.
+        """Yield all cranks in which some throws have these angles. Each free throw takes every
+        angle with enough unused slots (`left`) for all its cylinders.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
@@ -112,14 +112,16 @@ class Slots:
 
     @cached_property
     def _slots(self) -> list[int]:
-        """Position of the crank at each firing, after cylinder 1's: half turns divided by the
-        number of cylinders, modulo a turn; whole numbers, so that they can be compared.
+        """Crank position at each firing, relative to cylinder 1's, modulo a turn. It is a whole
+        multiple of half a turn over the number of cylinders, so that positions can be compared.
         """
         half_turns = round(self.cycle / 180.0)
         return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
     def _find_slot(self, cell: Cell, throw: float) -> int:
-        """Return the position of the crank with this cylinder at the top; -1 without a firing."""
+        """Return the crank position at which a cylinder is at top dead centre; -1 if there is no
+        firing.
+        """
         grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[self.first] - throw)
         nearest = round(ready / grain)
@@ -129,11 +131,11 @@ class Slots:
 
 
 def find_slots(model: EngineFile) -> tuple[Slots, Array]:
-    """Return the firings of a cycle, and the cranks with even firing orders, shape (cranks,
-    throws), deg, cylinder 1's throw at 0.
+    """Return the firings of a cycle, and the throw angles (deg, shape (cranks, throws)) of the
+    cranks with even firing orders; cylinder 1's throw is at 0.
 
     Raises:
-        BalcliError: cylinders with throws of their own; there is no even firing order.
+        BalcliError: a cylinder has its own throw angle, or there is no even firing order.
     """
     layout = plan_cylinders(model)
     top_deg = assemble(model).pins.tops_deg
@@ -158,7 +160,9 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
 
 
 def _tell_that_none_is_even(model: EngineFile) -> str:
-    """Return the error, with a splay that would make the file's own order even, if any."""
+    """Return the message, with a splay that would make the file's firing order even, if there is
+    one.
+    """
     told = "crank.throws allow no even firing order, and only even ones are searched"
     splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"
