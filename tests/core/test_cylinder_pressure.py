@@ -87,7 +87,7 @@ def test_pistons_of_a_rotary_engine_move_as_in_one_that_stands():
     cylinders = load(ENGINES / "rotary9.toml").cylinders
     assert cylinders.linkage is not None
     piston, *others = pistons(cylinders, 0.01)
-    plain = slider_crank_piston(cylinders.radius, cylinders.radius / float(cylinders.lam[0]), 0.1)
+    plain = slider_crank_piston(cylinders.radius[0], cylinders.radius[0] / float(cylinders.lam[0]), 0.1)
     angle = np.linspace(0, 6, 50)
     assert len(others) == 8
     np.testing.assert_allclose(piston.travel(angle), plain.travel(angle), rtol=1e-14)

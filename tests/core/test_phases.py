@@ -27,6 +27,7 @@ def cylinders(first: int = 1) -> Cylinders:
         first=first,
         z=ARMS,
         radius=ones,
+        offset=ones,
         lam=ones,
         eps=ones,
         reciprocating=ones,

@@ -32,7 +32,7 @@ def test_si_values_of_a_whole_file():
     )
     c = e.cylinders
     assert (e.name, e.source, e.numbers, e.strokes, c.count) == ("x", "y", (1, 2, 3, 4), 4, 4)
-    assert (float(c.radius), only(c.lam), only(c.eps)) == pytest.approx((0.045, 0.3, 0.02), rel=TIGHT)
+    assert (float(c.radius[0]), only(c.lam), only(c.eps)) == pytest.approx((0.045, 0.3, 0.02), rel=TIGHT)
     assert only(c.offset) == pytest.approx(0.003, rel=TIGHT)
     assert only(c.reciprocating) == pytest.approx(0.5 + 0.6 * 50 / 150, rel=TIGHT)
     assert only(c.rotating) == pytest.approx(1.2 / 2 + 0.6 * 100 / 150, rel=TIGHT)

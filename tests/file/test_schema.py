@@ -65,15 +65,17 @@ def test_examples_are_accepted(table, key, example):
 
 def test_keys_that_exclude_each_other():
     rules = DOCUMENT["$defs"]["Rod"]["allOf"]
-    assert {"anyOf": [{"required": ["length"]}, {"required": ["ratio"]}]} in rules
+    assert {"anyOf": [{"required": [key]} for key in ("length", "ratio", "motion")]} in rules
     assert {"not": {"required": ["length", "ratio"]}} in rules
     assert {"not": {"required": ["cg", "big_end"]}} in rules
 
 
 def test_units_and_bounds():
     stroke = DOCUMENT["$defs"]["Crank"]["properties"]["stroke"]
-    assert stroke["type"] == ["number", "string"]
-    assert (stroke["unit"], stroke["exclusiveMinimum"], stroke["examples"]) == ("mm", 0, [90])
+    one, each = stroke["anyOf"]
+    assert each["items"] == one
+    assert one["type"] == ["number", "string"]
+    assert (stroke["unit"], one["exclusiveMinimum"], stroke["examples"]) == ("mm", 0, [90])
     assert DOCUMENT["$defs"]["Shaft"]["properties"]["ratio"]["not"] == {"const": 0}
     assert DOCUMENT["$defs"]["Layout"]["properties"]["strokes"]["enum"] == [2, 4]
 

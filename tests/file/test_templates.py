@@ -17,6 +17,7 @@ CYLINDERS = {
     "vee": (4, 2),
     "boxer": (4, 2),
     "radial": (1, 9),
+    "radial14": (2, 7),
     "w": (4, 3),
     "mounts": (4, 1),
 }
@@ -93,7 +94,7 @@ def test_unknown_kinds():
         template("boxxer")
     assert str(caught.value) == (
         '"boxxer" is no kind of file; there are single, inline, vee, boxer, radial, '
-        "w, mounts, field, torsion. Did you mean boxer?"
+        "radial14, w, mounts, field, torsion. Did you mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
         template("q" * 10_000)

@@ -26,7 +26,7 @@ def find_plain_rate(found, row, crank):
     lam, eps = (np.broadcast_to(v, c.count)[row] for v in (c.lam, c.eps))
     psi = crank + np.radians(c.angle_deg[row])
     beta = np.arcsin(lam * np.sin(psi) - eps)
-    return float(c.radius) * (np.sin(psi) + np.cos(psi) * np.tan(beta))
+    return float(c.radius[0]) * (np.sin(psi) + np.cos(psi) * np.tan(beta))
 
 
 def quadrature(found, orders, find_rate=find_plain_rate):

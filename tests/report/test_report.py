@@ -181,7 +181,7 @@ def test_the_rods_keep_their_length_and_pistons_are_where_the_engine_has_them(sh
         drawn = np.array(ends)
         rods = np.hypot(drawn[:, 2] - drawn[:, 0], drawn[:, 3] - drawn[:, 1])
         assert np.sort(rods) == pytest.approx(np.sort(lengths), rel=1e-9)
-        assert np.sort(-drawn[:, 3]) == pytest.approx(np.sort(places * float(c.radius) * 1e3), rel=1e-9)
+        assert np.sort(-drawn[:, 3]) == pytest.approx(np.sort(places * float(c.radius[0]) * 1e3), rel=1e-9)
 
 
 @live

@@ -35,7 +35,7 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
     banks = swing_banks(vee, 2)
     c = vee.cylinders
     ratio = float(harmonics.find_harmonics([2.0], c.lam, c.eps)["piston"].c[0, 0].real)
-    K = 4 * ratio * float(c.reciprocating[0] * c.radius) * vee.omega**2
+    K = 4 * ratio * float(c.reciprocating[0] * c.radius[0]) * vee.omega**2
     gamma = np.radians(banks.angles_deg)
     assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
     assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)

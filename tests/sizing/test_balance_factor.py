@@ -122,10 +122,10 @@ def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, floa
     for cell in oracle.cells:
         piston, rod = oracle._parts(cell)
         small = rod["mass"] * rod["cg"] / rod["length"]
-        mass = rod["mass"] - small + oracle.share + oracle.shells
+        mass = rod["mass"] - small + cell["share"] + oracle.shells
         mass += factor * (piston["mass"] + small)
         angle = momentum.THETA + math.radians(oracle.first["axis"] + cell["pin"])
-        pull = mass * oracle.radius * omega**2 * np.exp(1j * angle)
+        pull = mass * cell["radius"] * omega**2 * np.exp(1j * angle)
         force += pull
         moment += 1j * (cell["z"] - oracle.z) * pull
         sizes += abs(pull[0])
@@ -410,4 +410,4 @@ def test_a_piston_a_little_heavier_does_not_decide_which_factor_is_best():
 def find_cylinder_force(text: str) -> float:
     """m r omega^2 of the reciprocating mass of cylinder 1, N."""
     engine = build_text(text)
-    return float(engine.weighed[0].reciprocating * engine.cylinders.radius * engine.omega**2)
+    return float(engine.weighed[0].reciprocating * engine.cylinders.radius[0] * engine.omega**2)

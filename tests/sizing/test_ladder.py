@@ -167,8 +167,8 @@ def test_auto_is_the_last_step_with_weights_or_a_part_worth_a_shaft(text):
 def measure(engine, state, order: int, senses: list[str]) -> list[float]:
     """What turns in these senses, as a share of one cylinder's first order (by hand)."""
     c = engine.cylinders
-    one = float(np.max(c.reciprocating) * c.radius) * float(engine.omega) ** 2
-    length = max(float(np.ptp(c.z)), 2 * float(c.radius))
+    one = float(np.max(c.reciprocating) * c.radius[0]) * float(engine.omega) ** 2
+    length = max(float(np.ptp(c.z)), 2 * float(c.radius[0]))
     spectra = compute_spectra(state, [order], ("force", "moment"))
     moments = (
         [abs(getattr(spectra.moment, sense)[0]) / (one * length) for sense in senses] if engine.places_known else []

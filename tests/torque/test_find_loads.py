@@ -45,7 +45,7 @@ def test_bearings_carry_what_the_throws_carry():
     found = replace(draw_engine(4), ripple=())
     places, vectors = find_bearing_loads(found)
     on_pins = compute_rod_forces(found, ANGLES).pin  # banks stand along x
-    throws = np.array([[w.share] for w in found.weighed]) * float(found.cylinders.radius)
+    throws = np.array([[w.share] for w in found.weighed]) * float(found.cylinders.radius[0])
     turning = throws * float(found.omega) ** 2 * unit(ANGLES + found.cylinders.pin_deg[:, None])
     bearings = vectors(ANGLES)
     loads = on_pins + turning
@@ -156,7 +156,7 @@ def test_forces_make_the_torque_of_virtual_work(name):
     else:
         hung = {row for rows in list_hung_rows(found).values() for row in rows}
         masters = [row for row in range(len(found.numbers)) if row not in hung]
-        arms = float(found.cylinders.radius) * forces.throw
+        arms = float(found.cylinders.radius[0]) * forces.throw
         torque = (np.conj(arms) * forces.pin).imag[masters].sum(axis=0)
     want = find_torque_curves(found).total.at(momentum.THETA)
     assert torque == pytest.approx(want, abs=1e-10 * np.abs(want).max())

@@ -287,13 +287,10 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
         engine: Engine without trailing axes.
     """
     c, count = engine.cylinders, len(engine.numbers)
-    lengths = np.broadcast_to(np.ravel(c.radius / c.lam), count)
-    couples = np.broadcast_to(np.ravel(c.couple), count)
-    found: dict[Masses, list[int]] = {}
-    for number_, weighed, length, couple in sorted(
-        zip(engine.numbers, engine.weighed, lengths.tolist(), couples.tolist(), strict=True),
-        key=lambda row: row[0],
-    ):
+    figures = [np.broadcast_to(np.ravel(v), count) for v in (c.radius, c.rod_length, c.couple)]
+    each = zip(engine.numbers, engine.weighed, *(v.tolist() for v in figures), strict=True)
+    found: dict[tuple[Masses, float], list[int]] = {}
+    for number_, weighed, radius, length, couple in sorted(each, key=lambda row: row[0]):
         small, big = float(weighed.small_end), float(weighed.big_end)
         one = Masses(
             cylinders=(),
@@ -304,19 +301,18 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
             throw_kg=float(weighed.share),
         )
         if (mass := small + big) > 0:
+            one = one._replace(rod_kg=mass, rod_small_end_kg=small, rod_big_end_kg=big)
+        if mass > 0 and math.isfinite(length):
             a, b = length * big / mass, length * small / mass
             inertia = mass * a * b - couple
             one = one._replace(
-                rod_kg=mass,
-                rod_small_end_kg=small,
-                rod_big_end_kg=big,
                 rod_inertia_kg_m2=inertia,
                 radius_of_gyration_m=math.sqrt(max(inertia, 0.0) / mass),
                 couple_constant_kg_m2=couple,
                 reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
             )
-        found.setdefault(one, []).append(number_)
-    return tuple(one._replace(cylinders=tuple(numbers)) for one, numbers in found.items())
+        found.setdefault((one, radius), []).append(number_)
+    return tuple(one._replace(cylinders=tuple(numbers)) for (one, _), numbers in found.items())
 
 
 _LABELS = {

@@ -216,7 +216,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
     """Return the terms of the motion of the cylinder in this row, each of shape (terms, angles)."""
     motion = EngineMotion(engine, crank_deg)
-    m, r = motion.moved, motion.radius
+    m, r = motion.moved, float(engine.cylinders.radius_of_each[row])
     v, a = -m.velocity[row], -m.acceleration[row]
     angles = np.broadcast_to(np.arctan2(m.lean, m.cosine), motion.psi.shape)
     return {

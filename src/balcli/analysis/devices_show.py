@@ -164,6 +164,12 @@ def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> s
     return number(unit.of(millimetres / 1e3), digits)
 
 
+def list_radii(practical: Sequence[Practical], unit: ShownUnit) -> str:
+    """Return the radii of devices: several where the throws have different ones."""
+    radii = dict.fromkeys(_length(each.radius_mm, unit, 4) for each in practical)
+    return f"{', '.join(radii)} {unit.name}"
+
+
 def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
     """Return a table of figures for the workshop, one row for each device.
 
@@ -173,7 +179,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
         system: System of units.
     """
     length, mass, force = system.length, system.mass, system.force
-    radius = f"{_length(practical[0].radius_mm, length, 4)} {length.name}"
+    radius = list_radii(practical, length)
     note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
     if remedy.sliders:
         note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
@@ -203,7 +209,7 @@ def holes_grid(
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
-    rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
+    rim = tell_rim(tools, list_radii(practical, unit))
 
     rows = tuple(
         (

@@ -45,7 +45,8 @@ def find_parts(
     skirt = None if engine.model is None else engine.model.piston.skirt
     lowest = None
     if skirt is not None and not engine.rotary:  # counterweights there turn with the cylinders
-        lowest = float(find_innermost(engine.cylinders).min()) - skirt / 1e3
+        innermost = float(find_innermost(engine.cylinders).min())
+        lowest = innermost - skirt / 1e3 if math.isfinite(innermost) else None
     omega, groups = float(engine.omega), group_eccentrics(shafts)
     return BalanceParts(
         tuple(_describe_shaft(name, [*entries.values()], omega) for name, entries in groups),

@@ -108,7 +108,7 @@ class PistonMotion:
 
     Attributes:
         cylinders: Numbers of the cylinders.
-        rod_ratio: Crank radius over rod length; left out for articulated rods.
+        rod_ratio: Crank radius over rod length; left out for articulated rods and harmonic motion.
         stroke_m: True stroke.
         swept_volume_m3: Swept volume of one cylinder; left out without a bore.
         outer_dead_center_own_deg: Crank angle at which the piston is farthest from the crank.
@@ -180,23 +180,22 @@ def analyze_pistons(engine: Engine) -> Pistons:
     c, numbers = engine.cylinders, np.array(engine.numbers)
     orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
     harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
-    which = np.broadcast_to(which, len(numbers))
-    omega, radius = float(engine.omega), float(c.radius)
-    travel, bore = find_travel(c), float(engine.bore_m)
+    omega, travel, bore = float(engine.omega), find_travel(c), float(engine.bore_m)
+    kinds = np.broadcast_to(which, len(numbers)) + 1j * c.radius_of_each  # mechanism and size
     mechanisms = []
-    for kind in dict.fromkeys(which[np.argsort(numbers)].tolist()):
-        rows = np.flatnonzero(which == kind)
+    for kind in dict.fromkeys(kinds[np.argsort(numbers)].tolist()):
+        rows, radius = np.flatnonzero(kinds == kind), kind.imag
         first = rows[0]
         stroke, top, bottom = (float(v[first]) for v in travel)
         inward = (bottom + 180 - top) % 360
         hung = isinstance(c.linkage, Articulated) and bool(c.linkage.master[first] != first)
         lam = float(np.broadcast_to(c.lam, len(numbers))[first])
-        centred = c.linkage is None and not np.broadcast_to(c.eps, len(numbers))[first]
-        series = np.asarray(harmonics["piston"].c[:, kind], complex)
+        centred = c.linkage is None and lam and not np.broadcast_to(c.eps, len(numbers))[first]
+        series = np.asarray(harmonics["piston"].c[:, int(kind.real)], complex)
         mechanisms.append(
             PistonMotion(
                 cylinders=tuple(sorted(numbers[rows].tolist())),
-                rod_ratio=None if hung else lam,
+                rod_ratio=None if hung or not lam else lam,
                 stroke_m=stroke,
                 swept_volume_m3=math.pi / 4 * bore**2 * stroke if bore > 0 else None,
                 outer_dead_center_own_deg=(top + 180) % 360 - 180,

@@ -198,6 +198,8 @@ def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
 def _heights(height_m: Array, system: System) -> str:
     """Return in words the height of all guides, or the lowest and the highest."""
     found = (float(height_m.min()), float(height_m.max()))
+    if not np.isfinite(found).all():  # of a harmonic motion
+        return UNKNOWN
     texts = dict.fromkeys(number(system.length.of(height)) for height in found)
     return f"{' to '.join(texts)} {system.length.name}"
 

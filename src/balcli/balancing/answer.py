@@ -26,6 +26,7 @@ from ..engine.build import build
 from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
+from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile, Sector, Shaft
@@ -284,6 +285,8 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
+    if len(set(Parts(model).find_master_places())) > 1:
+        raise BalcliError("knuckles: one list of angles needs masters in one place of every row")
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
 

@@ -137,8 +137,8 @@ def _correct(result: Balance) -> Iterator[str]:
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
     if result.tools.drill is not None:
-        size = _show_length(result.practical[0].radius_mm, 4, 3)
-        told = [f"Holes: radial, {tell_rim(result.tools, size)} inwards."]
+        sizes = dict.fromkeys(_show_length(each.radius_mm, 4, 3) for each in result.practical)
+        told = [f"Holes: radial, {tell_rim(result.tools, ', '.join(sizes))} inwards."]
         told += explain_holes(result.practical, result.tools, SI.length)
         yield from wrap(" ".join(told), WIDTH)
     if remedy.note:

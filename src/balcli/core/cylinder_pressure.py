@@ -122,7 +122,8 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
     kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
     linkage = kind if isinstance(kind, Articulated) else None
     c, found = replace(cylinders, linkage=linkage), []
-    lam, eps, *sizes = (np.broadcast_to(v, c.count) for v in (c.lam, c.eps, area, *find_travel(c)))
+    figures = (c.lam, c.eps, area, *find_travel(c), c.radius)
+    lam, eps, *sizes = (np.broadcast_to(figure, c.count) for figure in figures)
     for row in range(c.count):
         rows, own = np.array(row), None
         if linkage is not None and linkage.master[row] != row:
@@ -134,10 +135,9 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
                 knuckle=linkage.knuckle[rows],
                 lead_deg=linkage.lead_deg[rows],
             )
-        bore, stroke, top, bottom = (float(size[row]) for size in sizes)
+        bore, stroke, top, bottom, radius = (float(size[row]) for size in sizes)
         lower, upper = math.radians(bottom + 180 - top), math.radians(top)
-        piston = GasPiston(bore, stroke, upper, lower, float(c.radius), lam[rows], eps[rows], own)
-        found.append(piston)
+        found.append(GasPiston(bore, stroke, upper, lower, radius, lam[rows], eps[rows], own))
     return found
 
 

@@ -24,22 +24,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Cylinders:
-    """All cylinders of an engine, sorted by bank: the rows of bank b begin at `starts[b]`.
+    """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
 
     Attributes:
-        axis_deg: Angle of each bank's cylinder axes from x, deg, shape (banks, *trailing).
-        pin_deg: Angle of each crank pin from cylinder 1's pin in the sense of rotation, deg, shape
-            (cylinders, *trailing).
-        starts: First row of each bank, shape (banks,).
-        first: Index of the bank of cylinder 1.
-        z: Axial position of each cylinder, m, shape (cylinders, *trailing).
-        radius: Crank radius, m.
-        lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing).
-        reciprocating, rotating: Masses at the piston pin and at the crank pin, kg.
-        couple: `H` of the rods, kg m2: moment of inertia of two point masses less that of the rod
-            (docs/theory.md).
-        linkage: Linkage of cylinders that are no plain slider-cranks, with its additional masses;
-            None for plain ones.
+        axis_deg: shape (banks, *trailing), cylinder axes from x.
+        pin_deg: shape (cylinders, *trailing), crank pins from cylinder 1's pin, in the sense of
+        rotation.
+        starts: shape (banks,).
+        first: bank of cylinder 1.
+        z: shape (cylinders, *trailing), m.
+        radius, offset: shape (cylinders or 1, *trailing), crank radius and offset of the piston
+        pin's path, m.
+        lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length; 0 in
+        harmonic motion, as of an endless rod.
+        reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
+        couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
+        that of the rod).
+        linkage: linkage of cylinders that are more than slider-cranks, with additional masses.
     """
 
     axis_deg: Array
@@ -48,6 +49,7 @@ class Cylinders:
     first: int
     z: Array
     radius: Array
+    offset: Array
     lam: Array
     eps: Array
     reciprocating: Array
@@ -73,18 +75,29 @@ class Cylinders:
         return np.asarray(self.axis_deg[self.first] + self.pin_deg - self.axis_of_each_deg)
 
     @property
-    def offset(self) -> Array:
-        """Offset of the piston-pin path, m."""
-        return self.eps * self.radius / self.lam
+    def radius_of_each(self) -> Array:
+        """Crank radius of each cylinder, m, shape (cylinders, *trailing)."""
+        return np.broadcast_to(self.radius, (self.count, *self.radius.shape[1:]))
+
+    @property
+    def rod_length(self) -> Array:
+        """Length of the rods, m, shape (cylinders or 1, *trailing); infinite in harmonic motion."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(self.radius / self.lam)
+
+    @property
+    def harmonic(self) -> bool:
+        """Whether the pistons move as cosines of the crank angle."""
+        return not np.any(self.lam)
 
     @property
     def mechanisms(self) -> list[tuple[complex, ...]]:
-        """Parameters of each cylinder's mechanism, to recognize equal mechanisms. The engine must
-        have no trailing axes.
+        """Figures of each cylinder's mechanism with its crank radius, by which equal ones are
+        known, of an engine without trailing axes.
         """
         lam, eps, linkage = self.lam, self.eps, self.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
-        each = [np.broadcast_to(column, self.count).tolist() for column in columns]
+        each = [np.broadcast_to(column, self.count).tolist() for column in (*columns, self.radius)]
         return list(zip(*each, strict=True))
 
     def find_distinct_harmonics(
@@ -158,31 +171,34 @@ class Travel(NamedTuple):
 def find_travel(c: Cylinders) -> Travel:
     """Return strokes and dead centres of all cylinders.
 
-    Plain slider-cranks have a closed form: the crank angle tau of the dead centres follows from
-    `sin tau = e/(l + r)` at the top and `e/(l - r)` at the bottom. Other mechanisms are solved
-    numerically.
+    They have a closed form for plain slider-cranks (`sin tau = e/(l + r)` at the top, `e/(l - r)`
+    at the bottom), and are found on the curve of the motion for others. The stroke is `(l + r) cos
+    tau_top - (l - r) cos tau_bottom`, without the division by lambda, which may be 0.
     """
-    high, low, top_deg, bottom_deg = _find_dead_centres(c)
-    shape, found = c.pin_deg.shape, (c.radius * (high - low), top_deg, bottom_deg)
+    _, stroke, top_deg, bottom_deg = _find_dead_centres(c)
+    shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
     return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
 
 
 def find_innermost(c: Cylinders) -> Array:
     """Return the distance of each piston pin from the crank axis along its cylinder at the inner
-    dead centre, m, shape (cylinders or 1, *trailing).
+    dead centre, m, shape (cylinders or 1, *trailing); infinite in harmonic motion.
     """
-    return np.asarray(c.radius * _find_dead_centres(c)[1])
+    return np.asarray(c.radius * _find_dead_centres(c)[0])
 
 
 def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
-    """Return the distances of the piston pins from the crank axis at both dead centres, in crank
-    radii, and the crank angles as of `Travel`.
+    """Return the distance of the piston pins from the crank axis at the inner dead centre and their
+    stroke, both in crank radii, and the crank angles of both dead centres (`Travel`). The stroke is
+    `(l + r) cos tau_top - (l - r) cos tau_bottom` without a division by lambda, which may be 0.
     """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
-        high = (1 + c.lam) * np.sqrt((1 - top) * (1 + top)) / c.lam
-        low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
-        return high, low, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
+        both = np.sqrt((1 - top) * (1 + top)) + np.sqrt((1 - bottom) * (1 + bottom))
+        stroke = both + 2 * c.eps * (top + bottom) / ((1 - c.lam) * (1 + c.lam) * both)
+        with np.errstate(divide="ignore"):
+            low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
+        return low, stroke, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
     psi = revolution(_STEPS)
     place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
     top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
@@ -190,7 +206,7 @@ def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
     high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
     low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
     top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
-    return high, low, top_deg, np.degrees(bottom) - 180
+    return low, high - low, top_deg, np.degrees(bottom) - 180
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:

@@ -65,7 +65,7 @@ class Loads:
         c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
         if np.count_nonzero(c.couple):
             series.append((c.couple * square) * harmonics["rod"])
-        if np.count_nonzero(c.eps) and _has_pistons(c):
+        if np.count_nonzero(c.offset) and _has_pistons(c):
             arms = c.reciprocating * c.offset * c.radius * square
             series.append(-arms * harmonics["piston"])
         if c.linkage is not None:

@@ -24,7 +24,7 @@ every stage accepts arrays as well as numbers.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -41,11 +41,11 @@ from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
 from .devices import build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
-from .figures import FileFigures, divide
+from .figures import FileFigures, column, divide
 from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
-from .rods import check_ends, check_rod_inertia, check_turning
+from .rods import check_ends, check_harmonic, check_rod_inertia, check_turning
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Flywheel
@@ -96,6 +96,7 @@ def build(
         strokes=model.layout.strokes,
         bore_m=math.nan if bore is None else bore / 1e3,
         throws_m=places.throws,
+        throw_radii_m=column([stroke / 2e3 for stroke in parts.throw_strokes], parts.rank),
         pins_m=places.pins,
         speed_rpm=figures.take("operation.speed", model.operation.speed),
         ripple=parts.find_ripple(),
@@ -185,17 +186,21 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
 
     `check_knuckles` checks articulated rods, because their motion depends on the master rod.
     """
+    model, harmonic = parts.model, parts.model.rod.motion == "harmonic"
+    fixed = model.articulation is None and not model.layout.rotary
     checked = set()
     for number in parts.plan.numbers:
         place = parts.find_rod(number, number in parts.masters)
-        rod = number if number in parts.tables else 0, place.articulated
-        if rod in checked:
+        if (rod := parts.kind_of_rod(place)) in checked:
             continue
         checked.add(rod)
         gear, one_end = parts.weigh_gear(place), list(check_ends(place))
+        if harmonic:
+            yield from one_end or check_harmonic(place, fixed=fixed)
+            continue
         yield from one_end or check_rod_inertia(place, gear)
         if not place.articulated:
-            yield from check_turning(place, gear, parts.radius)
+            yield from check_turning(place, gear, parts.find_radius(number))
 
 
 def check_articulation(parts: Parts) -> Iterator[Problem]:
@@ -204,18 +209,10 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
     """
     if (articulation := parts.model.articulation) is None:
         return
-    if fault := _find_no_place(articulation.master, parts.plan):
+    if fault := _find_no_place(articulation.masters, parts.plan):
         yield fault
         return
-    angles, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
-    banks, master = parts.plan.banks, articulation.master
-    if angles is not None and len(angles) != banks:
-        told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
-        yield Problem(path, f"{told}: give one for each, the master's own is 0")
-    elif angles is not None and np.any(np.asarray(angles[master - 1]) != 0):
-        angle = max(np.ravel(angles[master - 1]), key=abs)
-        told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
-        yield Problem(path, told)
+    yield from _check_knuckle_angles(parts)
     if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
         told = "articulated rods have no crank pins to split: leave splay out, or [articulation]"
         yield Problem("crank.splay", told)
@@ -223,9 +220,22 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
         if parts.override(number, "throw") is not None:
             told = "its articulated rod hangs on the master rod: leave this out"
             yield Problem(f"cylinder.{number}.throw", told)
+        if parts.override(number, "stroke") is not None:
+            told = "an articulated rod moves with its master's throw; set the stroke of the throw"
+            yield Problem(f"cylinder.{number}.stroke", told)
 
 
-def _find_no_place(master: int, plan: Plan) -> Problem | None:
+def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
+    """Check that the knuckle angle of every row's master is 0."""
+    rows = parts.find_knuckle_angles() or ()
+    for master, angles in zip(parts.find_master_places(), rows, strict=False):
+        if np.any(np.asarray(angles[master - 1]) != 0):
+            angle = max(np.ravel(angles[master - 1]), key=abs)
+            told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
+            yield Problem("articulation.knuckle_angles", told)
+
+
+def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
     """Return the mistake if no throw carries rods of several banks, or the master's bank is
     missing.
     """
@@ -236,7 +246,7 @@ def _find_no_place(master: int, plan: Plan) -> Problem | None:
     if plan.rods_on_throw < banks:
         told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
         return Problem("articulation", told)
-    if master > banks:
+    if (master := max(masters)) > banks:
         told = f"there is no bank {master}; this engine has banks 1 to {banks}"
         return Problem("articulation.master", told)
     return None
@@ -335,9 +345,10 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
         InputError: [gas], or a file that it names, has mistakes.
     """
     if parts.model.gas is None:
+        order = parts.model.layout.firing_order or ()
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                dummy = key == "gas" and parts.order is not None and number not in parts.order
+                dummy = key == "gas" and own.gas == 0 and number not in order
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)

@@ -24,6 +24,7 @@ from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, list_tables
 from ..names import EXPLORE, NOTEBOOK, VARY, import_name
+from .figures import find_first_largest
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -98,6 +99,7 @@ class Engine:
         strokes: 2 or 4.
         bore_m: Cylinder bore; nan where the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
+        throw_radii_m: Crank radius of each throw, of this shape.
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
@@ -128,6 +130,7 @@ class Engine:
     strokes: int
     bore_m: Figure
     throws_m: Array
+    throw_radii_m: Array
     pins_m: Array
     speed_rpm: Figure
     ripple: tuple[RippleLine, ...]
@@ -282,8 +285,8 @@ class Engine:
         for inertia in (crank, self.flywheel_inertia):
             on_crank = on_crank + (0.0 if inertia is None else inertia)
         if beyond_pins and crank is not None:
-            throws = sum(masses.share for masses in self.weighed)
-            on_crank = on_crank - throws * self.cylinders.radius**2
+            radii = zip(self.weighed, self.cylinders.radius_of_each, strict=True)
+            on_crank = on_crank - sum(masses.share * radius**2 for masses, radius in radii)
         momentum, energy = on_crank, on_crank
         for device in self.devices:
             if device.kind is DeviceKind.SHAFT or crank is None:
@@ -292,6 +295,16 @@ class Engine:
         return TurningInertia(momentum, energy)
 
     # -------------------------------------------------------------- cylinders and crank pins
+    def find_radius(self, z_m: float) -> float:
+        """Return the crank radius of the throw nearest to a plane, m; of equally near ones that of
+        the first.
+
+        Args:
+            z_m: Position of the plane along the crank, m.
+        """
+        near = find_first_largest(-np.abs(np.ravel(self.throws_m) - z_m))
+        return float(np.ravel(self.throw_radii_m)[near])
+
     @property
     def displacement_m3(self) -> Figure:
         """Swept volume, m3, of all cylinders except dummies, which the firing order leaves out."""
@@ -312,7 +325,7 @@ class Engine:
     def equal(self) -> bool:
         """Whether all cylinders have the same mechanism and reciprocating masses."""
         c = self.cylinders
-        return len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (
+        return len(c.radius) == len(c.lam) == len(c.eps) == len(c.reciprocating) == 1 and (
             c.linkage is None or len(c.linkage.mass) == 1
         )
 
@@ -341,11 +354,13 @@ class Engine:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
         of_row = np.array([masses.throw for masses in self.weighed])
+        sides = (turned[0] + 1j * np.ravel(c.radius), turned[1])
         pins, banks = (
-            [{*side[of_row == throw].tolist()} for throw in range(len(z))] for side in turned
+            [{*side[of_row == throw].tolist()} for throw in range(len(z))] for side in sides
         )
         joined: list[list[int]] = []
-        for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), min(pins[k]), k)):
+        first = [min(one.real for one in each) for each in pins]
+        for throw in sorted(range(len(z)), key=lambda k: (round(float(z[k]), 9), first[k], k)):
             before = joined[-1] if joined else []
             if before and pins[before[0]] == pins[throw]:
                 apart = abs(z[throw] - z[before[-1]])
@@ -375,9 +390,10 @@ class Engine:
         """
         first = [self.joined_throws[k][0] for k in self.joined_throw_of_rows]
         rows = sorted(range(len(self.numbers)), key=self.numbers.__getitem__)
-        pins: dict[tuple[int, float], list[int]] = {}
+        pins: dict[tuple[int, float, float], list[int]] = {}
         for row in rows:
-            pin = first[row], float(self.cylinders.pin_deg[row]) % 360
+            radius = float(self.cylinders.radius_of_each[row])
+            pin = first[row], float(self.cylinders.pin_deg[row]) % 360, radius
             pins.setdefault(pin, []).append(row)
         along = sorted(pins, key=lambda pin: (pin[0], float(self.cylinders.z[pins[pin]].min())))
         return [pins[pin] for pin in along]

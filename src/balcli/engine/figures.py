@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.phasors import Array, Complex, Figure
 from ..errors import BalcliError
-from ..file.model import EngineFile, Override, Rod
+from ..file.model import EngineFile, Override, RodKeys
 from ..file.table import FileTable
 
 
@@ -66,6 +66,20 @@ class FileFigures:
             given: Values in the file.
         """
         return tuple(self._varied.get(f"{path}.{k}", value) for k, value in enumerate(given, 1))
+
+    def take_for_each(
+        self, path: str, given: float | tuple[float, ...], count: int
+    ) -> tuple[Figure, ...]:
+        """Return a figure for each member of a list, or the one that holds for all.
+
+        Args:
+            path: Dotted name of the key.
+            given: Values in the file, or the one.
+            count: Number of members.
+        """
+        if isinstance(given, tuple):
+            return self.take_each(path, given)
+        return (self.take(path, given),) * count
 
     def of_table(self, start: str) -> dict[str, Figure]:
         """Return the varied figures of a table, by their keys."""
@@ -149,7 +163,11 @@ class RodFigures(NamedTuple):
         return {key: value for key, value in self._asdict().items() if value is not None}
 
     def length_for(self, radius: Figure) -> Figure:
-        """Return the rod length, m, as given or from its ratio to the crank radius (m)."""
+        """Return the length, m, as given or by its ratio to the crank radius (m); 1 where none is
+        given, which a harmonic motion allows.
+        """
+        if self.length is None and self.ratio is None:
+            return 1.0
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
@@ -158,7 +176,9 @@ class RodFigures(NamedTuple):
         """
         if not (said := own.given):
             return self
-        rivals = {rival for choice in Rod.choices for key in said for rival in choice.rivals(key)}
+        rivals = {
+            rival for choice in RodKeys.choices for key in said for rival in choice.rivals(key)
+        }
         return RodFigures(**(self._asdict() | dict.fromkeys(rivals) | said))
 
 
@@ -191,7 +211,7 @@ def divide(figure: Figure | None, divisor: float) -> Figure | None:
 
 
 def rod_figures(
-    figures: FileFigures, table: Rod | Override, path: str = "rod", prefix: str = ""
+    figures: FileFigures, table: RodKeys | Override, path: str = "rod", prefix: str = ""
 ) -> RodFigures:
     """Return the figures of a rod from [rod], [articulation.rod] or the table of a single cylinder.
 

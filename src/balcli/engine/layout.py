@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from itertools import accumulate
+from itertools import accumulate, groupby
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -23,9 +24,9 @@ from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
 from ..file.fields import counted
-from ..file.model import EngineFile, Layout
+from ..file.model import Crank, EngineFile, Layout
 from ..limits import MOST_PARTS
-from .figures import FileFigures
+from .figures import FileFigures, or_zero
 
 
 class Cell(NamedTuple):
@@ -44,16 +45,24 @@ class Plan(NamedTuple):
         throws: Number of throws.
         cells: The cylinders, sorted by bank and throw.
         rods_on_throw: Number of rods on each throw.
+        in_rows: Whether `layout.numbering` lists rows, each on a throw, and not banks.
     """
 
     banks: int
     throws: int
     cells: tuple[Cell, ...]
     rods_on_throw: int
+    in_rows: bool = False
 
     @property
     def numbers(self) -> tuple[int, ...]:
         return tuple(cell.number for cell in self.cells)
+
+    @property
+    def groups(self) -> list[list[Cell]]:
+        """The cylinders in the lists of `layout.numbering`."""
+        key = attrgetter("throw" if self.in_rows else "bank")
+        return [list(group) for _, group in groupby(sorted(self.cells, key=key), key)]
 
 
 def plan_cylinders(model: EngineFile) -> Plan:
@@ -70,7 +79,14 @@ def plan_cylinders(model: EngineFile) -> Plan:
         told = f"has {cylinders} cylinders, which {rods} banks cannot share evenly: "
         told += f"give crank.throws, or a multiple of {rods} cylinders"
         raise InputError([Problem("layout.firing_order", told)])
+    silent = [number for number, own in model.cylinder.items() if own.gas == 0]
+    left_out = [number for number in silent if number not in (layout.firing_order or silent)]
+    if crank.throws is None and left_out:
+        told = f"cylinder {left_out[0]} is not in the firing order"
+        raise InputError([Problem.of_missing("crank.throws", told)])
     throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
+    if crank.throws is None and not cylinders and layout.rows is not None:
+        throws = layout.rows
     if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # memory might not suffice
         told = (
             f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
@@ -79,7 +95,10 @@ def plan_cylinders(model: EngineFile) -> Plan:
         raise InputError([Problem("layout" if banks > 1 else "crank.throws", told)])
     all_places = ((bank, throw) for bank in range(banks) for throw in range(throws))
     places = [(bank, throw) for bank, throw in all_places if shared or throw % banks == bank]
-    numbers, problems = _number_cylinders(layout, places, banks)
+    in_rows = layout.in_rows and layout.radial is not None
+    blank = Plan(banks, throws, tuple(Cell(*place, 0) for place in places), rods, in_rows)
+    numbers, problems = _number_cylinders(layout, blank)
+    problems += [*_check_rows(model, throws), *_check_throws(crank, throws)]
     if crank.positions is not None and len(crank.positions) != throws:
         told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
         problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
@@ -87,11 +106,45 @@ def plan_cylinders(model: EngineFile) -> Plan:
         told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
         told += f'{counted(throws, "throw")}: give more throws, or "shared"'
         problems.append(Problem("layout.rods", told))
-    problems += _check_firing_order(model, sorted(numbers), throws)
+    problems += _check_firing_order(model, sorted(numbers.values()), throws)
     if problems:
         raise InputError(problems)
-    cells = tuple(Cell(*place, number) for place, number in zip(places, numbers, strict=True))
-    return Plan(banks, throws, cells, rods)
+    return blank._replace(cells=tuple(c._replace(number=numbers[c]) for c in blank.cells))
+
+
+def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
+    """Check that the rows of a radial stand on a throw each, whose angles are known."""
+    crank, layout = model.crank, model.layout
+    if not layout.in_rows:
+        return
+    key = "rows" if layout.rows is not None else "row_angle"
+    if layout.radial is None:
+        yield Problem(f"layout.{key}", "needs layout.radial")
+    elif layout.rods != "shared":
+        yield Problem(f"layout.{key}", 'a throw carries a whole row: give rods = "shared"')
+    elif layout.rows not in (None, throws):
+        told = f"crank.throws has {counted(throws, 'throw')}"
+        if crank.throws is None:
+            told = f"layout.firing_order has cylinders for {throws}"
+        yield Problem("layout.rows", f"{counted(layout.rows or 0, 'row')}, but {told}")
+    elif throws > len(OPPOSED) and crank.throws is None and layout.firing_order is None:
+        told = f"{throws} rows need the angle of every throw"
+        yield Problem.of_missing("crank.throws", told)
+
+
+def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
+    """Check that lists of figures of the throws have one for each."""
+    for key, noun, given in (
+        ("stroke", "stroke", crank.stroke),
+        ("throw_mass", "mass", crank.throw_mass),
+    ):
+        if isinstance(given, tuple) and len(given) != throws:
+            several = f"{len(given)} {noun}{'es' if noun == 'mass' else 's'}"
+            told = f"{several} for {counted(throws, 'throw')}; give one {noun}, or one per throw"
+            yield Problem(f"crank.{key}", told)
+
+
+OPPOSED = (0.0, 180.0)  # throws of one row or two where nothing gives them, deg
 
 
 def count_banks(layout: Layout) -> int:
@@ -117,33 +170,52 @@ def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
     return figures.take_each("layout.banks", layout.banks or (0.0,))
 
 
+def find_row_angle(layout: Layout, throws: int, figures: FileFigures) -> Figure:
+    """Return the angle by which the row on each throw is turned from that before it, deg; 0 but in
+    a radial in rows.
+
+    Args:
+        layout: Table of the engine file.
+        throws: Number of throws.
+        figures: Figures of the file, which may vary.
+    """
+    given = figures.take_optional("layout.row_angle", layout.row_angle)
+    if given is None and layout.rows is not None:
+        return TURN / (count_banks(layout) * throws)
+    return or_zero(given)
+
+
 def cycle_deg(layout: Layout) -> float:
     """Return the crank angle from one firing of a cylinder to its next, deg."""
     return TURN * layout.strokes / 2
 
 
-def _number_cylinders(
-    layout: Layout, places: Sequence[tuple[int, int]], banks: int
-) -> tuple[list[int], list[Problem]]:
-    """Return the cylinder number at each place (bank, throw), as given or else counted bank by
-    bank, and the mistakes in given numbers.
+def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list[Problem]]:
+    """Return the number of each cylinder of a plan without numbers, as given or counted through
+    group by group; and the mistakes in those given.
     """
-    default = list(range(1, len(places) + 1))
+    cells = [cell for group in plan.groups for cell in group]
+    default = dict(zip(cells, range(1, len(cells) + 1), strict=True))
     if layout.numbering is None:
         return default, []
-    on_bank = Counter(bank for bank, _ in places)
-    sizes = [on_bank[bank] for bank in range(banks)]
-    given = [len(row) for row in layout.numbering]
+    sizes, given = [[len(row) for row in rows] for rows in (plan.groups, layout.numbering)]
     if given != sizes:
         message = (
             f"has rows of {_join(given)}, but the banks have {_join(sizes)} cylinders: "
             "give one row a bank, from the free end to the flywheel end"
         )
+        if plan.in_rows:
+            message = f"has rows of {_join(given)}, but {counted(len(sizes), 'row')} of {sizes[0]}"
+            message += " cylinders are there: give one list per row, in the sense of rotation"
+        if plan.in_rows and len(given) != len(sizes):
+            message = f"{counted(len(given), 'list')} for {counted(len(sizes), 'row')}; "
+            message += "give one list per row"
         return default, [Problem("layout.numbering", message)]
     numbers = [number for row in layout.numbering for number in row]
-    if sorted(numbers) != default:
-        return default, [Problem("layout.numbering", _describe_not_once(numbers, default))]
-    return numbers, []
+    if sorted(numbers) != [*default.values()]:
+        told = _describe_not_once(numbers, [*default.values()])
+        return default, [Problem("layout.numbering", told)]
+    return dict(zip(cells, numbers, strict=True)), []
 
 
 def _check_firing_order(
@@ -159,10 +231,12 @@ def _check_firing_order(
     ):
         return
     told = _describe_not_once(order, numbers)
-    if first := next((n for n in numbers if n not in order and n in model.cylinder), 0):
-        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     banks = count_banks(layout)
-    if 1 < banks <= throws == len(order) and layout.rods == "shared":
+    in_turn = 1 < banks <= throws == len(order) and layout.rods == "shared"
+    dummies = {*numbers} if {*order} <= {*numbers} and not in_turn else model.cylinder.keys()
+    if first := next((n for n in numbers if n not in order and n in dummies), 0):
+        told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
+    if in_turn:
         told += (
             f"; every throw carries a rod of each of the {banks} banks: if they take the throws in "
             'turn, as in a boxer, say layout.rods = "alternating"'

@@ -133,9 +133,9 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
 
 # Figures on which the gas torque of a cylinder depends, by their dotted names
 _OF_GAS = (
-    r"(gas|layout|articulation)\..*|crank\.(stroke|throws.*|splay)|rod\.(length|ratio)"
+    r"(gas|layout|articulation)\..*|crank\.(stroke.*|throws.*|splay)|rod\.(length|ratio)"
     r"|piston\.(bore|offset)"
-    r"|cylinder\.\d+\.(piston_offset|rod_length|rod_ratio|bank|throw|gas|heat)"
+    r"|cylinder\.\d+\.(stroke|piston_offset|rod_length|rod_ratio|bank|throw|gas|heat)"
 )
 
 

@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import groupby, pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -46,6 +46,7 @@ from .layout import (
     cycle_deg,
     find_instants,
     find_pins,
+    find_row_angle,
 )
 from .parts import Parts
 
@@ -55,7 +56,7 @@ FREE_END = (
     "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
     "the other way round."
 )
-Rows = tuple[tuple[int, ...], ...]  # cylinder numbers of each bank, free end to flywheel end
+Rows = tuple[tuple[int, ...], ...]  # cylinder numbers in the lists of layout.numbering
 
 
 # ------------------------------------------------------------------ usual numberings
@@ -66,7 +67,11 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
         plan: Banks and throws.
         radial: Whether the banks are evenly spaced round the crank.
     """
-    bank_by_bank = _number_rows(plan, plan.cells)
+    bank_by_bank = _number_rows(plan, chain(*plan.groups))
+    if plan.in_rows:
+        yield [bank_by_bank]
+        yield [_number_rows(plan, plan.cells)]  # round the engine, from row to row
+        return
     if radial:
         yield [bank_by_bank, (bank_by_bank[0], *reversed(bank_by_bank[1:]))]
         return
@@ -85,11 +90,15 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
     yield [(a[::-1], b[::-1]) for a, b in (*usual, *exchanged)]
 
 
-def _number_rows(plan: Plan, cells: Sequence[Cell]) -> Rows:
+def _number_rows(plan: Plan, cells: Iterable[Cell]) -> Rows:
     """Return the numbering in which the cells are counted in this order."""
     numbers = {cell: number for number, cell in enumerate(cells, 1)}
-    banks = range(plan.banks)
-    return tuple(tuple(numbers[c] for c in plan.cells if c.bank == bank) for bank in banks)
+    return tuple(tuple(numbers[cell] for cell in group) for group in plan.groups)
+
+
+def list_numbers(plan: Plan) -> Rows:
+    """Return the numbers of the cylinders as `layout.numbering` lists them."""
+    return tuple(tuple(cell.number for cell in group) for group in plan.groups)
 
 
 # ------------------------------------------------------------------ engines that a file may mean
@@ -418,7 +427,7 @@ def _suggest(parts: Parts) -> str:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         ways.append(_change(model, "crank.throws", throws))
         ways[-1].change += ", which count in the sense of rotation"
-        if len(throws) > 1:
+        if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
             needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:
@@ -447,8 +456,7 @@ def _list_firing(parts: Parts) -> Iterator[str]:
     if parts.order is None:
         return
     if plan.banks > 1 and "numbering" not in given and (inferred or model.gas is not None):
-        cells = groupby(plan.cells, key=lambda cell: cell.bank)
-        yield f"layout.numbering = {write_rows([[c.number for c in bank] for _, bank in cells])}"
+        yield f"layout.numbering = {write_rows(list_numbers(plan))}"
     if inferred:
         yield f"crank.throws = [{_join(_count_throws_from_first(parts))}]"
     gaps = _list_gaps(parts)
@@ -469,8 +477,12 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
     together = parts.plan.rods_on_throw > 1 and hinged is None
     uneven = model.flywheel is not None or running.speed_ripple
     weighed = any(one.inertia or one.sector for one in model.counterweight)
+    throws = parts.plan.throws
+    turn = float(find_row_angle(layout, throws, parts.figures))
     left_out = {
         f"operation.speed = {running.speed:g}": not running.has("speed"),
+        "crank.throws = [0, 180]": crank.throws is None and parts.order is None and throws == 2,
+        f"layout.row_angle = {turn:g}": layout.rows is not None and layout.row_angle is None,
         "crank.spacing = 0": not are_places_known(model, parts.plan),
         "layout.stagger = 0": together and not layout.has("stagger"),
         "crank.throw_mass = 0": not (crank.has("throw_mass") or layout.rotary),

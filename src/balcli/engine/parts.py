@@ -22,6 +22,7 @@ from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import InputError, Problem
+from ..file.fields import counted
 from ..file.model import PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
@@ -33,6 +34,7 @@ from .figures import (
     value_or,
 )
 from .layout import (
+    OPPOSED,
     Plan,
     bank_angles,
     cycle_deg,
@@ -40,9 +42,10 @@ from .layout import (
     find_instants,
     find_intervals,
     find_pins,
+    find_row_angle,
     plan_cylinders,
 )
-from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
+from .rods import CylinderMasses, RodPlace, RunningGear, weigh_harmonic, weigh_rod
 
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
@@ -55,7 +58,8 @@ def find_masters(parts: Parts) -> dict[int, int]:
     table, cells = parts.model.articulation, parts.plan.cells
     if table is None:
         return {}
-    on_throw = {c.throw: c.number for c in cells if c.bank == table.master - 1}
+    places = parts.find_master_places()
+    on_throw = {c.throw: c.number for c in cells if c.bank == places[c.throw] - 1}
     each = ((c.number, on_throw.get(c.throw, c.number)) for c in cells)
     return {number: master for number, master in each if number != master}
 
@@ -63,6 +67,16 @@ def find_masters(parts: Parts) -> dict[int, int]:
 def find_gears(parts: Parts) -> dict[int, RunningGear]:
     """Return piston and rod of each cylinder, by its number."""
     return {n: parts.weigh_gear(parts.find_rod(n, n in parts.masters)) for n in parts.plan.numbers}
+
+
+def find_strokes(parts: Parts) -> dict[int, Figure]:
+    """Return the stroke of each cylinder's pin, mm; by the number 0 that of the first throw, which
+    stands for all. Articulated rods have that of their master.
+    """
+    on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
+    throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
+    each = {n: value_or(parts.override(pin, "stroke"), throws[n]) for n, pin in on_pin.items()}
+    return {0: parts.throw_strokes[0], **each}
 
 
 # ------------------------------------------------------------------ crank pins and firing
@@ -89,22 +103,24 @@ def set_pins(parts: Parts) -> Pins:
     """Return axes, dead centres, throws and crank pins."""
     model, figures, cells = parts.model, parts.figures, parts.plan.cells
     banks = bank_angles(model.layout, figures)
-    axes = {c.number: value_or(parts.override(c.number, "bank"), banks[c.bank]) for c in cells}
+    turn = find_row_angle(model.layout, parts.plan.throws, figures)
+    axes = {
+        c.number: value_or(parts.override(c.number, "bank"), banks[c.bank] + c.throw * turn)
+        for c in cells
+    }
     tops = axes
     if model.articulation is None:
-        gears, radius = parts.gears, parts.radius
-        tops = {n: axis + parts.sense * gears[n].top_deg(radius) for n, axis in axes.items()}
+        gears, find = parts.gears, parts.find_radius
+        tops = {n: axis + parts.sense * gears[n].top_deg(find(n)) for n, axis in axes.items()}
     splay = figures.take("crank.splay", model.crank.splay)
     if parts.throws_given or parts.order is None:
-        throws = dict(enumerate(figures.take_each("crank.throws", model.crank.throws or (0.0,))))
+        given = model.crank.throws or OPPOSED[: parts.plan.throws]
+        throws = dict(enumerate(figures.take_each("crank.throws", given)))
     else:
         fires = find_instants(parts.order, model.layout.firing_intervals, cycle_deg(model.layout))
         wanted = find_pins(fires, tops, parts.sense)
         firing = [c for c in reversed(cells) if c.number in wanted]
         throws = {c.throw: wanted[c.number] - c.bank * splay for c in firing}
-        if silent := [c.number for c in cells if c.throw not in throws]:
-            told = f"no firing order says where the throw of dummy piston {silent[0]} stands"
-            raise InputError([Problem.of_missing("crank.throws", told)])
     pins = {
         c.number: value_or(parts.override(c.number, "throw"), throws[c.throw] + c.bank * splay)
         for c in cells
@@ -146,7 +162,8 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
 def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
     """Return the masses of each cylinder as a workshop weighs them, by cylinder number."""
     take, bobweight = parts.figures.take, parts.model.bobweight
-    share = take("crank.throw_mass", parts.model.crank.throw_mass) / parts.plan.rods_on_throw
+    throw_mass, plan = parts.model.crank.throw_mass, parts.plan
+    of_throws = parts.figures.take_for_each("crank.throw_mass", throw_mass, plan.throws)
     rod_bearing = take("bobweight.rod_bearing", bobweight.rod_bearing)
     oil = parts.figures.take_optional("bobweight.oil", bobweight.oil)
     oil_per_pin = parts.figures.take_optional("bobweight.oil_per_pin", bobweight.oil_per_pin)
@@ -168,7 +185,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
             piston_parts=piston if own is None else (("mass", own),),
             small_end=gear.small_end,
             big_end=gear.big_end,
-            share=share,
+            share=of_throws[cell.throw] / plan.rods_on_throw,
             rod_bearing=0.0 if hung else rod_bearing,
             oil=0.0 if hung else or_zero(oil) + shared,
             crosshead=value_or(parts.override(number, "crosshead_mass"), crosshead),
@@ -252,7 +269,7 @@ def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
 def arrange_cylinders(parts: Parts) -> Cylinders:
     """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
     (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
-    gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.radius
+    gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.find_radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder differs from the others
 
     def of_each(find: Callable[[int], Figure]) -> Array:
@@ -269,8 +286,9 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
         starts=np.cumsum([0, *map(len, banks[:-1])]),
         first=next(k for k, bank in enumerate(banks) if 1 in bank),
         z=column([parts.places.z[n] for n in numbers], rank),
-        radius=column([radius], rank)[0],
-        lam=of_each(lambda n: radius / gears[n].length),
+        radius=of_each(radius),
+        offset=of_each(lambda n: gears[n].offset),
+        lam=of_each(lambda n: radius(n) / gears[n].length),
         eps=of_each(lambda n: gears[n].offset / gears[n].length),
         reciprocating=0 * at_pistons if turning else at_pistons,
         rotating=of_each(
@@ -305,14 +323,15 @@ def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
     numbers, masters, axes, rank = parts.numbers, parts.masters, parts.pins.axes_deg, parts.rank
     angles = {n: axes[n] - axes[master] for n, master in masters.items()}
     if (given := parts.find_knuckle_angles()) is not None:
-        angles = {c.number: given[c.bank] for c in parts.plan.cells if c.number in masters}
+        angles = {c.number: given[c.throw][c.bank] for c in parts.plan.cells if c.number in masters}
     radius_mm = parts.figures.take("articulation.knuckle_radius", table.knuckle_radius)
-    ratio = radius_mm / (parts.figures.take("crank.stroke", parts.model.crank.stroke) / 2)
     pins_deg = column([parts.sense * angles.get(n, 0.0) for n in numbers], rank)
     of_master = [masters.get(n, n) for n in numbers]
     leads = [parts.sense * (axes[n] - axes[m]) for n, m in zip(numbers, of_master, strict=True)]
     masses = [parts.gears[n].big_end if n in masters else 0.0 for n in numbers]
-    ratios = column([ratio if n in masters else 0.0 for n in numbers], rank)
+    ratios = column(
+        [radius_mm / (parts.strokes[n] / 2) if n in masters else 0.0 for n in numbers], rank
+    )
     return Articulated(
         mass=column(masses, rank),
         master=np.array([numbers.index(master) for master in of_master]),
@@ -334,6 +353,7 @@ class Parts:
 
     plan: cached_property[Plan] = cached_property(lambda self: plan_cylinders(self.model))
     masters = cached_property(find_masters)
+    strokes = cached_property(find_strokes)
     gears = cached_property(find_gears)
     pins = cached_property(set_pins)
     fires_deg = cached_property(find_fires)
@@ -362,7 +382,7 @@ class Parts:
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
         self.tables = self.figures.cylinder_tables(model)  # tables of single cylinders, by number
-        self._gears: dict[tuple[int, bool], RunningGear] = {}
+        self._gears: dict[tuple[int, int, bool], RunningGear] = {}
 
     @property
     def numbers(self) -> tuple[int, ...]:
@@ -377,9 +397,14 @@ class Parts:
         return self.model.crank.throws is not None or (self.plan.throws == 1 and not self.rank)
 
     @property
-    def radius(self) -> Figure:
-        """Crank radius of all throws, m."""
-        return self.figures.take("crank.stroke", self.model.crank.stroke) / 2e3
+    def throw_strokes(self) -> tuple[Figure, ...]:
+        """Stroke of every throw, mm."""
+        given, count = self.model.crank.stroke, self.plan.throws
+        return self.figures.take_for_each("crank.stroke", given, count)
+
+    def find_radius(self, number: int) -> Figure:
+        """Return the crank radius of a cylinder, m."""
+        return self.strokes[number] / 2e3
 
     @cached_property
     def _general_rods(self) -> tuple[RodFigures, RodFigures]:
@@ -421,18 +446,27 @@ class Parts:
         given = {key: take(f"piston.{key}", getattr(table, key)) for key in ("mass", *PISTON_PARTS)}
         return {key: mass for key, mass in given.items() if mass is not None}
 
+    def kind_of_rod(self, place: RodPlace) -> tuple[int, int, bool]:
+        """Return what tells rods of different figures apart: cylinder or throw, where these have
+        figures of their own, and whether the rod is articulated.
+        """
+        number, throw = place.number if place.number in self.tables else 0, 0
+        if isinstance(self.model.crank.stroke, tuple) and place.number:
+            throw = next(c.throw for c in self.plan.cells if c.number == place.number)
+        return number, throw, place.articulated
+
     def weigh_gear(self, place: RodPlace) -> RunningGear:
         """Return piston and rod of one cylinder; cylinders without figures of their own share one
         object.
         """
-        number = place.number if place.number in self.tables else 0
-        key = number, place.articulated
+        number, key = place.number, self.kind_of_rod(place)
         if key not in self._gears:
             offset = self.figures.take("piston.offset", self.model.piston.offset)
             mass = sum(self.find_piston_masses().values())
-            self._gears[key] = weigh_rod(
+            weigh = weigh_harmonic if self.model.rod.motion == "harmonic" else weigh_rod
+            self._gears[key] = weigh(
                 place.rod,
-                place.rod.length_for(self.radius),
+                place.rod.length_for(self.find_radius(number)),
                 value_or(self.override(number, "piston_offset"), offset) / 1e3,
                 value_or(self.override(number, "piston_mass"), mass),
             )
@@ -447,9 +481,38 @@ class Parts:
             lines.append(RippleLine(line.order, amplitude, take(f"{path}.angle", line.angle)))
         return tuple(lines)
 
-    def find_knuckle_angles(self) -> tuple[Figure, ...] | None:
-        """Return the angle of each bank's knuckle pin, deg; None if the file gives none."""
+    def find_master_places(self) -> tuple[int, ...]:
+        """Return the bank of each throw's master rod, from 1; none without articulated rods."""
         table = self.model.articulation
+        if table is None:
+            return ()
+        masters, throws = table.masters, self.plan.throws
+        if len(masters) not in (1, throws):
+            told = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
+            told += f"from 1 to {self.plan.banks}, or one per row"
+            raise InputError([Problem("articulation.master", told)])
+        return masters if len(masters) > 1 else masters * throws
+
+    def find_knuckle_angles(self) -> list[tuple[Figure, ...]] | None:
+        """Return the angles of each throw's knuckle pins by bank, deg; None where the file gives
+        none.
+        """
+        table, path = self.model.articulation, "articulation.knuckle_angles"
         if table is None or table.knuckle_angles is None:
             return None
-        return self.figures.take_each("articulation.knuckle_angles", table.knuckle_angles)
+        banks, throws = self.plan.banks, self.plan.throws
+        found = [self.figures.take_each(path, table.knuckle_angles)] * throws  # type: ignore[arg-type]
+        if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
+            found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
+        wrong = ""
+        if len(found) != throws:
+            wrong = f"has {counted(len(found), 'list')} for {counted(throws, 'row')}: give one "
+            wrong += "list for all, or one per row"
+        elif few := [row for row in found if len(row) != banks]:
+            wrong = (
+                f"has {counted(len(few[0]), 'angle')} for {counted(banks, 'bank')}: give one for "
+            )
+            wrong += "each, the master's own is 0"
+        if wrong:
+            raise InputError([Problem(path, wrong)])
+        return found

@@ -121,6 +121,16 @@ def weigh_rod(
     return RunningGear(length, offset, piston, small, big, spin, couple)
 
 
+def weigh_harmonic(
+    rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
+) -> RunningGear:
+    """Return the rod of a harmonic motion: the length divides its mass, and then counts as endless,
+    so that it does not swing. Arguments are those of `weigh_rod`.
+    """
+    gear = weigh_rod(rod, length, offset, piston)
+    return gear._replace(length=math.inf, spin=0.0, couple=0.0)
+
+
 # ------------------------------------------------------------------ rules
 class RodPlace(NamedTuple):
     """Figures of a cylinder's rod, with the tables from which they come.
@@ -157,6 +167,26 @@ def check_ends(place: RodPlace) -> Iterator[Problem]:
         path, missing = place.path(*ends), next(end for end in ENDS if end not in ends)
         other = f"rod_{missing}" if path.startswith("cylinder") else missing
         yield Problem(path, f"needs {other} as well: weigh the rod at both ends")
+
+
+def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
+    """Check that a rod can belong to a harmonic motion.
+
+    Args:
+        place: Rod and its place in the file.
+        fixed: Whether all rods are on crank pins, and cylinders at rest.
+    """
+    if not fixed:
+        told = "harmonic motion needs a fixed cylinder whose rod or yoke sits on the crank pin"
+        yield Problem("rod.motion", told)
+        return
+    for key in {"inertia", "pendulum"} & place.rod.given.keys():
+        told = "a rod in harmonic motion does not swing; leave it out"
+        yield Problem(place.path(key), told)
+    given = place.rod.given
+    if {"mass", "cg"} <= given.keys() and not given.keys() & {*LENGTHS}:
+        told = "it divides rod.mass at rod.cg (or give small_end and big_end)"
+        yield Problem.of_missing("rod.length", told)
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:

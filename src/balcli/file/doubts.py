@@ -145,7 +145,12 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
-    of_throws = throws * crank.throw_mass * (crank.stroke / 2) ** 2
+    masses, strokes = (
+        values * throws if len(values) == 1 else values
+        for values in (crank.throw_masses, crank.strokes)
+    )
+    pairs = zip(masses, strokes, strict=False)  # lists of a wrong length are refused elsewhere
+    of_throws = sum(mass * (stroke / 2) ** 2 for mass, stroke in pairs)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
         yield (
             f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
@@ -158,7 +163,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
             f"cylinder.{placed[0]}.position is given, but {left} cylinders have no place and all "
             "stand at 0: give the position of each, or crank.spacing"
         )
-    stroke, speed, bore = crank.stroke, model.operation.speed, model.piston.bore
+    stroke, speed, bore = max(crank.strokes), model.operation.speed, model.piston.bore
     slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
     if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
         yield (
@@ -171,8 +176,9 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
-    stroke, bore, speed = model.crank.stroke, model.piston.bore, model.operation.speed
-    narrow, wide = (BORE[0] * stroke, BORE[1] * stroke) if bore is None else (bore, bore)
+    strokes, bore, speed = model.crank.strokes, model.piston.bore, model.operation.speed
+    stroke = max(strokes)
+    narrow, wide = (BORE[0] * min(strokes), BORE[1] * stroke) if bore is None else (bore, bore)
     heavy = CROSSHEAD_HEAVY if _has_crosshead(model) else PISTON[1]
     least, most = PISTON[0] * (narrow * 1e-3) ** 3, heavy * (wide * 1e-3) ** 3
     unit = f" kg at a stroke of {stroke:g} mm" if bore is None else f" kg in a bore of {bore:g} mm"
@@ -181,7 +187,8 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     if mass := _weigh_piston(model):
         yield Figure(name, mass, least, most, unit, units)
     if bore is not None:
-        yield Figure("piston.bore / crank.stroke is", bore / stroke, *BORE, "", SAME_UNIT)
+        for each in dict.fromkeys(strokes):
+            yield Figure("piston.bore / crank.stroke is", bore / each, *BORE, "", SAME_UNIT)
     most = OFFSET * stroke
     yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
     mean, right = stroke * speed / 30e3, "are operation.speed and crank.stroke right?"
@@ -192,13 +199,13 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
 
 def _list_rods(model: EngineFile) -> Iterator[Figure]:
     rod, mass, piston = model.rod, _weigh_rod(model), _weigh_piston(model)
-    radius = model.crank.stroke / 2
-    ratio = rod.ratio or (radius / rod.length if rod.length else 0.0)
-    length = rod.length or (radius / ratio if ratio else math.inf)
+    length = rod.length or (max(model.crank.strokes) / 2 / rod.ratio if rod.ratio else math.inf)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1]
     meaning = "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
-    digits = count_lambda_digits(ratio)
-    yield Figure("crank radius / rod length is", ratio, LAMBDA[0], most, "", meaning, digits)
+    for stroke in dict.fromkeys(model.crank.strokes) if rod.motion == "exact" else ():
+        ratio = rod.ratio or stroke / 2 / length
+        digits = count_lambda_digits(ratio)
+        yield Figure("crank radius / rod length is", ratio, LAMBDA[0], most, "", meaning, digits)
     if mass and piston:
         name = f"the rod weighs {mass:.4g} kg,"
         yield Figure(name, mass / piston, *ROD, " times the piston", SAME_UNIT)
@@ -228,10 +235,11 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
         name = "crank.throws: the largest difference of two is"
         yield Figure(name, span, THROWS[1], math.inf, " deg", DEGREES)
     throws, rods = _count_throws_and_rods(model)
-    one, radius = _weigh_piston(model) + _weigh_rod(model), crank.stroke / 2
+    one, radius = _weigh_piston(model) + _weigh_rod(model), max(crank.strokes) / 2
+    throw_mass = max(crank.throw_masses)
     if one:
         most = THROW * rods / throws * one
-        yield Figure("crank.throw_mass is", crank.throw_mass, 0, most, " kg", OFF_AXIS)
+        yield Figure("crank.throw_mass is", throw_mass, 0, most, " kg", OFF_AXIS)
         per_rod = (shares.oil_per_pin or 0.0) * throws / rods
         for key, mass in (
             ("rod_bearing", shares.rod_bearing),
@@ -239,7 +247,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
             ("oil_per_pin, for each rod,", per_rod),
         ):
             yield Figure(f"bobweight.{key} is", mass, 0, BEARING * one, " kg", GRAMS)
-    most = UNBALANCE * (throws * crank.throw_mass + rods * one) * 1e3 * radius
+    most = UNBALANCE * (throws * throw_mass + rods * one) * 1e3 * radius
     for number, weight in enumerate(model.counterweight if most else (), 1):
         unbalance = weight.unbalance or (weight.mass or 0.0) * 1e3 * (weight.radius or 0.0)
         name = f"counterweight.{number}: its unbalance is"
@@ -272,7 +280,7 @@ def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
 def _has_crosshead(model: EngineFile) -> bool:
     """Return whether the stroke is so long that the engine must have a crosshead."""
     bore = model.piston.bore
-    return bore is not None and model.crank.stroke > LONG_STROKE * bore
+    return bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
 
 
 def _weigh_piston(model: EngineFile) -> float:
@@ -295,5 +303,5 @@ def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
     rods_on_a_throw = banks if layout.rods == "shared" else 1
     if model.crank.throws is None and layout.firing_order:
         return max(len(layout.firing_order) // rods_on_a_throw, 1), len(layout.firing_order)
-    throws = len(model.crank.throws or (0.0,))
+    throws = len(model.crank.throws or ()) or layout.rows or 1
     return throws, throws * rods_on_a_throw

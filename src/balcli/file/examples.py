@@ -16,7 +16,8 @@ from typing import NamedTuple
 from ..errors import BalcliError
 from .fields import nearest
 
-# Folder of the examples in the installed package, and in a checkout of the repository.
+# In the installed package; in a checkout the repository's own folder, so that there is only one
+# copy.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
 _USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
 LAYOUT = "layout"  # class of the files in the folder itself
@@ -125,8 +126,9 @@ def _read(path: Path) -> Example:
     return Example(path.stem, _group(path), content.partition("\n")[0].lstrip("# "), content)
 
 
-ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "w", "mounts")
+ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
 KINDS = (*ENGINE_KINDS, "field", "torsion")
+OTHER_WORDS = dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14")
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# Editors that know TOML check and complete what you type, with that file here: "
@@ -142,7 +144,8 @@ def template(kind: str) -> str:
         BalcliError: There is no such kind; the error lists all kinds and names the nearest.
     """
     if kind not in KINDS:
-        near, like = nearest(kind, KINDS), [name for name in names() if kind.lower() in name]
+        near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
+        like = [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."

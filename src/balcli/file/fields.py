@@ -7,11 +7,17 @@ from __future__ import annotations
 import math
 import re
 import sys
-from collections.abc import Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 from ..core.records import Node
-from ..limits import LONGEST_FILE_NAME, LONGEST_NAME, LONGEST_SHOWN, SMALLEST_POSITIVE
+from ..limits import (
+    LONGEST_FILE_NAME,
+    LONGEST_NAME,
+    LONGEST_SHOWN,
+    MOST_LIST_VALUES,
+    SMALLEST_POSITIVE,
+)
 from .units import PLAIN, Dimension, convert, wanted
 
 if TYPE_CHECKING:
@@ -254,6 +260,73 @@ class Whole(_Field):
         return kind | limits | ({} if self.zero else {"not": {"const": 0}})
 
 
+class OneOrEach:
+    """A figure that holds for all members, or a list of figures, one for each.
+
+    Args:
+        one: Type of a figure.
+    """
+
+    count = 0  # of members; 0: any
+
+    def __init__(self, one: _Field) -> None:
+        self.one = one
+
+    def read_one(self, value: object) -> object:
+        """Return what is kept of a figure that holds for all."""
+        return self.one.read(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        from pydantic import Field
+        from pydantic_core import core_schema
+
+        def read(value: object, each: Callable[[object], object]) -> object:
+            return each(value) if isinstance(value, (list, tuple)) else self.read_one(value)
+
+        limits = Field(min_length=self.count or 1, max_length=self.count or MOST_LIST_VALUES)
+        members = tuple[Annotated[float, self.one], ...]
+        each_schema = handler.generate_schema(Annotated[members, limits])
+        return core_schema.no_info_wrap_validator_function(read, each_schema)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
+        one = self.one.json()
+        return {"anyOf": [one, handler(schema)]} | {key: one[key] for key in one.keys() & {"unit"}}
+
+
+class ListOrEach:
+    """A list that holds for all rows, or a list for each.
+
+    Args:
+        one: Type of a list.
+    """
+
+    def __init__(self, one: object) -> None:
+        self.one = one
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        from pydantic_core import core_schema
+
+        def read(value: object, one: Callable[[object], object]) -> object:
+            rows = value if isinstance(value, (list, tuple)) else ()
+            several = any(isinstance(row, (list, tuple)) for row in rows)
+            return tuple(map(one, rows)) if several else one(value)
+
+        one_schema = handler.generate_schema(self.one)
+        return core_schema.no_info_wrap_validator_function(read, one_schema)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> Node:
+        one = handler(schema)
+        return {"anyOf": [one, {"type": "array", "items": one}], "unit": one["items"]["unit"]}
+
+
 class Flag(_Field):
     """A switch: true or false."""
 
@@ -313,9 +386,10 @@ class Choice(NamedTuple):
     """Groups of keys that exclude each other.
 
     Attributes:
-        groups: Groups of keys; keys of only one group may be given.
-        required: Whether one group must be given.
-        complete: Whether all keys of a group must be given if one is; or the only group for which
+        groups: Groups of keys, of which one may be given.
+        required: Whether one must be given.
+        unless: Key beside which none must be given; empty: none.
+        complete: Whether a group must be given in full once begun; or the one group for which
             this holds.
         instead: Keys that may be given in place of a required group, or next to it.
     """
@@ -324,6 +398,7 @@ class Choice(NamedTuple):
     required: bool = False
     complete: bool | tuple[str, ...] = False
     instead: tuple[str, ...] = ()
+    unless: str = ""
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """Yield the mistakes in the given keys, as text that follows the name of the table."""
@@ -334,7 +409,7 @@ class Choice(NamedTuple):
         wanted = f"give {'either' if len(self.groups) > 1 else 'both'} {choices}"
         if len(begun) > 1:
             yield f"has {join_words(keys)}; {wanted}"
-        elif not begun and self.required and not set(self.instead).intersection(given):
+        elif not begun and self.required and not {*self.instead, self.unless}.intersection(given):
             yield f"has neither {' nor '.join(map(join_words, self.groups))}; {wanted}"
         elif begun and self.complete in (True, begun[0]) and len(keys) < len(begun[0]):
             missing = [key for key in begun[0] if key not in given]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, get_args
 from ..errors import OtherKindError, Problem
 from ..names import CHAPTER_LISTS, CHAPTERS, import_name
 from . import model
-from .fields import counted, nearest, printable, shorten
+from .fields import OneOrEach, counted, nearest, printable, shorten
 from .table import FileTable, KeyDocument, document_keys
 from .units import read_rows
 
@@ -96,7 +96,9 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
         message = f"{shown} is not a list; write it in square brackets, such as {example}"
     else:
         message = f"{shown} is not a table; write it in braces with its keys"
-    if loc and isinstance(loc[-1], int) and not isinstance(value, Mapping):
+    listed = inner.keys().get(str(loc[-2])) if len(loc) > 1 else None
+    by_path = listed and any(type(mark) is OneOrEach for mark in listed.metadata)
+    if loc and isinstance(loc[-1], int) and not (by_path or isinstance(value, Mapping)):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)
 

@@ -21,7 +21,9 @@ from .table import (
     INTERVAL_TOLERANCE_DEG,
     Angle,
     Angles,
+    AnglesOfRows,
     Count,
+    Counts,
     Density,
     Distance,
     Drag,
@@ -33,6 +35,7 @@ from .table import (
     Length,
     Lengths,
     Mass,
+    Masses,
     Name,
     Numbers,
     NumbersOfBanks,
@@ -47,6 +50,7 @@ from .table import (
     Share,
     ShareOfGas,
     Size,
+    Sizes,
     Speed,
     Switch,
     Triple,
@@ -64,8 +68,8 @@ class Crank(FileTable):
 
     choices = (Choice((("spacing",), ("positions",))),)
 
-    stroke: Size
-    """Twice the crank radius. Example: 90"""
+    stroke: Sizes
+    """Twice the crank radius; a list has one for each throw. Example: 90"""
     throws: Angles | None = None
     """Angle of every throw, free end to flywheel end; may be left out where firing_order fixes
     them. Example: [0, 180, 180, 0]"""
@@ -74,14 +78,24 @@ class Crank(FileTable):
     are not known. Example: 100"""
     positions: Lengths | None = None
     """Axial position of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
-    throw_mass: Mass = 0.0
+    throw_mass: Masses = 0.0
     """Unbalanced mass of one whole throw, referred to the crank radius; its pins share it
-    equally. Example: 0.8"""
+    equally; a list has one for each throw. Example: 0.8"""
     inertia: GivenInertia | None = None
     """Polar moment of inertia of the whole crankshaft with throws and counterweights, for its
     uneven speed. Example: 90000"""
     splay: Angle = 0.0
     """Split pins: angle by which each further bank's pin leads the one before it. Example: -30"""
+
+    @property
+    def strokes(self) -> tuple[float, ...]:
+        """Stroke of every throw, or one for all, mm."""
+        return self.stroke if isinstance(self.stroke, tuple) else (self.stroke,)
+
+    @property
+    def throw_masses(self) -> tuple[float, ...]:
+        """Mass of every throw, or one for all, kg."""
+        return self.throw_mass if isinstance(self.throw_mass, tuple) else (self.throw_mass,)
 
 
 class Pendulum(FileTable):
@@ -93,8 +107,8 @@ class Pendulum(FileTable):
     """One full swing, there and back. Example: 0.82"""
 
 
-class Rod(FileTable):
-    """The connecting rod of every cylinder."""
+class RodKeys(FileTable):
+    """Keys of all rods."""
 
     choices = (
         Choice((("length",), ("ratio",)), required=True),
@@ -109,7 +123,7 @@ class Rod(FileTable):
     mass: Mass | None = None
     """Mass of the whole rod with bolts, without bearing shells. Example: 0.6"""
     cg: Length | None = None
-    """Distance of the centre of mass from the big-end centre. Example: 45"""
+    """From the big-end centre to the centre of mass. Example: 45"""
     small_end: Mass | None = None
     """Mass weighed at the small end, instead of mass and cg. Example: 0.17"""
     big_end: Mass | None = None
@@ -119,6 +133,21 @@ class Rod(FileTable):
     2300"""
     pendulum: Pendulum | None = None
     """A pendulum test, instead of inertia."""
+
+
+class Rod(RodKeys):
+    """The connecting rod of every cylinder."""
+
+    choices = (RodKeys.choices[0]._replace(unless="motion"), *RodKeys.choices[1:])
+
+    motion: Annotated[str, OneOf("exact", "harmonic")] = "exact"
+    """Harmonic: the pistons move as a cosine, as in a Scotch yoke or with an endless rod; length
+    and ratio may be left out. Example: 'harmonic'"""
+
+    def _check_motion(self) -> Iterator[str]:
+        length = self.length is not None or self.ratio is not None
+        if self.has("motion") and self.motion == "exact" and not length:
+            yield from RodKeys.choices[0].mistakes(())
 
 
 PISTON_PARTS = ("piston", "pin", "rings", "locks")  # keys of [piston], instead of its mass
@@ -168,6 +197,11 @@ class Layout(FileTable):
     """Angle of every bank. Example: [-90, 90]"""
     radial: Count | None = None
     """Number of banks, evenly round the crank. Example: 9"""
+    rows: Count | None = None
+    """Rows of a radial, each on a throw of its own; left out: one row a throw. Example: 2"""
+    row_angle: Angle | None = None
+    """Angle by which each further row of a radial is turned from the one before it; left out: the
+    banks of all rows are evenly spaced, or with rows left out, in line. Example: 25.714"""
     rods: Annotated[str, OneOf("shared", "alternating")] = "shared"
     """Shared: every throw carries one rod of each bank; alternating: the throws take the banks
     in turn. Example: 'alternating'"""
@@ -184,7 +218,13 @@ class Layout(FileTable):
     strokes: Annotated[int, OneOf(2, 4)] = 4
     """Two-stroke or four-stroke. Example: 4"""
     numbering: NumbersOfBanks | None = None
-    """Cylinder numbers of each bank, free end to flywheel end. Example: [[1, 3], [2, 4]]"""
+    """Cylinder numbers of each bank, free end to flywheel end; in a radial in rows those of each
+    row, in the sense of rotation. Example: [[1, 3], [2, 4]]"""
+
+    @property
+    def in_rows(self) -> bool:
+        """Whether this is a radial whose cylinders are numbered row by row."""
+        return self.rows is not None or self.row_angle is not None
 
     def _check_numbers(self) -> Iterator[str]:
         for key, numbers in (
@@ -319,6 +359,9 @@ class Override(FileTable):
     Example: 0"""
     indicator: Annotated[str, FileName()] | None = None
     """As gas.indicator, with a diagram for this cylinder. Example: 'p_3.csv'"""
+    stroke: Size | None = None
+    """Twice the radius of this cylinder's pin, where it differs from that of its throw.
+    Example: 85"""
     bank: Angle | None = None
     """Angle of this cylinder's axis. Example: 30"""
     throw: Angle | None = None
@@ -546,7 +589,7 @@ class EngineFile(FileTable):
                 yield from ((f"{name}.{number}", table) for number, table in part.items())
 
 
-class ArticulatedRod(Rod):
+class ArticulatedRod(RodKeys):
     """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
 
     length: Size | None = None
@@ -560,13 +603,18 @@ class ArticulatedRod(Rod):
 class Articulation(FileTable):
     """A radial engine with a master rod, to which the other rods are hinged."""
 
-    master: Count = 1
-    """Number of the bank that carries the master rod. Example: 1"""
+    master: Counts = 1
+    """Number of the bank that carries the master rod, in a radial in rows its place in the row;
+    a list has one for each row. Example: 1"""
     knuckle_radius: Size
     """Distance from the crank pin to the knuckle pins. Example: 55"""
-    knuckle_angles: Angles | None = None
-    """Angle of each bank's knuckle pin from the master rod's axis (0 for the master's bank); left
-    out: the bank angles from the master's bank. Example: [0, 72, 144, 216, 288]
-    """
+    knuckle_angles: AnglesOfRows | None = None
+    """One for each bank, from the master rod's axis (its own is 0), or such a list for each row;
+    left out: bank angles from it. Example: [0, 72, 144, 216, 288]"""
     rod: ArticulatedRod
     """The articulated rods."""
+
+    @property
+    def masters(self) -> tuple[int, ...]:
+        """Place of the master rod in every row, or the one for all."""
+        return self.master if isinstance(self.master, tuple) else (self.master,)

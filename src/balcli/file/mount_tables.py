@@ -4,41 +4,23 @@ This module is imported only for files that have one of these tables (`names.CHA
 """
 
 import math
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Iterator
+from typing import Annotated
 
 from pydantic import Field
 
-from ..core.records import Node
-from .fields import Choice, Number, as_written
+from .fields import Choice, Number, OneOrEach, as_written
 from .table import Angle, FileTable, Name, Switch, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
-if TYPE_CHECKING:
-    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
-    from pydantic_core import CoreSchema
 
-
-class AlikeOrEach:
+class AlikeOrEach(OneOrEach):
     """Figures along the three axes of a mount, or one figure for all three."""
 
-    def __init__(self, one: Number) -> None:
-        self._one = one
+    count = 3
 
-    def __get_pydantic_core_schema__(
-        self, source: object, handler: "GetCoreSchemaHandler"
-    ) -> "CoreSchema":
-        from pydantic_core import core_schema
-
-        def read(value: object, each: Callable[[object], object]) -> object:
-            return each(value) if isinstance(value, (list, tuple)) else (self._one.read(value),) * 3
-
-        return core_schema.no_info_wrap_validator_function(read, handler(source))
-
-    def __get_pydantic_json_schema__(
-        self, schema: "CoreSchema", handler: "GetJsonSchemaHandler"
-    ) -> Node:
-        return {"anyOf": [self._one.json(), handler(schema)], "unit": self._one.dimension.unit}
+    def read_one(self, value: object) -> object:
+        return (self.one.read(value),) * 3
 
 
 _Stiffness, _Damping = (Number(dimension, least=0, most=1e12) for dimension in (STIFFNESS, DAMPING))
@@ -47,8 +29,8 @@ Tensor = Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _si
 Direction = Annotated[tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], _three]
 Directions = Annotated[tuple[Direction, ...], _two]
 Turns = Annotated[tuple[Angle, ...], _three]
-Stiffnesses = Annotated[tuple[Annotated[float, _Stiffness], ...], _three, AlikeOrEach(_Stiffness)]
-Dampings = Annotated[tuple[Annotated[float, _Damping], ...], _three, AlikeOrEach(_Damping)]
+Stiffnesses = Annotated[tuple[float, ...], AlikeOrEach(_Stiffness)]
+Dampings = Annotated[tuple[float, ...], AlikeOrEach(_Damping)]
 
 UNIT = INERTIA.unit
 _PERPENDICULAR = 1e-6  # largest cosine between perpendicular axes

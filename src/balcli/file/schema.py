@@ -33,7 +33,8 @@ def describe_engine_file() -> Node:
         rules: list[Node] = []
         for choice in table.choices:
             if choice.required:
-                ways = (*choice.groups, *((key,) for key in choice.instead))
+                others = [*choice.instead, *([choice.unless] if choice.unless else [])]
+                ways = (*choice.groups, *((key,) for key in others))
                 rules.append({"anyOf": [{"required": list(group)} for group in ways]})
             for group, other in combinations(choice.groups, 2):
                 rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Flag, Label, Number, Whole
+from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole
 from .units import (
     ANGLE,
     DENSITY,
@@ -47,7 +47,11 @@ Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
 Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 
+Sizes = Annotated[float | tuple[float, ...], OneOrEach(Number(LENGTH, above=0, most=1e9))]
+
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
+
+Masses = Annotated[float | tuple[float, ...], OneOrEach(Number(MASS, least=0, most=1e12))]
 
 Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
 
@@ -82,6 +86,8 @@ Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
 
+Counts = Annotated[int | tuple[int, ...], OneOrEach(Whole(least=1, most=MOST_LIST_VALUES))]
+
 RippleOrder = Annotated[float, Whole(least=0.5, most=HIGHEST_RIPPLE_ORDER, halves=True)]
 
 ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
@@ -97,6 +103,8 @@ Lengths = Annotated[tuple[Length, ...], Field(min_length=1, max_length=MOST_LIST
 Intervals = Annotated[tuple[Interval, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 
 Numbers = Annotated[tuple[Count, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
+
+AnglesOfRows = Annotated[tuple[float, ...] | tuple[tuple[float, ...], ...], ListOrEach(Angles)]
 
 NumbersOfBanks = Annotated[tuple[Numbers, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 

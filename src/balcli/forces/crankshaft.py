@@ -33,7 +33,7 @@ from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..limits import MOST_FORCES_OVER_CYCLE, MOST_RESULTS_ALONG_CRANK
-from .curves import compute_device_forces, compute_piecemeal, find_crank_speed
+from .curves import as_rows, compute_device_forces, compute_piecemeal, find_crank_speed
 from .rod_forces import compute_rod_forces, list_hung_rows
 from .spectrum import (
     compute_device_force,
@@ -415,7 +415,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
     for master, hung in list_hung_rows(engine).items():
         pressed[master] -= pressed[hung].sum(axis=0)
     c, (speed, rate) = engine.cylinders, find_crank_speed(engine, crank_deg)
-    throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * float(c.radius)
+    throws = np.array([[float(weighed.share)] for weighed in engine.weighed]) * as_rows(c.radius)
     pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
     turning = throws * (speed**2 - 1j * rate) * unit(crank_deg + pins_deg)
     devices = compute_device_forces(engine, crank_deg)

@@ -92,7 +92,7 @@ class EngineMotion:
 
     Attributes:
         cylinders: Cylinders of the engine.
-        radius: Crank radius, m.
+        radius: Crank radii, m, shape (cylinders, 1) or (1, 1).
         crank_deg: Crank angles, shape (angles,).
         omega, xi: Crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
         pin_deg: Angles of the crank pins from x, shape (cylinders, angles).
@@ -104,7 +104,7 @@ class EngineMotion:
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
         self.cylinders = c = engine.cylinders
-        self.radius = float(np.ravel(c.radius)[0])
+        self.radius = as_rows(c.radius)
         self.crank_deg = crank_deg
         self.omega, self.xi = find_crank_speed(engine, crank_deg)
         axes = as_rows(c.axis_of_each_deg)
@@ -223,7 +223,7 @@ def count_repeats(engine: Engine) -> int:
     fire exactly evenly, else once. (One interval is computed faster than a cycle.)
     """
     gas, c = take_gas(engine), engine.cylinders
-    columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
+    columns = (c.radius, c.offset, c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
     gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
     if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
         return 1

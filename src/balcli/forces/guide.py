@@ -72,9 +72,9 @@ def compute_guide_moments(
     c, z = engine.cylinders, np.ravel(engine.cylinders.z)
     h = _sum_weighted(rolls, np.ones(c.count))
     due = mark_considerable(h)
-    height = np.broadcast_to(np.ravel(c.radius / c.lam) if height_m is None else height_m, c.count)
+    height = np.broadcast_to(np.ravel(c.rod_length) if height_m is None else height_m, c.count)
     x = None
-    if np.ptp(z) and engine.places_known:
+    if np.ptp(z) and engine.places_known and np.isfinite(height).all():
         x = _sum_weighted(rolls, (z - z_ref) / height)
         due |= mark_considerable(x)
     if orders is None:
@@ -118,6 +118,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
         why = "all cylinders stand at one place" if known else MOMENTS_UNKNOWN
+        if build(model).cylinders.harmonic:
+            why = "rods in harmonic motion have no length; analyze --guide-height takes a height"
         raise BalcliError(f"{of_x[0].name}: {why}")
 
 

@@ -93,21 +93,22 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     turned = unit(np.degrees(motion.psi))
     axis = unit(motion.pin_deg) if engine.rotary else np.broadcast_to(motion.axis, turned.shape)
     throw = np.conj(turned) if engine.rotary else turned
+    m, c, side = motion.moved, engine.cylinders, 1 if engine.rotary else -1
+    lean = np.broadcast_to(m.cosine + 1j * side * m.lean, turned.shape)
+    span = as_rows(c.lam) / (motion.radius * lean.real)  # 1/Re d, 0 in harmonic motion
     piston, foot = _follow_ends(engine, motion, throw)
-    d = piston.at - foot.at
-    up, aside = piston.acceleration.real, piston.acceleration.imag
+    up, aside = piston.real, piston.imag
     along = heads * up + gas
-    spin_rate = motion.moved.spin_rate * motion.omega**2 + motion.moved.spin * motion.xi
-    moment = d.imag * (along + small * up) + as_rows(engine.cylinders.couple) * spin_rate
-    across = moment / d.real - small * aside
-    pin = -(small * piston.acceleration + big * foot.acceleration + along + 1j * across)
+    spin_rate = m.spin_rate * motion.omega**2 + m.spin * motion.xi
+    across = lean.imag / lean.real * (along + small * up) - small * aside
+    across += as_rows(c.couple) * spin_rate * span
+    pin = -(small * piston + big * foot.acceleration + along + 1j * across)
     for master, hung in list_hung_rows(engine).items():
         loads = axis[hung] * pin[hung]
         arms = axis[hung] * foot.at[hung] - axis[master] * foot.at[master]
-        held = (np.conj(arms) * loads).imag.sum(axis=0) / d.real[master]
+        held = (np.conj(arms) * loads).imag.sum(axis=0) * span[master]
         across[master] += held
         pin[master] += np.conj(axis[master]) * loads.sum(axis=0) - 1j * held
-    lean = d / np.abs(d)
     pressed = lean.real * along + lean.imag * across
     thrust = across - heads * aside
     return RodForces(pressure, gas, thrust, pressed, pin, axis, throw, lean)
@@ -130,8 +131,10 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     return found
 
 
-def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[_Course, _Course]:
-    """Return piston pins and lower ends of the rods, in each cylinder's frame."""
+def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[Complex, _Course]:
+    """Return accelerations of the piston pins, m/s2, and lower ends of the rods, in each cylinder's
+    frame.
+    """
     r, m = motion.radius, motion.moved
 
     def follow(point: PointMass, turned: Complex | float = 1.0) -> _Course:
@@ -144,7 +147,6 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
     if engine.rotary:  # its points are given relative to the direction of the pin
         piston, *knuckle = (follow(point, throw) for point in m.points)
         still = _Course(r * throw, np.zeros_like(throw))
-        return piston, (knuckle or [still])[0]
-    place = m.place + 1j * as_rows(engine.cylinders.offset) / r
-    rates = (np.asarray(rate, complex) for rate in (m.velocity, m.acceleration))
-    return follow(PointMass(place, *rates)), follow(m.pin)
+        return piston.acceleration, (knuckle or [still])[0]
+    piston_rate = m.acceleration * motion.omega**2 + m.velocity * motion.xi
+    return np.asarray(r * piston_rate, complex), follow(m.pin)

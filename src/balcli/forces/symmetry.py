@@ -144,7 +144,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
     gaps = np.diff(np.unique(np.round(engine.throws_m, 9)))
     return TextbookUnits(
         orders=orders,
-        force=float(mass * c.radius * engine.omega**2),
+        force=mass * float(c.radius_of_each[row]) * float(engine.omega) ** 2,
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
         cylinder=engine.numbers[row],

@@ -22,6 +22,7 @@ from ..engine.engine import Engine
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
 from ..engine.load import SPEED
+from ..engine.numbering import list_numbers
 from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import MOMENTS_UNKNOWN
@@ -83,6 +84,14 @@ def explain_still(engine: Engine) -> str:
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
         return "it has articulated rods"
+    if engine.cylinders.harmonic:
+        return "its pistons move as a cosine"
+    crank = None if engine.model is None else engine.model.crank
+    lists = crank is not None and isinstance(crank.stroke, tuple) | isinstance(
+        crank.throw_mass, tuple
+    )
+    if lists or len(engine.cylinders.radius) > 1:
+        return "its throws differ"
     if engine.model is not None:
         devices = (*engine.model.counterweight, *engine.model.shaft)
         if any(one.unbalance is None and one.mass is None for one in devices):
@@ -323,8 +332,7 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     layout = model.layout
     if model.crank.throws is None or layout.firing_order is None or model.gas is not None:
         return None
-    banks = sorted({cell.bank for cell in parts.plan.cells})
-    rows = [[cell.number for cell in parts.plan.cells if cell.bank == bank] for bank in banks]
+    rows = [list(row) for row in list_numbers(parts.plan)]
     keys: Node = {"firing_order": "none", "firing_intervals": "none"}
     return keys | ({} if layout.numbering is not None else {"numbering": format_value(rows)})
 

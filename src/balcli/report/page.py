@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 
+_YOKE = 3  # crank radii from the pin to the piston that is drawn in harmonic motion
 _SHAFT_WIDTH = 1.6  # width of a shaft in the picture, in crank radii
 ASSUMED_BORE = 0.95  # of the stroke, for drawing pistons if the file gives no bore
 
@@ -64,7 +65,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
     upright if the file gives `frame.up`.
     """
     engine = now.engine
-    stroke, bore = 2e3 * float(engine.cylinders.radius), clean(engine.bore_m * 1e3)
+    stroke, bore = 2e3 * float(engine.cylinders.radius.max()), clean(engine.bore_m * 1e3)
     bore = bore or ASSUMED_BORE * stroke
     return {
         "stroke": stroke,
@@ -88,9 +89,9 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 
 
 def _cylinder_entries(engine: Engine) -> list[Node]:
-    """Return one entry for each cylinder, in mm and degrees: axis, phase (its own crank angle at
-    crank angle 0), position, rod, offset; for articulated rods also knuckle pin and row of the
-    master.
+    """Return one entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod
+    (0 in harmonic motion), offset, place; crank radius where they differ; knuckle pin and master's
+    row.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -99,13 +100,15 @@ def _cylinder_entries(engine: Engine) -> list[Node]:
         "axis": c.axis_of_each_deg - (engine.up_deg or 0.0),
         "phase": c.angle_deg,
         "z": c.z * 1e3,
-        "rod": np.broadcast_to(np.ravel(c.radius / c.lam) * 1e3, c.count),
+        "rod": np.broadcast_to(0.0 if c.harmonic else np.ravel(c.rod_length) * 1e3, c.count),
         "offset": np.broadcast_to(np.ravel(c.offset) * 1e3, c.count),
     }
+    if len(c.radius) > 1:
+        columns["radius"] = c.radius * 1e3
     lists = [np.asarray(column).tolist() for column in columns.values()]
     found = [dict(zip(columns, values, strict=True)) for values in zip(*lists, strict=True)]
     if isinstance(rods, Articulated):
-        pins = np.ravel(rods.knuckle) * float(c.radius) * 1e3
+        pins = np.ravel(rods.knuckle) * c.radius * 1e3
         for row, entry in enumerate(found):
             if rods.master[row] != row:
                 entry |= {
@@ -146,9 +149,10 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
         bore: Cylinder bore, m.
     """
     c = engine.cylinders
-    r = float(c.radius)
+    r = float(c.radius.max())
     leans = np.radians(c.axis_of_each_deg - (engine.up_deg or 0.0))
-    across, reach = np.sin(leans), r + r / c.lam + bore
+    rods = np.where(c.lam == 0, _YOKE * c.radius, c.rod_length)
+    across, reach = np.sin(leans), c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
     rows: dict[tuple[int, bool], int] = {}  # row on its side, by order and sense

@@ -11,6 +11,8 @@ import numpy as np
 from ..core.cylinders import find_travel
 from ..core.phasors import Figure
 from ..engine.engine import Engine, SilentCylinders
+from ..engine.layout import plan_cylinders
+from ..engine.numbering import list_numbers, write_rows
 from ..file.fields import count_lambda_digits, join_words
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
@@ -63,8 +65,11 @@ def engine_facts(
     count = len(engine.devices)
     devices = f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
     cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
+    plan = None if engine.model is None else plan_cylinders(engine.model)
+    numbering = write_rows(list_numbers(plan)) if plan is not None and plan.in_rows else ""
     pairs = (
         ("cylinders", cylinders),
+        ("numbering", numbering),
         ("crank", _crank(engine, system)),
         ("throws", _throws(engine)),
         ("turning", _TURNING if engine.rotary else ""),
@@ -147,11 +152,11 @@ def _bore(engine: Engine, system: System) -> str:
         return ""
     unit = system.length
     bore = number(unit.of(bore_m), 5)
-    nominal, first = 2 * float(engine.cylinders.radius), engine.numbers.index(1)
-    true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
-    stroke = f"{number(unit.of(nominal), 5)} {unit.name}"
-    if true != number(unit.of(nominal)):
-        stroke += f" (true stroke {true} {unit.name})"
+    stroke, first = _list_strokes(engine, system), engine.numbers.index(1)
+    if len(engine.cylinders.radius) == 1:
+        nominal = number(unit.of(2 * float(engine.cylinders.radius[0])))
+        true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
+        stroke += f" (true stroke {true} {unit.name})" * (true != nominal)
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
     return f", bore × stroke {bore} × {stroke}, {size}"
@@ -161,10 +166,22 @@ def _crank(engine: Engine, system: System) -> str:
     """Return crank radius, rod length and their ratio for cylinder 1."""
     c, unit = engine.cylinders, system.length
     first = engine.numbers.index(1)
-    radius, lam = float(c.radius), float(c.lam[first if len(c.lam) > 1 else 0])
-    r, rod = (f"{number(unit.of(length))} {unit.name}" for length in (radius, radius / lam))
+    radius, lam = float(c.radius_of_each[first]), float(c.lam[first if len(c.lam) > 1 else 0])
+    strokes = f"stroke {_list_strokes(engine, system)}, " if len(c.radius) > 1 else ""
+    r = f"{strokes}r = {number(unit.of(radius))} {unit.name}"
+    if c.harmonic:
+        return f"{r}, motion harmonic{_unequal(engine)}"
     ratio = given(lam, count_lambda_digits(lam, get_digits(4)))
-    return f"r = {r}, rod {rod}, λ = {ratio}{_unequal(engine)}"
+    rod = f"{number(unit.of(radius / lam))} {unit.name}"
+    return f"{r}, rod {rod}, λ = {ratio}{_unequal(engine)}"
+
+
+def _list_strokes(engine: Engine, system: System) -> str:
+    """Return every distinct stroke of the crank pins, in the order of the throws."""
+    radii = zip(engine.weighed, engine.cylinders.radius_of_each.tolist(), strict=True)
+    along = sorted(radii, key=lambda pair: pair[0].throw)
+    strokes = dict.fromkeys(number(system.length.of(2 * radius), 5) for _, radius in along)
+    return f"{', '.join(strokes)} {system.length.name}"
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:

@@ -289,7 +289,7 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     if len(options.factor or ()) > 1:
         raise BalcliError("--factor: give one factor with --measured, such as 55%")
-    measured, radius = options.measured or 0.0, float(engine.cylinders.radius)
+    measured = options.measured or 0.0
     has, wanted = find_measured_factor(engine, measured), options._replace(measured=None)
     card = fill_card(engine, _choose_factors(engine, wanted)[0])
     slots, unbalances, actions = [], [], []
@@ -297,6 +297,7 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
         weighed = [engine.weighed[row] for row in rows]
         masses = np.array([float(w.rotating + w.reciprocating) for w in weighed])
         z = _find_centre(masses, engine.cylinders.z[rows])
+        radius = float(engine.cylinders.radius_of_each[rows[0]])
         slots.append(Slot("counterweight", 1, 1, z))
         pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
         unbalances.append(-(measured + one.throw_g / 1e3) * radius * pin)
@@ -422,7 +423,8 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
             pin = complex(unit(engine.first_axis_deg + engine.cylinders.pin_deg[rows[0]]))
             cylinders = tuple(engine.numbers[row] for row in rows)
             z = _find_centre(masses, engine.cylinders.z[rows])
-            pins.append(_Pin(cylinders, total * float(engine.cylinders.radius) * pin, z))
+            radius = float(engine.cylinders.radius_of_each[rows[0]])
+            pins.append(_Pin(cylinders, total * radius * pin, z))
     return pins
 
 

@@ -238,8 +238,8 @@ class Fitting(NamedTuple):
         masses.
         """
         first_axis_deg = float(self.engine.first_axis_deg)
-        masses = (w.rotating + w.share + w.reciprocating for w in self.engine.weighed)
-        dust = LEFT * float(sum(masses) * self.engine.cylinders.radius)
+        masses = [float(w.rotating + w.share + w.reciprocating) for w in self.engine.weighed]
+        dust = LEFT * float(masses @ self.engine.cylinders.radius_of_each)
         tables = [
             slot.make_table(unbalance, first_axis_deg)
             for slot, unbalance in zip(slots, unbalances, strict=True)
@@ -289,7 +289,7 @@ class Fitting(NamedTuple):
             return self
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
         directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
-        pins = masses * float(engine.cylinders.radius) * directions
+        pins = masses * engine.cylinders.radius * directions
         own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
         vectors = np.array([*pins, *(one.forward for one in own)])
         z = np.array([*engine.cylinders.z, *(one.z for one in own)])

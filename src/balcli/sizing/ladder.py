@@ -343,6 +343,8 @@ def _make_step(name: str, engine: Engine, fitting: Fitting) -> Step:
         inner_moment_Nm=None if loads is None else loads.inner_moment_Nm,
         counterweights=len(remedy.counterweights),
         shafts=len({(shaft.ratio, shaft.at) for shaft in remedy.shafts}),
-        mass_kg=sum(map(find_unbalance, remedy.devices)) / float(engine.cylinders.radius),
+        mass_kg=sum(
+            find_unbalance(d) / engine.find_radius(d.position / 1e3) for d in remedy.devices
+        ),
         remedy=remedy,
     )

@@ -34,7 +34,7 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     if low < high:
         return low, high
     bore = float(engine.bore_m)
-    half = bore / 2 if bore > 0 else float(engine.cylinders.radius)
+    half = bore / 2 if bore > 0 else engine.find_radius(low)
     return low - half, high + half
 
 

@@ -110,7 +110,7 @@ def find_scales(engine: Engine) -> Scales:
     z = np.ravel(engine.cylinders.z)
     force = float(np.max(masses * radius)) * float(engine.omega) ** 2
     length = max(float(np.ptp(z)), 2 * float(radius.max()))
-    return Scales(force, force * length, force * float(radius[0]))
+    return Scales(force, force * length, force * float(radius.max()))
 
 
 def find_size(residual: Residual, sense: int, scales: Scales) -> float:

@@ -283,6 +283,8 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     if np.any(c.eps):
         raise BalcliError("eccentric-slider is for a cylinder without piston offset")
     mass, throw = float(np.ravel(c.reciprocating)[0]), float(np.ravel(c.radius)[0])
+    if c.harmonic:
+        raise BalcliError("eccentric-slider is for a rod of finite length, not harmonic motion")
     optima = find_optima(float(np.ravel(c.lam)[0]))
     designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
     wanted = options.design or DESIGNS[0], options.criterion or CRITERIA[0]
@@ -313,7 +315,7 @@ def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: floa
         unit_kg_m: Reciprocating mass times crank radius, kg m.
         radius: Radius of pin and weight, m; None: the crank radius.
     """
-    unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius)
+    unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius[0])
     fastest, slowest, bend = find_shaft_rates(one.design, one.k)
     force, rpm = unbalance * float(engine.omega) ** 2, float(engine.speed_rpm)
     return {
@@ -363,7 +365,7 @@ def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
         for vectors in ((-one.force(1), 0j), (0j, -one.force(-1)))
     ]
     weight, block = abs(first.force(-1)), abs(second.force(-1))
-    radius = options.radius or float(engine.cylinders.radius)
+    radius = options.radius or float(engine.cylinders.radius[0])
     fitting = fitting.add_details(
         first_order_kg_m=weight,
         block_kg_m=block,

@@ -132,7 +132,7 @@ def _find_engine_arm(engine: Engine, residual: Residual) -> float:
     crank radius.
     """
     ends = (abs(z - residual.reference.z) for z in find_length(engine))
-    return max(float(engine.cylinders.radius), *ends)
+    return max(float(engine.cylinders.radius.max()), *ends)
 
 
 def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:

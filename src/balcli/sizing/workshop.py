@@ -108,7 +108,8 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
     _refuse_impossible(tools)
-    rim = tools.radius or float(engine.cylinders.radius)
+    rims = [_find_rim(engine, device, tools) for device in remedy.devices]
+    rim = min(rims, default=tools.radius or engine.find_radius(0.0))
     if tools.drill is not None and tools.drill > 2 * rim:
         raise BalcliError(
             f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of {1e3 * rim:g} mm"
@@ -144,7 +145,7 @@ def _check_figure(name: str, figure: float | None) -> float | None:
 
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:
     unbalance, order = find_unbalance(device), find_order(device)
-    radius = tools.radius or float(engine.cylinders.radius)
+    radius = _find_rim(engine, device, tools)
     is_sector = isinstance(device, Counterweight) and device.sector is not None
     disc: Node = {} if is_sector else _find_disc(unbalance, tools)
     return Practical(
@@ -189,12 +190,17 @@ def _plan_holes(
     return {"drill_depth_mm": 1e3 * depth, "holes": int(count), "hole_angle_deg": angle}
 
 
+def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
+    """Return the radius of a device, m: that of the throw nearest to it where none is given."""
+    return tools.radius or engine.find_radius(device.position / 1e3)
+
+
 def _find_room(engine: Engine) -> float:
     """Return the smallest distance of neighboring throws, m; the stroke if there is one throw or
     positions are not known.
     """
     places = engine.joined_throws_m
-    return float(np.diff(places).min()) if len(places) > 1 else 2 * float(engine.cylinders.radius)
+    return float(np.diff(places).min()) if len(places) > 1 else 2 * engine.find_radius(places[0])
 
 
 def _find_disc(unbalance: float, tools: Tools) -> Node:

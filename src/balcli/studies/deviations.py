@@ -15,7 +15,6 @@ from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
 from ..file.torsion_tables import Part, find_stiffness
 from .quantity_names import MOUNTS, TORSION
 
-THROW_MASS = "crank.throw_mass."  # a throw's number follows; the file has one mass for all
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # per SI unit
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
 
@@ -83,17 +82,25 @@ def find_sources(
         model = _spell_out_shafting(model)
         sources = _list_shafting(model, within)
     else:
-        model = _spell_out_throws(model) if within.angle_deg else model
+        model = _spell_out_throws(model, angles=bool(within.angle_deg))
         sources = _list_parts(model, within)
     return model, tuple(source for source in sources if source.tolerance)
 
 
 # ------------------------------------------------------------------ pistons, rods and throws
-def _spell_out_throws(model: EngineFile) -> EngineFile:
-    """Return the file with an explicit angle for every throw, even if it implies the angles."""
-    if model.crank.throws is not None:
+def _spell_out_throws(model: EngineFile, *, angles: bool) -> EngineFile:
+    """Return the file with a mass for every throw; and with the angles that its firing order needs.
+
+    Args:
+        model: Engine file.
+        angles: Whether angles are wanted as well.
+    """
+    parts, masses = assemble(model), model.crank.throw_masses
+    if len(masses) == 1:
+        model = model.with_table("crank", throw_mass=masses * parts.plan.throws)
+    if model.crank.throws is not None or not angles:
         return model
-    return model.with_table("crank", throws=tuple(assemble(model).pins.throws_deg.values()))
+    return model.with_table("crank", throws=tuple(parts.pins.throws_deg.values()))
 
 
 def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
@@ -102,7 +109,9 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     yield from _list_masses(model, parts, within.mass)
     for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
-        length = 1e3 * float(rod.length_for(parts.radius))
+        if rod.length is None and rod.ratio is None:
+            continue  # of a harmonic motion
+        length = 1e3 * float(rod.length_for(parts.find_radius(n)))
         yield _relative(f"rod length {n}", within.length, {f"cylinder.{n}.rod_length": length})
     for k, angle in parts.pins.throws_deg.items():
         lines = {f"crank.throws.{k + 1}": Line(float(angle), 1.0)}
@@ -127,10 +136,9 @@ def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Sourc
         }
         if any(figures.values()):
             yield _relative(f"rod mass {n}", mass, figures)
-    if model.crank.throw_mass and not model.layout.rotary:
-        for k in range(1, parts.plan.throws + 1):
-            figures = {f"{THROW_MASS}{k}": model.crank.throw_mass}
-            yield _relative(f"throw mass {k}", mass, figures)
+    for k, given in enumerate(() if model.layout.rotary else model.crank.throw_masses, 1):
+        if given:
+            yield _relative(f"throw mass {k}", mass, {f"crank.throw_mass.{k}": given})
 
 
 def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:

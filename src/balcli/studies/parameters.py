@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
-from ..file.fields import Number, nearest, shorten
+from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Frame, Gear, Override, Piston, Shaft
 from ..file.mount_tables import AlikeOrEach
@@ -92,6 +92,8 @@ def find_places(model: EngineFile) -> dict[str, Place]:
         del numbers[f"layout.firing_intervals.{k + 1}"]
     if plan.banks != 2:  # an angle would turn the engine into a vee
         numbers.pop("layout.bank_angle", None)
+    if not plan.in_rows:  # it would number the cylinders anew
+        numbers.pop("layout.row_angle")
     return numbers
 
 
@@ -126,12 +128,15 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
             for k, item in enumerate(value, 1):
                 if isinstance(item, FileTable):
                     yield from _numbers_of(f"{path}.{k}", item)
+                elif isinstance(item, tuple) and reader is not None:
+                    names = ((f"{path}.{k}.{j}", one) for j, one in enumerate(item, 1))
+                    yield from ((name, Place(reader, kind, key, one)) for name, one in names)
                 elif reader is not None:
                     alike = any(isinstance(mark, AlikeOrEach) for mark in field.metadata)
                     if k == 1 and alike and len(set(value)) == 1:
                         yield path, Place(reader, kind, key, item)  # all members together
                     yield f"{path}.{k}", Place(reader, kind, key, item)
-        elif reader is not None and "tuple" not in str(field.annotation):
+        elif reader is not None and (value is not None or "tuple" not in str(field.annotation)):
             yield path, Place(reader, kind, key, value)
 
 
@@ -141,7 +146,12 @@ def _number_of(table: type[FileTable], key: str) -> Number | None:
     Whole numbers count as other fields, because they change the layout of the engine.
     """
     field = table.model_fields[key]
-    marks = (*field.metadata, *_marks_of(field.annotation))
+    marks = [*field.metadata, *_marks_of(field.annotation)]
+    for mark in tuple(marks):
+        if isinstance(mark, OneOrEach):
+            marks.append(mark.one)
+        elif isinstance(mark, ListOrEach):
+            marks += _marks_of(mark.one)
     return next((mark for mark in marks if isinstance(mark, Number)), None)
 
 
@@ -233,7 +243,8 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
         return name
     for called in ((name,), SYNONYMS.get(name.lower(), ())):
         meant = [path for path in known if path.rpartition(".")[2] in called]
-        if meant:
+        general = [path for path in meant if not path.startswith("cylinder.")]
+        if meant := general or meant:
             return meant[0] if len(meant) == 1 else name
     return name
 
@@ -246,6 +257,8 @@ def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile)
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
     if _list_idle_paths(model, [path]) and model.gas is not None:
         return f"{path}: changes nothing of the gas in this file"
+    if members := [name for name in known if re.fullmatch(rf"{re.escape(path)}\.\d+", name)]:
+        return f"{path} is a list of {len(members)}; vary {members[0]} to {members[-1]}"
     dotted = path.replace("_", ".", 1)
     meant = [name for name in known if name == dotted or name.startswith(f"{path}.")]
     meant = meant or [name for name in known if f".{path}_" in f"{name}_"]

@@ -5,7 +5,7 @@ tolerances: `scatter`. Variants are evaluated as in `sweep`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
 import numpy as np
@@ -14,7 +14,6 @@ from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, take_model
-from ..engine.figures import column
 from ..engine.load import concerns_gas
 from ..errors import BalcliError, InputError, check_type
 from ..file.fields import Number, shorten
@@ -28,7 +27,7 @@ from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..shell.values import read_angle, read_share
 from ..show.result import Result
 from ..show.sheet import count_name
-from .deviations import THROW_MASS, Source, Tolerances, find_sources
+from .deviations import Source, Tolerances, find_sources
 from .quantities import (
     Evaluator,
     NamedEngine,
@@ -217,26 +216,13 @@ class Variants:
             for source, column in zip(self.sources, deviations.T, strict=True)
             for path, line in source.figures.items()
         }
-        of_file = {k: v for k, v in figures.items() if not k.startswith(THROW_MASS)}
-        shape = (len(deviations),)
         try:
-            engine = None
-            if self._evaluator.of_engine:
-                engine = self._weigh_throws(self._evaluator.build(of_file, 1), figures)
-            return np.stack(self._evaluator.evaluate(of_file, shape, engine), axis=1)
+            return np.stack(self._evaluator.evaluate(figures, (len(deviations),)), axis=1)
         except InputError as error:
             raise BalcliError(
                 f"some engines within these tolerances are impossible: "
                 f"{error.problems[0].message}; give smaller tolerances"
             ) from None
-
-    def _weigh_throws(self, engine: Engine, figures: dict[str, Array]) -> Engine:
-        """Return the engine with a separate mass for each throw, which the file cannot describe."""
-        nominal, c = self.model.crank.throw_mass, engine.cylinders
-        throws = [w.throw for w in engine.weighed]
-        changes = [figures.get(f"{THROW_MASS}{k + 1}", nominal) - nominal for k in throws]
-        shares = [change / throws.count(k) for change, k in zip(changes, throws, strict=True)]
-        return replace(engine, cylinders=replace(c, rotating=c.rotating + column(shares, 1)))
 
     def draw(
         self,

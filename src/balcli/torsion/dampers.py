@@ -155,7 +155,7 @@ def size_damper(
     place = bare.nodes.index(node)
     mode, order = _find_mode_to_damp(bare, speeds, place)
     own = own if own is not None and own.kind == asked.kind else None
-    radius = None if source.engine is None else float(source.engine.cylinders.radius)
+    radius = None if source.engine is None else float(source.engine.throw_radii_m[0])
     first = _propose(asked, own, bare, place, mode, order, radius)
     figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)

@@ -101,20 +101,20 @@ def select_cylinders(harmonics: Harmonics, which: Rows) -> Harmonics:
 def find_harmonics(
     orders: ArrayLike, lam: ArrayLike, wanted: Collection[str] = SERIES
 ) -> Harmonics:
-    """Return the Fourier series of centred slider-cranks; coefficients have shape (orders,
-    *lam.shape).
+    """Return Fourier series of centred slider-cranks, coefficients of shape (orders, *lam.shape).
 
     Args:
-        orders: Orders from 0 to about 4096, shape (orders,); coefficients of orders that are not
-            whole are 0.
-        lam: Crank radius over rod length, between 0 and 1, any shape.
-        wanted: Names of series: piston (A_n), rod (D_n, as -i D_n), kinetic (K_n), rod_kinetic
+        orders: shape (orders,), not negative, at most 4096 or so; orders that are not whole have
+            coefficients 0.
+        lam: crank radius over rod length, from 0 (harmonic motion) to 1, any shape.
+        wanted: names of series: piston (A_n), rod (D_n, as -i D_n), kinetic (K_n), rod_kinetic
             (lam^2 S_n).
     """
     lam = np.asarray(lam, float)
     n = np.asarray(orders, float).reshape(-1, *(1,) * lam.ndim)
     w = np.sqrt((1 - lam) * (1 + lam))
     x = lam / (1 + w)
+    by_x = np.where(x == 0, 1.0, x)  # harmonic motion has lam = 0, and no terms over x
     cosine = _expand_cosine(int(n.max(initial=0)) // 2 + 2, x)
 
     def take(step: int) -> Array:
@@ -126,11 +126,11 @@ def find_harmonics(
     square = np.where(n == 0, 1 / (1 + w), np.where(n % 2 == 0, even, 0.0))  # S_n
     found: dict[str, Array | Complex] = {"rod_kinetic": lam**2 * square}
     if "piston" in wanted:
-        found["piston"] = (n == 1) + n**2 * take(0) / x
+        found["piston"] = (n == 1) + n**2 * take(0) / by_x
     if "rod" in wanted:
         found["rod"] = -0.5j * n * lam * (1 + w) * ((n + 2) * take(1) - (n - 2) * take(-1))
     if "kinetic" in wanted:
-        odd = ((n + 1) * take(1) - (n - 1) * take(-1)) / x
+        odd = ((n + 1) * take(1) - (n - 1) * take(-1)) / by_x
         found["kinetic"] = odd + square - (n == 2)
     return {name: Series(c) for name, c in found.items() if name in wanted}
 

@@ -120,7 +120,7 @@ def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> ND
         eps: Offset / rod length, of that shape.
         highest: Highest order that is wanted.
     """
-    steep = np.minimum(np.asarray(lam) / (1 - np.abs(eps)), 1 - EPS)
+    steep = np.clip(np.asarray(lam) / (1 - np.abs(eps)), 1e-99, 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
     last = -1.2 * np.log(EPS) / decay  # highest order above rounding
     doublings = np.ceil(np.log2(np.maximum(last + np.minimum(highest, last), 16)))

@@ -22,9 +22,11 @@ draw(scene) {
   const r = scene.stroke / 2, bore = scene.bore, crown = 0.42 * bore, skirt = 0.33 * bore;
   const sense = scene.rotary ? -1 : 1;                    // in which a crank pin turns, seen from its cylinder
 
+  const radiusOf = (cylinder) => cylinder.radius ?? r;
+
   // Crank end of the rod and piston pin of a cylinder in its own frame [u along the axis, v ahead of it], mm.
   function drive(cylinder, theta) {
-    const psi = rad(theta + cylinder.phase);
+    const psi = rad(theta + cylinder.phase), r = radiusOf(cylinder);
     let lower = [r * Math.cos(psi), r * Math.sin(psi)];
     if (cylinder.master !== undefined) {                  // knuckle pin, turned from the master's frame into this one
       const master = scene.cylinders[cylinder.master], angle = rad(theta + master.phase), lead = rad(cylinder.lead);
@@ -35,7 +37,7 @@ draw(scene) {
       lower = [u * Math.cos(lead) + v * Math.sin(lead), v * Math.cos(lead) - u * Math.sin(lead)];
     }
     const beside = lower[1] - cylinder.offset;
-    const place = lower[0] + Math.sqrt(cylinder.rod ** 2 - beside ** 2);
+    const place = lower[0] + (cylinder.rod ? Math.sqrt(cylinder.rod ** 2 - beside ** 2) : 3 * r);    // else a yoke
     return {
       lower: [lower[0], sense * lower[1]],
       piston: [place, sense * cylinder.offset],
@@ -97,7 +99,7 @@ draw(scene) {
       .map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
     const webs = plain.map((c) => ({
       c,
-      web: element("path", { class: "web", d: web(r) }, crank),
+      web: element("path", { class: "web", d: web(radiusOf(c)) }, crank),
       pin: element("circle", { class: "pin", r: 0.2 * r }, crank),
     }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
@@ -114,7 +116,7 @@ draw(scene) {
         set(piston, { transform: `translate(${at[1]} ${-at[0]})` });
         set(pin, { cx: at[1], cy: -at[0] });
       }
-      const [up, right] = turned([r, 0], pinAngle(plain[0], theta));
+      const [up, right] = turned([radiusOf(plain[0]), 0], pinAngle(plain[0], theta));
       set(bigEnd, { cx: right, cy: -up });
       for (const { c, eye } of eyes) {
         const { lower, axis } = drive(c, theta), [x, y] = turned(lower, axis);
@@ -123,7 +125,7 @@ draw(scene) {
       for (const { c, web: shape, pin } of webs) {
         const angle = pinAngle(c, theta);
         set(shape, { transform: `rotate(${angle})` });
-        set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -r });
+        set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -radiusOf(c) });
       }
       drawDevices(devices, variant.devices, theta);
     };
@@ -187,7 +189,7 @@ draw(scene) {
     });
     for (const { c, text } of cylinders) text.textContent = c.number;
     return (theta) => {
-      const bend = (c) => -height(turned([r, 0], pinAngle(c, theta)));
+      const bend = (c) => -height(turned([radiusOf(c), 0], pinAngle(c, theta)));
       const bends = throws.map(({ c, from, to }) => `H ${from} V ${bend(c)} H ${to} V 0`);
       set(shaft, { d: `M ${near - bore * 0.6} 0 ${bends.join(" ")} H ${far + bore * 0.6}` });
       for (const { c, rod, piston, text } of cylinders) {
@@ -207,7 +209,8 @@ draw(scene) {
 
   // Crank pins along the shaft; neighbouring rods whose pins point the same way stand on one.
   function throwsOf() {
-    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01;
+    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01
+      && radiusOf(a) === radiusOf(b);
     for (const c of [...plain].sort((a, b) => a.z - b.z)) {
       const last = found.at(-1);
       if (last && same(last.c, c) && c.z - last.to < 0.5 * bore) last.to = c.z + throwWidth / 2;

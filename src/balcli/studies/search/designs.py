@@ -27,6 +27,7 @@ from ...engine.figures import ranked
 from ...engine.layout import TOLERANCE_DEG, cycle_deg, plan_cylinders
 from ...engine.load import vary_engine
 from ...engine.parse import parse, parse_dict
+from ...engine.parts import Parts
 from ...errors import BalcliError, InputError
 from ...file.edit import set_keys
 from ...file.model import EngineFile
@@ -85,9 +86,12 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
     numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
     last = max(cell.throw for cell in cells)
     other_end = {c.number: numbers.get((c.bank, last - c.throw), c.number) for c in cells}
+    strokes, masses = Parts(model).strokes, model.crank.throw_masses
+    alike = all(strokes[number] == strokes[other] for number, other in other_end.items())
+    alike = alike and masses == masses[::-1]
     seen: dict[tuple[float, ...], float] = {}
     for one in found:
-        images = list(_find_images(one.design, other_end))
+        images = list(_find_images(one.design, other_end if alike else {}))
         known = [seen[image] for image in images if image in seen]
         if not any(abs(value - one.objective) <= SAME * abs(one.objective) for value in known):
             yield one
@@ -95,17 +99,22 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
 
 
 def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
-    """Yield a firing order or throws, and their mirror images: seen from the other end, in the
-    other sense of rotation, and both.
+    """Yield a firing order or throws, their mirror images from the other end and in the other
+    sense of rotation, and both.
+
+    Args:
+        design: Arrangement.
+        other_end: Cylinder in the place of each, seen from the other end; empty where strokes or
+            masses of the throws differ from there.
     """
     if (order := design.get("firing_order")) is not None:
-        for row in (order, [other_end[number] for number in order]):
-            start = row.index(1)
+        for row in (order, [other_end.get(number, number) for number in order]):
+            start = row.index(min(row))
             turned = row[start:] + row[:start]
             yield tuple(turned)
-            yield (1, *reversed(turned[1:]))
+            yield (turned[0], *reversed(turned[1:]))
     elif (throws := design.get("throws")) is not None:
-        for angles in (throws, throws[::-1]):
+        for angles in (throws, throws[::-1] if other_end else throws):
             for sign in (1, -1):
                 from_first = ((sign * (angle - angles[0])) % 360.0 for angle in angles)
                 yield tuple(round(angle, 6) % 360.0 for angle in from_first)
@@ -354,8 +363,10 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     c = engine.cylinders
     # shift of top dead centre of plain slider-cranks; see `Pins.tops_deg` for articulated rods
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)
-    tops = tops - tops[engine.numbers.index(1)]
+    own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 is a dummy
+    firing = [row for row, n in enumerate(engine.numbers) if n not in own or own[n].gas != 0]
+    tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)[firing]
+    tops = tops - tops[0]
     count = len(tops)
     ready = np.sort(np.mod(tops + TOLERANCE_DEG, TURN), axis=0) - TOLERANCE_DEG
     slots = np.sort(np.mod(cycle_deg(model.layout) * np.arange(count) / count, TURN))

@@ -30,14 +30,14 @@ from .throws import count_from
 
 @dataclass(frozen=True)
 class Slots:
-    """The firings of one cycle. More than MOST_CYLINDERS_FIRED cylinders raise BalcliError.
+    """The firings of one cycle; BalcliError for too many cylinders to look for their orders.
 
     Attributes:
-        cells: Cylinders.
-        top: Angle of each cylinder's pin at its top dead centre, minus the pin's lead over its
-            throw, deg, by cylinder number.
-        cycle: Length of a cycle, deg.
-        sense: -1 for a rotary engine, whose cylinders turn about resting pins; otherwise 1.
+        cells: the cylinders that fire.
+        top: angle of each cylinder's pin at its top dead centre, less its lead over its throw, deg,
+        by number.
+        cycle: length of a cycle, deg.
+        sense: -1 where the cylinders turn and the pins stand still.
     """
 
     cells: tuple[Cell, ...]
@@ -52,6 +52,11 @@ class Slots:
                 f"{MOST_CYLINDERS_FIRED} cylinders are searched"
             )
 
+    @property
+    def first(self) -> int:
+        """Cylinder with which firing orders begin: the lowest, 1 unless that is a dummy."""
+        return min(cell.number for cell in self.cells)
+
     def find_cranks(self) -> list[tuple[float, ...]]:
         """Return the throw angles of every crank that allows an even firing order; cylinder 1's
         throw is at 0.
@@ -59,7 +64,7 @@ class Slots:
         Raises:
             BalcliError: there are more than MOST_EVEN_CRANKS cranks.
         """
-        first = next(c.throw for c in self.cells if c.number == 1)
+        first = next(c.throw for c in self.cells if c.number == self.first)
         throws = [first, *({c.throw for c in self.cells} - {first})]
         every = self._place_throws({}, throws, Counter(self._slots))
         found = list(islice(every, MOST_EVEN_CRANKS + 1))
@@ -80,7 +85,7 @@ class Slots:
             yield tuple(throws[t] for t in sorted(throws))
             return
         cells = [c for c in self.cells if c.throw == free[0]]
-        lead = self.top[cells[0].number] - self.top[1]
+        lead = self.top[cells[0].number] - self.top[self.first]
         turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
         angles = [(lead - turn) % 360.0 for turn in turns]
         for angle in angles if throws else [0.0]:
@@ -89,10 +94,10 @@ class Slots:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
-        """Yield all even firing orders of a crank that begin with cylinder 1. Cylinders of a group
-        take their slots in any sequence.
+        """Yield all even firing orders of a crank that begin with `first`: cylinders that are
+        ready together take their slots in any sequence.
         """
-        start = throws[next(c.throw for c in self.cells if c.number == 1)]
+        start = throws[next(c.throw for c in self.cells if c.number == self.first)]
         ready: dict[int, list[int]] = {slot: [] for slot in self._slots}
         for cell in self.cells:
             ready.setdefault(self._find_slot(cell, throws[cell.throw] - start), []).append(
@@ -102,7 +107,7 @@ class Slots:
             for chosen in product(*map(permutations, ready.values())):
                 turns = dict(zip(ready, map(iter, chosen), strict=True))
                 order = tuple(next(turns[slot]) for slot in self._slots)
-                if order[0] == 1:
+                if order[0] == self.first:
                     yield order
 
     @cached_property
@@ -118,7 +123,7 @@ class Slots:
         firing.
         """
         grain = 180.0 / len(self.cells)
-        ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
+        ready = self.sense * (self.top[cell.number] - self.top[self.first] - throw)
         nearest = round(ready / grain)
         slot = nearest % (2 * len(self.cells))
         fires = abs(ready - nearest * grain) <= TOLERANCE_DEG and slot in self._slots
@@ -144,7 +149,9 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
         for cell in layout.cells
     }
     sense = -1 if model.layout.rotary else 1
-    slots = Slots(layout.cells, at_throw, cycle_deg(model.layout), sense)
+    order = model.layout.firing_order or layout.numbers  # without dummies
+    firing = tuple(cell for cell in layout.cells if cell.number in order)
+    slots = Slots(firing, at_throw, cycle_deg(model.layout), sense)
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         raise BalcliError(_tell_that_none_is_even(model))

@@ -112,7 +112,7 @@ def give_throws(model: EngineFile) -> EngineFile:
             "cylinders with throws of their own take no part in an arrangement of crank.throws: "
             "give crank.throws and splay alone"
         )
-    if model.crank.throws is None and model.layout.firing_order:
+    if model.crank.throws is None:
         found = assemble(model).pins.throws_deg
         model = model.with_table("crank", throws=[float(found[t]) for t in range(len(found))])
     if len(model.crank.throws or ()) < 2:
