@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -501,7 +501,8 @@ class Parts:
         if table is None or table.knuckle_angles is None:
             return None
         banks, throws = self.plan.banks, self.plan.throws
-        found = [self.figures.take_each(path, table.knuckle_angles)] * throws  # type: ignore[arg-type]
+        every = cast(tuple[float, ...], table.knuckle_angles)
+        found = [self.figures.take_each(path, every)] * throws
         if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
             found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
         wrong = ""
