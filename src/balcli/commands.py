@@ -39,8 +39,9 @@ def new(
         str,
         typer.Argument(
             metavar="KIND",
-            help="single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its mounts; "
-            "field: runs of a rotor on a machine; torsion: a chain of inertias and shafts.",
+            help="single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its "
+            "mounts; locomotive: balance of its wheels; field: runs of a rotor on a machine; "
+            "torsion: a chain of inertias and shafts.",
             show_default=False,
         ),
     ],

@@ -441,5 +441,6 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 def _list_entries(device: DeviceTable) -> Node:
     """Return keys and values of a device as TOML has them."""
-    values = {key: getattr(device, key) for key in FIELDS[type(device)]}
-    return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}
+    given = [(key, getattr(device, key)) for key in FIELDS[type(device)]]
+    values = ((key, value) for key, value in given if value is not None)
+    return {key: [*value] if isinstance(value, tuple) else value for key, value in values}

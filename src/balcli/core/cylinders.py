@@ -143,6 +143,7 @@ class Device(NamedTuple):
         place: Position x + iy of its axis, m.
         z: Position along the crank, m.
         kind: Kind of the device.
+        axle: Axle of a locomotive that carries it; empty: the driving axle.
     """
 
     order: int
@@ -151,6 +152,7 @@ class Device(NamedTuple):
     place: complex | Complex
     z: Figure
     kind: DeviceKind = DeviceKind.OTHER
+    axle: str = ""
 
 
 _STEPS = 720

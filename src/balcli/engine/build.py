@@ -97,7 +97,7 @@ def build(
         ripple=parts.find_ripple(),
         reference_m=places.reference,
         up_deg=model.frame.up,
-        devices=tuple(build_devices(model, figures, parts.pins.axes_deg[1])),
+        devices=tuple(build_devices(parts)),
         weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
@@ -138,7 +138,12 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
 
 # ------------------------------------------------------------------ rules between the stages
 # Tables needed to find contradictions between tables.
-_NEEDED = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"})
+_NEEDED = frozenset(
+    {
+        *("crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"),
+        *("locomotive", "axle", "counterweight"),
+    }
+)
 
 
 def list_contradictions(draft: Draft) -> list[Problem]:
@@ -341,6 +346,15 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         yield Problem("cylinder", told)
 
 
+def check_locomotive(parts: Parts) -> Iterator[Problem]:
+    """Check that cranks and counterweights of a locomotive stand on its axles."""
+    model = parts.model
+    if model.locomotive is not None:
+        yield from model.locomotive.find_faults(model, parts.plan.numbers)
+    elif model.axle or any(weight.axle for weight in model.counterweight):
+        yield Problem.of_missing("locomotive", "axles belong to one; write [locomotive]")
+
+
 def check_gas(parts: Parts) -> Iterator[Problem]:
     """Build the gas in every cylinder; check that keys of single cylinders have [gas] to refer to.
 
@@ -367,5 +381,5 @@ RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     (check_knuckles,),  # pins
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
-    (check_gas,),
+    (check_gas, check_locomotive),
 )

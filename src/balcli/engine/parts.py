@@ -265,6 +265,7 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
     gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.find_radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
+    one = one and not isinstance(parts.model.crank.throw_mass, tuple)
 
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of piston and rod, one row for all where they are equal."""

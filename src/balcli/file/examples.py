@@ -126,8 +126,11 @@ def _read(path: Path) -> Example:
 
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
-KINDS = (*ENGINE_KINDS, "field", "torsion")
-OTHER_WORDS = dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14")
+KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
+OTHER_WORDS = {
+    **dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14"),
+    **dict.fromkeys(("steam", "hammer-blow", "coupled-wheels", "side-rods"), "locomotive"),
+}
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# Editors that know TOML check and complete what you type, with that file here: "
@@ -144,14 +147,18 @@ def template(kind: str) -> str:
     """
     if kind not in KINDS:
         near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
-        like = [] if kind.lower() in OTHER_WORDS else [name for name in names() if kind.lower() in name]
+        like = (
+            []
+            if kind.lower() in OTHER_WORDS
+            else [name for name in names() if kind.lower() in name]
+        )
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
         raise BalcliError(f'"{kind[:60]}" is no kind of file; there are {", ".join(KINDS)}.{hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
-    return _read_template(kind)
+    return SCHEMA * (kind == "locomotive") + _read_template(kind)
 
 
 def _read_template(name: str) -> str:

@@ -34,6 +34,7 @@ from .table import (
     Lengths,
     Mass,
     Masses,
+    Name,
     Numbers,
     NumbersOfBanks,
     Period,
@@ -53,6 +54,7 @@ from .table import (
 
 if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
+    from .locomotive_tables import Axle, Locomotive
     from .mount_tables import Body, Mount, Point
     from .torsion_tables import Torsion
 
@@ -382,6 +384,8 @@ class Counterweight(Device):
 
     angle: Angle = 0.0
     """At crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    axle: Name | None = None
+    """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
 
 
 class Shaft(Device):
@@ -440,6 +444,7 @@ class EngineFile(FileTable):
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
     torsion: "Torsion | None" = None
+    locomotive: "Locomotive | None" = None
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
     """What differs in single cylinders, by their numbers."""
     counterweight: tuple[Counterweight, ...] = ()
@@ -453,6 +458,8 @@ class EngineFile(FileTable):
     """What the body stands on."""
     point: "tuple[Point, ...]" = ()
     """Points whose motion is wanted."""
+    axle: "tuple[Axle, ...]" = ()
+    """Coupled axles of a locomotive."""
 
     _folder: Path = PrivateAttr(Path())
 

@@ -259,6 +259,8 @@ def check_tables(
     read = {key: part for key, part in parts.items() if key not in broken}
     model = EngineFile.model_construct(set(read), **read)
     model._folder = folder
+    if model.locomotive is not None:
+        model = model.locomotive.settle_speed(model)
     return Draft(model, frozenset(KNOWN) - broken, tuple(reader.problems))
 
 

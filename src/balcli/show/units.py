@@ -52,6 +52,7 @@ class System(NamedTuple):
     power: ShownUnit
     inertia: ShownUnit
     heat: ShownUnit
+    velocity: ShownUnit
 
     @property
     def torsional_stiffness(self) -> ShownUnit:
@@ -88,6 +89,7 @@ SI = System(
     power=ShownUnit("W", 1, ShownUnit("kW", 1e3), 0),
     inertia=ShownUnit("kg·m²", 1),
     heat=ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000),
+    velocity=ShownUnit("km/h", 1 / 3.6),
 )
 _LBF_FT = units.POUND_FORCE * 12 * INCH
 _PSI = ShownUnit("psi", units.POUND_FORCE / INCH**2)
@@ -105,6 +107,7 @@ IMPERIAL = System(
     power=_HP,
     inertia=ShownUnit("lb·in²", POUND * INCH**2),
     heat=_HP,
+    velocity=ShownUnit("mph", 5280 * 12 * INCH / 3600),
 )
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 

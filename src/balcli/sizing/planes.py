@@ -129,7 +129,7 @@ DeviceTable: TypeAlias = Counterweight | Shaft | Slider
 
 # what describes a new device of each kind: the kinds and their fields in the order of the file
 FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
-    Counterweight: ("unbalance", "angle", "position"),
+    Counterweight: ("unbalance", "angle", "position", "axle"),
     Shaft: ("ratio", "unbalance", "angle", "at", "position"),
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }
