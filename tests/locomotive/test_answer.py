@@ -290,5 +290,5 @@ def test_what_the_command_refuses_and_doubts(tmp_path):
 
 def test_examples_of_books():
     """The blows of their answers; sources are in the files."""
-    found = analyze_locomotive(load(ENGINES / "historic" / "locomotive_inside.toml"))
+    found = analyze_locomotive(load(ENGINES / "historic" / "locomotive2.toml"))
     assert found.wheels[0].hammer_blow_N == pytest.approx(22_565, abs=0.5)

@@ -350,7 +350,9 @@ def check_locomotive(parts: Parts) -> Iterator[Problem]:
     """Check that cranks and counterweights of a locomotive stand on its axles."""
     model = parts.model
     if model.locomotive is not None:
-        yield from model.locomotive.find_faults(model, parts.plan.numbers)
+        weights = [weight.axle for weight in model.counterweight]
+        rpm = model.operation.speed if model.operation.has("speed") else None
+        yield from model.locomotive.find_faults(model.axle, parts.plan.numbers, weights, rpm)
     elif model.axle or any(weight.axle for weight in model.counterweight):
         yield Problem.of_missing("locomotive", "axles belong to one; write [locomotive]")
 

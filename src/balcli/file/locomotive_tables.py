@@ -7,17 +7,15 @@ They are imported for files that have them (`names.CHAPTERS`).
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import Annotated
 
-import numpy as np
 from pydantic import AfterValidator, Field
 
 from ..core.records import Node
 from ..errors import InputError, Problem
 from .fields import Number, OneOrEach, join_words, shorten
-from .model import EngineFile
 from .table import Angle, Distance, FileTable, Length, Name, Numbers, Size, Switch
 from .units import (
     FORCE,
@@ -40,7 +38,7 @@ class _Factor(Number):
         return super()._measure(number)
 
     def json(self) -> Node:
-        return super().json() | {"type": ["number", "string"]}
+        return {"anyOf": [super().json(), {"type": "string"}]}
 
 
 class _Load(Number):
@@ -116,34 +114,35 @@ class Locomotive(FileTable):
         """Return the speed on the track at a crank speed; None without a wheel diameter."""
         return self.wheel_diameter and rpm * 60e-6 * math.pi * self.wheel_diameter
 
-    def settle_speed(self, model: EngineFile) -> EngineFile:
-        """Return the file with its speed on the track as `operation.speed`; as it is where that
-        cannot be.
-        """
-        if self.speed is None or self.wheel_diameter is None or model.operation.has("speed"):
-            return model
-        without = model.with_table("locomotive", speed=None)
-        return without.with_table("operation", speed=self.find_rpm(self.speed))
+    def list_axles(self, given: tuple[Axle, ...]) -> tuple[Axle, ...]:
+        """Return the coupled axles of the locomotive, front to rear: those of the file, or one."""
+        return given or (Axle.model_construct(name="driving", driving=True),)
 
-    def find_faults(self, model: EngineFile, numbers: Collection[int]) -> Iterator[Problem]:
+    def find_faults(
+        self,
+        given: tuple[Axle, ...],
+        numbers: Collection[int],
+        weights: Iterable[str | None],
+        rpm: float | None,
+    ) -> Iterator[Problem]:
         """Yield contradictions between this table, [[axle]] and the rest of the file.
 
         Args:
-            model: Engine file of this table.
+            given: Axles of the file.
             numbers: Numbers of its cylinders.
+            weights: Axle of each counterweight; None: it names none.
+            rpm: Crank speed that the file gives; None: none.
         """
-        axles, speed = list_axles(model), model.operation.speed
-        if self.speed is not None and model.operation.has("speed"):
-            told = f"operation.speed gives {speed:g} rpm as well; keep one"
-            yield Problem("locomotive.speed", told)
-        elif self.speed is not None:
-            yield NO_DIAMETER
-        if any(np.any(axle.coupling_mass) for axle in axles):
+        axles = self.list_axles(given)
+        if self.speed is not None:
+            told = f"operation.speed gives {rpm:g} rpm as well; keep one"
+            yield NO_DIAMETER if rpm is None else Problem("locomotive.speed", told)
+        if any(axle.coupling_mass not in (0, (0, 0)) for axle in axles):
             needed = {"coupling_angles": "angles of its pins", "coupling_planes": "z of the rods"}
             for key in (key for key in needed if getattr(self, key) is None):
                 told = f"coupling_mass needs the {needed[key]}"
                 yield Problem.of_missing(f"locomotive.{key}", told)
-        yield from _check_axles(axles) or _check_load(model, axles, numbers)
+        yield from _check_axles(axles) or _check_load(axles, numbers, weights)
 
 
 class Axle(FileTable):
@@ -170,11 +169,6 @@ class Axle(FileTable):
         return self.driving or self.cylinders is not None
 
 
-def list_axles(model: EngineFile) -> tuple[Axle, ...]:
-    """Return the coupled axles of a locomotive, front to rear."""
-    return model.axle or (Axle.model_construct(name="driving", driving=True),)
-
-
 def _check_axles(axles: Sequence[Axle]) -> list[Problem]:
     """Return the mistakes of the axles by themselves: one is driving, and each has its own name."""
     problems = []
@@ -196,7 +190,7 @@ def _check_axles(axles: Sequence[Axle]) -> list[Problem]:
 
 
 def _check_load(
-    model: EngineFile, axles: Sequence[Axle], numbers: Collection[int]
+    axles: Sequence[Axle], numbers: Collection[int], weights: Iterable[str | None]
 ) -> Iterator[Problem]:
     """Check that each cylinder and each counterweight stands on one axle."""
     place: dict[int, str] = {}
@@ -212,10 +206,10 @@ def _check_load(
     if left := [str(number) for number in numbers if number not in place]:
         yield Problem("axle.cylinders", f"no axle carries cylinder {join_words(left)}")
     names = [axle.name for axle in axles]
-    for k, weight in enumerate(model.counterweight, 1):
-        if weight.axle is None and len(cranked) > 1:
+    for k, weight in enumerate(weights, 1):
+        if weight is None and len(cranked) > 1:
             told = f"several axles have cranks; name one of {join_words(names)}"
             yield Problem.of_missing(f"counterweight.{k}.axle", told)
-        elif weight.axle not in (None, *names):
-            told = f'there is no axle "{weight.axle}"; there are {join_words(names)}'
+        elif weight not in (None, *names):
+            told = f'there is no axle "{weight}"; there are {join_words(names)}'
             yield Problem(f"counterweight.{k}.axle", told)

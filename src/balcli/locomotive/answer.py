@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal, NamedTuple, cast
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,7 +32,7 @@ from ..core.records import HIDDEN, INLINE, Polar, angle_deg
 from ..engine.engine import Engine, check_engine, take_model
 from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, Problem
 from ..file.fields import Number
-from ..file.locomotive_tables import FACTOR, Axle, Locomotive, list_axles
+from ..file.locomotive_tables import FACTOR, Axle, Locomotive
 from ..file.model import Counterweight, EngineFile
 from ..file.units import FORCE, SPEED, VELOCITY, convert
 from ..forces.spectrum import compute_spectra, find_relevant_orders
@@ -227,14 +227,17 @@ def analyze_locomotive_of_engine(
         TypeError: `engine` is not an Engine.
 
     Example:
-        >>> analyze_locomotive(load("locomotive.toml"), 2 / 3).axles[0].wheels[0].hammer_blow_N
+        >>> analyze_locomotive(load_example("locomotive2"), 2 / 3).axles[0].wheels[0].hammer_blow_N
     """
     model = take_model(check_engine("analyze_locomotive", engine))
-    table, axles = _take_table(engine, model, speed_given=speed is not None), list_axles(model)
+    table = _take_table(engine, model, speed_given=speed is not None)
+    axles = table.list_axles(model.axle)
     rpm = float(engine.speed_rpm) if speed is None else _read_speed(table, speed)
     engine = replace(engine, speed_rpm=rpm, ripple=())
     square = float(engine.omega) ** 2
     unbalances = find_unbalances(engine, axles, np.array(table.planes) / 1e3)
+    if hammer_blow is not None and factor is not None:
+        raise BalcliError("--hammer-blow gives the factor; leave --factor out")
     if hammer_blow is not None:
         limit = _read(Number(FORCE, above=0), "--hammer-blow", hammer_blow) / square
         largest = float(np.abs(unbalances.reciprocating).max())
@@ -244,7 +247,8 @@ def analyze_locomotive_of_engine(
     left = unbalances.revolving if c is None else -c * unbalances.reciprocating
     left = unbalances.drop_noise(left)
     added = unbalances.drop_noise(left - unbalances.revolving)
-    weights = list(_list_weights(model, added))
+    names = [axle.name if model.axle else None for axle in axles]
+    weights = _list_weights(table, names, added)
     share = f" and {c:.4g} of what reciprocates" if c else ""
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
     fitted = fit_devices(engine, remedy)
@@ -335,11 +339,17 @@ def _list_wheels(
         )
 
 
-def _list_weights(model: EngineFile, added: Complex) -> Iterator[Counterweight]:
-    """Yield balance masses of these unbalances (kg m) as tables of the engine file."""
-    table = cast(Locomotive, model.locomotive)
-    for axle, row in zip(list_axles(model), added.tolist(), strict=True):
-        name = axle.name if model.axle else None
+def _list_weights(
+    table: Locomotive, names: Sequence[str | None], added: Complex
+) -> Iterator[Counterweight]:
+    """Yield balance masses of these unbalances (kg m) as tables of the engine file.
+
+    Args:
+        table: [locomotive] of the file.
+        names: Names of the axles in the file; None: it has no [[axle]].
+        added: Unbalances, shape (axles, 2).
+    """
+    for name, row in zip(names, added.tolist(), strict=True):
         for z, new in zip(table.planes, row, strict=True):
             size, angle = abs(new) * 1e6, angle_deg(new)
             if size:

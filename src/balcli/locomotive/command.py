@@ -51,15 +51,13 @@ def locomotive(
 
     \b
     Examples:
-      balcli locomotive inside_cylinders.toml --factor 0:100%:20%
-      balcli locomotive inside_cylinders.toml --hammer-blow "15 kN" --speed "60 mph"
+      balcli locomotive locomotive2.toml --factor 0:100%:20%
+      balcli locomotive locomotive2.toml --hammer-blow "15 kN" --speed "60 mph"
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
     factors = (None,) if factor is None else parse_factors(factor)
-    if hammer_blow is not None and factor is not None:
-        raise BalcliError("--hammer-blow gives the factor; leave --factor out")
     if len(factors) > 1 and write is not None:
         raise BalcliError(f'--write takes one factor, not --factor "{factor}"')
     from . import answer, show as pages
