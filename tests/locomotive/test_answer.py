@@ -154,6 +154,9 @@ def test_revolving_parts_are_balanced_and_the_rest_is_the_hammer_blow():
     """Force across and moment about x, about a plane of the wheels, of the engine with all balance masses."""
     parts = coupled() | {"frame": {"reference": [0, 0, -750]}}
     found = analyze_locomotive(engine(**parts))
+    one_axle = analyze_locomotive(engine(**INSIDE)).rails[0].hammer_blow_N
+    shares = [axle.wheels[0].hammer_blow_N / one_axle for axle in found.axles]
+    assert shares == pytest.approx([0.2, 0.4, 0.4], rel=1e-12)
     weights = [weight.model_dump(exclude_none=True) for weight in found.remedy.devices]
     fitted = engine(**parts | {"counterweight": COUPLED["counterweight"] + weights})
     across = compute_spectra(fitted, [1])

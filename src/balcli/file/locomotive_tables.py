@@ -142,7 +142,7 @@ class Locomotive(FileTable):
             for key in (key for key in needed if getattr(self, key) is None):
                 told = f"coupling_mass needs the {needed[key]}"
                 yield Problem.of_missing(f"locomotive.{key}", told)
-        yield from _check_axles(axles) or _check_load(axles, numbers, weights)
+        yield from list(_check_axles(axles)) or _check_load(axles, numbers, weights)
 
 
 class Axle(FileTable):
@@ -169,24 +169,22 @@ class Axle(FileTable):
         return self.driving or self.cylinders is not None
 
 
-def _check_axles(axles: Sequence[Axle]) -> list[Problem]:
-    """Return the mistakes of the axles by themselves: one is driving, and each has its own name."""
-    problems = []
+def _check_axles(axles: Sequence[Axle]) -> Iterator[Problem]:
+    """Check the axles by themselves: one is driving, and each has its own name."""
+    names = [axle.name for axle in axles]
     driving = [k for k, axle in enumerate(axles, 1) if axle.driving]
     if not any(axle.has_cranks for axle in axles):
         told = "no axle is driving; write driving = true for the one with the cranks"
-        problems.append(Problem("axle.driving", told))
+        yield Problem("axle.driving", told)
     for k in driving[1:]:
-        told = f'"{axles[driving[0] - 1].name}" is driving as well; mark one axle'
-        problems.append(Problem(f"axle.{k}.driving", told))
-    names = [axle.name for axle in axles]
+        told = f'"{names[driving[0] - 1]}" is driving as well; mark one axle'
+        yield Problem(f"axle.{k}.driving", told)
     for k, name in enumerate(names, 1):
         if (first := names.index(name) + 1) < k:
             told = f'"{name}" is the name of axle.{first} as well; give another'
-            problems.append(Problem(f"axle.{k}.name", told))
+            yield Problem(f"axle.{k}.name", told)
     if not any(axle.part for axle in axles):
-        problems.append(Problem("axle.1.part", "0 for every axle; give one of them a part above 0"))
-    return problems
+        yield Problem("axle.1.part", "0 for every axle; give one of them a part above 0")
 
 
 def _check_load(

@@ -23,7 +23,6 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..core.cylinders import DeviceKind
 from ..core.peaks import find_longest
@@ -189,7 +188,8 @@ def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> U
     revolving = np.array([*(c.rotating * pins), *turned])
     on_axle = np.array([*(place[n] for n in engine.numbers), *(names[d.axle] for d in weights)])
     reciprocating = c.reciprocating * pins / unit(c.axis_of_each_deg)
-    levers = _find_levers([*c.z, *(d.z for d in weights)], planes_m)
+    share = (np.array([*c.z, *(d.z for d in weights)]) - planes_m[0]) / np.ptp(planes_m)
+    levers = np.stack([1 - share, share], axis=1)
     parts = np.array([axle.part for axle in axles])
     each = (on_axle == np.arange(len(axles))[:, None]) * revolving
     return Unbalances(
@@ -197,12 +197,6 @@ def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> U
         np.outer(parts / parts.sum(), reciprocating @ levers[: c.count]),
         float(np.abs(revolving) @ np.abs(levers).sum(axis=1) + np.abs(reciprocating).sum()),
     )
-
-
-def _find_levers(z_m: ArrayLike, planes_m: Array) -> Array:
-    """Return the share of unbalances at these z in each of two planes, shape (unbalances, 2)."""
-    share = (np.asarray(z_m, float) - planes_m[0]) / (planes_m[1] - planes_m[0])
-    return np.stack([1 - share, share], axis=1)
 
 
 def analyze_locomotive_of_engine(
@@ -253,9 +247,7 @@ def analyze_locomotive_of_engine(
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
     fitted = fit_devices(engine, remedy)
     found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
-    assert found.force is not None
-    assert found.moment is not None
-    along, about_y = found.force.x, found.moment.y
+    along, about_y = found["force"].x, found["moment"].y
 
     def blow(some: Complex) -> float:
         """Return the hammer blow of several wheels together, N."""
@@ -266,9 +258,7 @@ def analyze_locomotive_of_engine(
         speed_km_h=table.find_km_h(rpm),
         factor=c,
         axles=tuple(
-            AxleLoads(
-                a.name, a.has_cranks, blow(rest), tuple(_list_wheels(table, a, new, rest, engine))
-            )
+            AxleLoads(a.name, a.has_cranks, blow(rest), _list_wheels(engine, table, a, new, rest))
             for a, new, rest in zip(axles, added, left, strict=True)
         ),
         rails=tuple(RailLoad(blow(side)) for side in left.T),
@@ -296,8 +286,8 @@ def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Loco
         Problem("crank.spacing", MOMENTS_UNKNOWN): not engine.places_known,
         Problem("layout", NO_CRANKS): engine.cylinders.linkage is not None,
     }
-    if any(problems.values()):
-        raise InputError(problem for problem, there in problems.items() if there)
+    if found := [problem for problem, there in problems.items() if there]:
+        raise InputError(found)
     return table
 
 
@@ -319,15 +309,15 @@ def _read_speed(table: Locomotive, speed: float | str) -> float:
 
 
 def _list_wheels(
-    table: Locomotive, axle: Axle, added: Complex, left: Complex, engine: Engine
-) -> Iterator[WheelLoads]:
-    """Yield both wheels of an axle; unbalances of balance mass and remainder in kg m."""
+    engine: Engine, table: Locomotive, axle: Axle, added: Complex, left: Complex
+) -> tuple[WheelLoads, ...]:
+    """Return both wheels of an axle; unbalances of balance mass and remainder in kg m."""
     load = table.wheel_load if axle.wheel_load is None else axle.wheel_load
-    rpm, square = float(engine.speed_rpm), float(engine.omega) ** 2
+    rpm, square, wheels = float(engine.speed_rpm), float(engine.omega) ** 2, []
     for z, new, rest in zip(table.planes, added.tolist(), left.tolist(), strict=True):
         blow = abs(rest) * square
         lift = rpm * math.sqrt(load / blow) if load is not None and blow else None
-        yield WheelLoads(
+        wheel = WheelLoads(
             plane_mm=z,
             unbalance=new,
             mass_kg=None if table.radius is None else abs(new) / table.radius * 1e3,
@@ -337,6 +327,8 @@ def _list_wheels(
             lift_rpm=lift,
             lift_km_h=None if lift is None else table.find_km_h(lift),
         )
+        wheels.append(wheel)
+    return tuple(wheels)
 
 
 def _list_weights(

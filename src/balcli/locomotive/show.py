@@ -64,15 +64,15 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
     force, moment = system.force, system.moment
     variation = _tell_amplitude(result.tractive_variation_N, force)
     swaying = _tell_amplitude(result.swaying_couple_Nm, moment)
-    peaks = (result.tractive_variation_peak_N, force), (result.swaying_couple_peak_Nm, moment)
-    tractive_peak, swaying_peak = (f"all orders up to {size_text(*peak)}" for peak in peaks)
+    tractive_peak = size_text(result.tractive_variation_peak_N, force)
+    swaying_peak = size_text(result.swaying_couple_peak_Nm, moment)
     blows = [size_text(rail.hammer_blow_N, force) for rail in result.rails]
     pairs = (
         ("balance factor", UNKNOWN if result.factor is None else given(result.factor, 4)),
         ("hammer blow per rail", " and ".join(blows)),
         ("of the engine", size_text(result.hammer_blow_N, force)),
-        ("tractive effort", f"order 1 {variation}, {tractive_peak}"),
-        ("swaying couple", f"order 1 {swaying}, {swaying_peak}"),
+        ("tractive effort", f"order 1 {variation}, all orders up to {tractive_peak}"),
+        ("swaying couple", f"order 1 {swaying}, all orders up to {swaying_peak}"),
     )
     blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), force)
     speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
