@@ -12,9 +12,7 @@ from __future__ import annotations
 from .names import PUBLIC, import_name
 from .version import __version__
 
-TYPE_CHECKING = (
-    False  # typing takes longer than all else here, and until then Ctrl-C is a traceback
-)
+TYPE_CHECKING = False  # importing typing is slow, and Ctrl-C shows a traceback meanwhile
 if TYPE_CHECKING:
     from .analysis.answer import Analysis, analyze
     from .analysis.comparison import Comparison, compare
@@ -88,10 +86,10 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # which would else believe in any name
+if not TYPE_CHECKING:  # a type checker would accept any name
 
     def __getattr__(name: str) -> object:
-        """Public names of the library, each imported when it is first used."""
+        """Return a public name of the library; its module is imported at the first use."""
         if name not in PUBLIC:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return import_name(f"{PUBLIC[name]}:{name}")

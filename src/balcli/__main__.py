@@ -14,7 +14,7 @@ def main() -> NoReturn:
     """Run the command line; an unexpected error becomes one sentence and exit status 70."""
     exit_on_signals()
     for name, mode in (("stdin", "w"), ("stdout", "r"), ("stderr", "w")):
-        if getattr(sys, name) is None:  # closed by the caller (`>&-`): its use shall be an OSError
+        if getattr(sys, name) is None:  # closed by the caller (`>&-`): using it raises OSError
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
     status: int = Exit.DONE
@@ -34,10 +34,10 @@ def main() -> NoReturn:
 
 
 def _flush_streams(status: int) -> int:
-    """Flush all output, and return the exit status: 2 if a result cannot be written.
+    """Flush all output and return the exit status, which is 2 if a result cannot be written.
 
-    A stream that fails is replaced by the null device, or the interpreter's own flush at the end
-    would fail as well.
+    A stream that fails is replaced by the null device; otherwise the interpreter's own flush at the
+    end would fail as well.
     """
     for stream in (sys.stderr, sys.stdout):
         try:
@@ -51,8 +51,8 @@ def _flush_streams(status: int) -> int:
 
 
 def _report_fault(error: Exception) -> None:
-    """Print an error that only balcli itself can have caused; with BALCLI_TRACEBACK its traceback
-    as well.
+    """Print an error that only a fault of balcli can have caused. If BALCLI_TRACEBACK is set, print
+    its traceback as well.
     """
     if sys.flags.dev_mode or os.environ.get("BALCLI_TRACEBACK"):
         import traceback

@@ -1,10 +1,10 @@
-"""Run time against error of every method that finds the same figures, on this machine.
+"""Benchmark: run time and error, on this machine, of several methods for the same figures.
 
-The methods: the two-term formula, the series that books print, the closed form, the FFT of samples,
-and differences of the piston's position (time stepping). Each is written as one would write it with
-numpy alone; the closed form is balcli itself. Errors are relative to exact fractions.
+The methods are the two-term formula, the series that books print, the closed form (balcli itself),
+the FFT of samples, and differences of the piston's position (time stepping). All but the closed
+form are plain numpy. Errors are relative to results in exact fractions.
 
-Results of the benchmark: table, JSON, CSV, and run time against error as a picture.
+The result is shown as a table, JSON, CSV, or a picture of run time against error.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 ORDERS = [1, 2, 4, 6, 8]
 SWEPT_ORDERS = [1, 2]
-POWERS = (3, 5, 7)  # of lambda, up to which books print the series
+POWERS = (3, 5, 7)  # highest powers of lambda in the series that books print
 POINTS = (8, 16, 32, 64)
 STEPS = (64, 360, 720, 3600)
 EXACT_POWER = 81  # lambda^81 is below 1e-40 at lambda = 0.3
@@ -85,7 +85,7 @@ def main(number: float = 1.0) -> None:
 typer.run(main)
 """
 _PAIRS = 9
-_SHORTEST = 1e-7  # s; no run is taken as quicker
+_SHORTEST = 1e-7  # s; a shorter run counts as this long
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,7 +95,7 @@ class Row:
     Attributes:
         task: Name of the task.
         method: Name of the method.
-        seconds: Run time; in a sweep, of each variant.
+        seconds: Run time; in a sweep, the run time of one variant.
         error: Largest relative error.
     """
 
@@ -170,14 +170,14 @@ Coefficients = Callable[[list[int], float], Array]
 
 
 def find_exactly(orders: list[int], lam: float) -> Array:
-    """Return A_n to the last digit: the series in exact fractions."""
+    """Return A_n, exact to the last digit, from the series in exact fractions."""
     x = Fraction(lam)
     series = (power_series.piston(n, EXACT_POWER).items() for n in orders)
     return np.array([float(sum(c * x**p for p, c in terms)) for terms in series])
 
 
 def _use_two_terms(orders: list[int], lam: float) -> Array:
-    """A_n of the acceleration cos psi + lambda cos 2 psi."""
+    """Return A_n of the two-term acceleration cos psi + lambda cos 2 psi."""
     return np.array([{1: 1.0, 2: lam}.get(n, 0.0) for n in orders])
 
 
@@ -194,19 +194,19 @@ def _divide_turn(points: int) -> Array:
 
 
 def _place_piston(psi: Array, lam: float) -> Array:
-    """Position of the piston from the crank's axis, in crank radii."""
+    """Return the position of the piston from the crank's axis, in crank radii."""
     return np.cos(psi) + np.sqrt(1 - (lam * np.sin(psi)) ** 2) / lam
 
 
 def _accelerate(psi: Array, lam: float) -> Array:
-    """Acceleration of the piston, in crank radii by the square of the speed."""
+    """Return the acceleration of the piston, divided by crank radius and squared speed."""
     cosine, sine = np.cos(psi), np.sin(psi)
     cos_beta = np.sqrt(1 - (lam * sine) ** 2)
     return cosine - lam * sine**2 / cos_beta + lam * cosine**2 / cos_beta**3
 
 
 def _difference_twice(place: Array | Complex) -> Array | Complex:
-    """Second difference by the square of the step, along the last axis, which is one turn."""
+    """Return the second derivative along the last axis (one turn) by central differences."""
     step = 2 * np.pi / place.shape[-1]
     return (np.roll(place, -1, axis=-1) - 2 * place + np.roll(place, 1, axis=-1)) / step**2
 
@@ -216,7 +216,7 @@ Way = Callable[[Engine, list[int]], Complex]  # shape (2, orders, 2): kind, orde
 
 
 def _add_up(find: Coefficients) -> Way:
-    """Add up the phases of every cylinder, each with its A_n."""
+    """Return a method that sums the vectors of all cylinders, with A_n from `find`."""
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         reciprocating, rotating, axis, phase, z = _list_columns(engine)
@@ -237,7 +237,9 @@ def use_balcli(engine: Engine, orders: list[int]) -> Complex:
 
 
 def _sample(points: int, force_of: Callable[[Array, float, float, float], Complex]) -> Way:
-    """Sample the force of every cylinder over the crank angle, and transform the sums."""
+    """Return a method that samples the cylinders' forces over a turn and takes the FFT of the
+    sums.
+    """
 
     def evaluate(engine: Engine, orders: list[int]) -> Complex:
         reciprocating, rotating, axis, phase, z = _list_columns(engine)
@@ -264,8 +266,8 @@ def _force_of_steps(psi: Array, lam: float, reciprocating: float, rotating: floa
 
 
 def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
-    """Return m r omega² of the reciprocating and rotating mass (N), then of each cylinder its axis
-    (rad), its crank angle (rad) and its arm (m).
+    """Return m r omega² of the reciprocating and of the rotating mass (N), then the axis (rad),
+    crank angle (rad) and arm (m) of each cylinder.
     """
     c = engine.cylinders
     scale = c.radius * engine.omega**2
@@ -279,7 +281,7 @@ def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
 
 
 def find_error(engine: Engine, way: Way, orders: list[int]) -> float:
-    """Return the largest error, relative to the largest exact value of each order."""
+    """Return the largest error of a method, relative to the largest exact value of each order."""
     exact = _add_up(find_exactly)(engine, orders)
     scale = np.abs(exact).max(axis=(0, 2), keepdims=True)
     return float((np.abs(way(engine, orders) - exact) / scale).max())
@@ -296,7 +298,7 @@ WAYS: dict[str, Way] = {
 
 # ------------------------------------------------------------------ a sweep
 def _list_sweeps() -> Iterator[Case]:
-    """Yield methods for a V8 over bank angles and rod ratios, orders 1 and 2."""
+    """Yield the methods for a sweep of a V8 over bank angles and rod ratios, orders 1 and 2."""
     task, few, grid = "sweep of a V8, a variant", _grid(2, 2), _grid(1024, 512)
     engines = list(_list_engines(few))
     for name in ("closed form", "FFT, 16 points", "time stepping, 360 steps"):
@@ -318,7 +320,7 @@ def _grid(banks: int, ratios: int) -> Sweep:
 
 
 def run_sweep(sweep: Sweep) -> None:
-    """Compute a sweep in one thread, and keep nothing."""
+    """Compute a sweep in one thread and discard its results."""
     for _ in evaluate_chunks(sweep):
         pass
 
@@ -335,7 +337,7 @@ def _list_engines(sweep: Sweep) -> Iterator[Engine]:
 
 # ------------------------------------------------------------------ run times
 def time_run(run: Callable[[], object]) -> float:
-    """Return the seconds of the quickest of several runs, each of at least a few milliseconds."""
+    """Return the time of the quickest of several runs, s; short runs are repeated to last 20 ms."""
     timer = timeit.Timer(run)
     once = max(timer.timeit(1), _SHORTEST)
     number = max(int(0.02 / once), 1)
@@ -358,7 +360,7 @@ def compare_starts() -> Iterator[Ratio]:
 
 
 def _start(*argv: str, text: str = "") -> float:
-    """Return the seconds that a Python program takes with one thread of linear algebra."""
+    """Return the run time of a Python program, s, with one thread of linear algebra."""
     start = time.perf_counter()
     subprocess.run(
         [sys.executable, *argv],
@@ -370,11 +372,11 @@ def _start(*argv: str, text: str = "") -> float:
     return time.perf_counter() - start
 
 
-ROUNDING = 1e-13  # errors below it are rounding, which a picture shows here
+ROUNDING = 1e-13  # smaller errors are rounding; a picture shows them at this value
 
 
 def rows(result: Bench, _system: System) -> Rows:
-    """CSV: run times in seconds and relative errors, then ratios."""
+    """Return the rows of the CSV: run times (s) and relative errors, then ratios."""
     return Rows(
         ("task", "method", "seconds", "error", "ratio"),
         [
@@ -385,7 +387,7 @@ def rows(result: Bench, _system: System) -> Rows:
 
 
 def sheet(result: Bench, _system: System) -> Sheet:
-    """A table a task, and the ratios."""
+    """Return the printed page: a table for each task, then the ratios."""
     grids = [
         Grid(
             f"{task[0].upper()}{task[1:]}",
@@ -407,12 +409,12 @@ def sheet(result: Bench, _system: System) -> Sheet:
 
 
 def _error(row: Row) -> str:
-    """Two digits, where it is more than rounding."""
+    """Return the error with two digits, or "rounding" if it is no larger than that."""
     return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 
 def draw_bench(result: Bench) -> bytes:
-    """SVG: run time and error of every method, a panel a task, both axes logarithmic."""
+    """Return an SVG with a panel for each task: error over run time, both logarithmic."""
     tasks = list(dict.fromkeys(r.task for r in result.rows))
     with style.open_figure(5.2 * len(tasks), 4.6) as page:
         for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
@@ -426,7 +428,7 @@ def draw_bench(result: Bench) -> bytes:
                 )
                 axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
             axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
-            for axis in (axes.xaxis, axes.yaxis):  # no mathematical text in our style
+            for axis in (axes.xaxis, axes.yaxis):  # our plot style has no mathematical text
                 axis.set_major_formatter(
                     lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
                 )

@@ -1,7 +1,7 @@
-"""The command line: the commands, and the one place where errors become text and exit codes.
+"""The command line: it lists the commands, and turns errors into messages and exit codes.
 
-Only the module of the called command is imported; commands are in the module `command` of their
-packages.
+Only the module of the called command is imported. Most commands are in the module `command` of a
+package.
 """
 
 from __future__ import annotations
@@ -48,27 +48,26 @@ GROUPS = {
         "and by two terms.",
         "plot": "Draw free forces and moments: the locus over a revolution and the "
         "spectrum of orders, or other pages (--what).",
-        "report": "Write one self-contained page: the engine in motion, its free forces and "
-        "moments, and a balance scheme before and after.",
+        "report": "Write a self-contained page: the engine in motion, and its free forces and "
+        "moments without and with a balance scheme.",
     },
     "Balance": {
         "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
         "with them.",
         "locomotive": "Hammer blow of a steam locomotive: balance masses in the wheels, rail "
         "loads, wheel lift, variation of tractive effort and swaying couple.",
-        "field": "Balance a rotor on the machine or in its bearings: from readings with "
-        "trial weights to correction weights, places or drill holes, and the "
-        "residual readings.",
+        "field": "Balance a rotor on its machine: compute correction weights, places or drill "
+        "holes, and the remaining readings, from readings with trial weights.",
     },
     "Study": {
         "numbers": "List the numbers of an engine file that can vary, and its quantities: names "
         "for `sweep`, `search` and `scatter`, with values, units and meanings.",
-        "sweep": "Figures of many variants of an engine: numbers of its file over ranges, "
+        "sweep": "Quantities for many variants of an engine, whose numbers vary over ranges, "
         "as a table, CSV, JSON or Parquet.",
-        "search": "The best crank, firing order, bank angle or splay, or values of any numbers; "
-        "mirror images and rotations once.",
-        "scatter": "How free forces and moments spread when masses (rod lengths, throw "
-        "angles) vary, and which tolerance matters most.",
+        "search": "Find the best crank, firing order, bank angle or splay, or values of any "
+        "numbers. Mirror images and rotations of an arrangement are listed once.",
+        "scatter": "Spread of free forces and moments when masses, rod lengths or throw angles "
+        "vary, and the tolerances that matter most.",
         "mounts": "Vibration of an engine on its mounts: natural modes, rest, forces of the "
         "mounts on the frame and motion of points over a range of speeds.",
         "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, "
@@ -83,7 +82,7 @@ GROUPS = {
         "file, for editors; or of a command's JSON output.",
         "check": "Recompute engines and compare with their recorded results; exit status 1 "
         "if anything moved.",
-        "tables": "The printed coefficient tables of five books and papers, recomputed, and "
+        "tables": "Recompute the coefficient tables printed in five books and papers; list "
         "their errata by class: misprints, roundings, errors of equations.",
         "bench": "Measure run time and error of several methods for the same figures, on this "
         "machine; with -o X.svg also as a picture.",
@@ -91,7 +90,7 @@ GROUPS = {
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
 
-# The commands of each module; their functions are called like them.
+# The commands of each module. A command's function has the name of the command.
 _COMMANDS_OF = {
     "analysis.command": ("analyze", "compare", "sum", "curves", "piston"),
     "balancing.command": ("balance",),
@@ -110,11 +109,11 @@ _COMMANDS_OF = {
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
-IN_FULL_PRECISION = ("curves", "sweep")  # series of numbers
+IN_FULL_PRECISION = ("curves", "sweep")  # long series of numbers, to which --digits does not apply
 
 
 class _Command(TyperCommand):
-    """A command that rejects an option of one value that is given more than once."""
+    """A command that warns if an option for a single value is given more than once."""
 
     def parse_args(self, ctx: Context, args: list[str]) -> list[str]:
         given = [] if ctx.resilient_parsing else self.make_parser(ctx).parse_args([*args])[2]
@@ -126,11 +125,11 @@ class _Command(TyperCommand):
 
 
 class _OnDemand(TyperGroup):
-    """The commands by name; a command's module is imported when it, or its help, is asked for."""
+    """The group of all commands; a command's module is imported when it or its help is needed."""
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
-        self.commands: dict[str, Any] = dict.fromkeys(COMMANDS)  # names, for lists and suggestions
+        self.commands: dict[str, Any] = dict.fromkeys(COMMANDS)  # for lists and suggestions
 
     def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
         if cmd_name not in COMMANDS:
@@ -152,8 +151,8 @@ class _OnDemand(TyperGroup):
 
 
 def _unwrapped(text: str) -> str:
-    """Return paragraphs as one line each: the terminal wraps them to its own width. One that begins
-    with a backspace keeps its lines (examples).
+    """Return a text with each paragraph on one line, for the terminal to wrap. A paragraph that
+    begins with a backspace (examples) keeps its lines.
     """
     return re.sub(r"(?<=[^\s\b])\n(?=\S)", " ", text)
 
@@ -170,8 +169,8 @@ app = typer.Typer(
 def _share(
     options: Iterable[Parameter], command: str, own: Iterable[Parameter]
 ) -> Iterator[Parameter]:
-    """Return the options of the program that also stand after a command's name, without its own
-    words: `-q` of `sweep` is its --quantity.
+    """Yield the program's options that may also follow a command's name. A word that the command
+    itself uses is left out: `-q` of `sweep` is its --quantity.
     """
     taken = {word for option in own for word in option.opts}
     tables = "--format" in taken and command not in IN_FULL_PRECISION
@@ -231,7 +230,7 @@ def _options(
             "--verbose",
             callback=_verbose,
             expose_value=False,
-            help="Print also what was read, and the run time.",
+            help="Also print what was read, and the run time.",
         ),
     ] = False,
     digits: Annotated[
@@ -271,14 +270,14 @@ def main() -> NoReturn:
         say(f"balcli: {error}")
     except typer.TyperException as error:
         say(_usage(error))
-    except BrokenPipeError:  # the reader of it has what they want
+    except BrokenPipeError:  # whoever reads the output has enough
         sys.exit(Exit.DONE)
     except (OSError, MemoryError, UnicodeEncodeError) as error:
         say(f"balcli: {_tell_what_the_system_lacks(error)}")
-    except typer.Abort:  # Ctrl-C, where balcli is no process of its own
+    except typer.Abort:  # Ctrl-C when balcli runs inside another process
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
-        if isinstance(end.__context__, BrokenPipeError):  # the reader of help has what they want
+        if isinstance(end.__context__, BrokenPipeError):  # whoever reads the help has enough
             sys.exit(Exit.DONE)
         raise
     sys.exit(Exit.BAD_INPUT)
@@ -292,13 +291,13 @@ def _run() -> int | None:
     return status
 
 
-# What fails where an error of the system names no file; None: somebody has told it in words.
+# What failed, if a system error names no file. The key None is an error whose text says it.
 _UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
 
 
 def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
     if isinstance(error, OSError):
-        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # such as of help
+        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # as for help
         return ": ".join(filter(None, (named, error.strerror or str(error))))
     if isinstance(error, MemoryError):
         return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
@@ -306,7 +305,7 @@ def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeErro
 
 
 def _usage(error: Any) -> str:
-    """Print the usage and the mistake in plain text: a box would fold it, even in a pipe."""
+    """Return the usage and the mistake as plain text. (The usual box folds it, even in a pipe.)"""
     text = StringIO()
     error.show(text)
     return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words

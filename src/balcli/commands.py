@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference
 
 
-Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it is there.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
 
 
 def new(
@@ -70,7 +70,7 @@ def new(
 
 
 def complete_examples(incomplete: str) -> list[str]:
-    """Return the example engines that begin with this text."""
+    """Return the names of the example engines that begin with this text."""
     return [name for name in examples.names() if name.startswith(incomplete)]
 
 
@@ -126,7 +126,7 @@ def engines(
 
 
 def _list(found: list[examples.Example]) -> str:
-    """List each class under its name: an engine a line, with its lesson."""
+    """Return the listing of examples: one line for each engine, under the name of its class."""
     width = max(map(len, examples.names()))
     parts = []
     for group, members in groupby(found, key=lambda example: example.group):
@@ -158,7 +158,7 @@ def schema(
             "--of",
             metavar="RESULT",
             show_default=False,
-            help=f"Of a result as JSON instead: {', '.join(DOCUMENTS)}.",
+            help=f"Print the schema of a result in JSON instead: {', '.join(DOCUMENTS)}.",
         ),
     ] = None,
     output: Output = None,
@@ -203,8 +203,8 @@ def _describe_result(name: str, kind: File | None) -> Node:
 
 
 def describe_document(name: str) -> Node:
-    """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. Further keys are allowed: new
-    ones may be added under the same version.
+    """Return the JSON Schema (draft 2020-12) of one of `DOCUMENTS`. It allows further keys, since
+    keys may be added without a new version.
     """
     from .file.schema import DIALECT  # pydantic
 
@@ -254,7 +254,7 @@ def check(
 
     A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
     file has these chapters, torque, mounts and torsion. A record whose engine file is missing is a
-    difference as well. Files of runs and chain files in a folder are passed over.
+    difference as well. Files of runs and chain files in a folder are skipped.
 
     \b
     Examples:
@@ -290,7 +290,7 @@ def check(
 
 
 def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngine:
-    """Return the differences of an engine file from its record, or record it."""
+    """Compare an engine file with its record, or (`update`) write the record."""
     from .regression import (
         CheckedEngine,
         check_target,
@@ -314,7 +314,7 @@ def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngin
 
 
 def _list_lines(checked: CheckedEngine) -> Iterator[str]:
-    """Yield a line for each cause, with the figures that moved below it."""
+    """Yield a line for each cause, followed by the figures that moved."""
     for cause in dict.fromkeys(each.cause for each in checked.differences):
         moved = [each for each in checked.differences if each.cause == cause]
         if cause is None:
@@ -327,7 +327,7 @@ def _list_lines(checked: CheckedEngine) -> Iterator[str]:
 
 
 def _write_junit(checked: Sequence[CheckedEngine]) -> str:
-    """Return an XML report in the form of JUnit: a test case for each engine."""
+    """Return an XML report in JUnit's format, with a test case for each engine."""
     suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
     suite.set("failures", str(sum(bool(each.differences) for each in checked)))
     suite.set("errors", str(sum(each.error is not None for each in checked)))

@@ -1,4 +1,4 @@
-"""The errors a user can cause, and the exit codes."""
+"""The errors that a user can cause, messages on standard error, and the exit codes."""
 
 from __future__ import annotations
 
@@ -18,21 +18,22 @@ from .limits import MOST_LIST_VALUES
 
 T = TypeVar("T")
 
-# All but tabs and line ends; Unicode's own turn the direction of text, or end a paragraph.
+# All control characters but tab and line feed; those of Unicode reverse the direction of text or
+# end a line or paragraph.
 CONTROL_CHARACTERS = (
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069]"
 )
 
 
 def legible(text: str) -> str:
-    """Return a text for a terminal without control characters other than line ends and tabs, so
-    that no file name can control the terminal.
+    """Return a text with "?" in place of every control character but line ends and tabs: no file
+    name can then control the terminal.
     """
     return re.sub(CONTROL_CHARACTERS, "?", text)
 
 
 def say(text: str) -> None:
-    """Print a message on standard error, even if it has no reader."""
+    """Print a message on standard error; if that is closed, do nothing."""
     with suppress(OSError):
         print(legible(text), file=sys.stderr, flush=True)
 
@@ -55,23 +56,23 @@ def set_loudness(loudness: Loudness) -> None:
 
 
 def is_quiet() -> bool:
-    """Return whether warnings and progress are not wanted."""
+    """Return whether the user wants neither warnings nor progress."""
     return _loudness == Loudness.QUIET
 
 
 def is_verbose() -> bool:
-    """Return whether notes are wanted."""
+    """Return whether the user wants notes."""
     return _loudness == Loudness.VERBOSE
 
 
 def warn(text: str) -> None:
-    """Print a warning on standard error, unless warnings are not wanted."""
+    """Print a warning on standard error, unless balcli is quiet."""
     if not is_quiet():
         say(f"warning: {text}")
 
 
 def note(text: str) -> None:
-    """Print what was read, assumed or tried on standard error, if notes are wanted."""
+    """Print a note (what was read, assumed or tried) on standard error, if balcli is verbose."""
     if is_verbose():
         say(f"note: {text}")
 
@@ -82,7 +83,7 @@ class Exit(IntEnum):
     DONE = 0
     DIFFERENCE = 1
     BAD_INPUT = 2
-    INTERNAL = 70  # our fault; never 1
+    INTERNAL = 70  # a fault of balcli
     INTERRUPTED = 130
 
 
@@ -90,11 +91,11 @@ class Problem(NamedTuple):
     """One mistake.
 
     Attributes:
-        path: where in the file (`rod.length`, `shaft.2.ratio`; empty: the file).
-        message: the mistake, and then the remedy.
-        missing: paths of the missing keys that make it a mistake; empty: none.
-        meant: path of the key that was probably meant by an unknown one, "" if none is near; None:
-            the key is known.
+        path: Place in the file (`rod.length`, `shaft.2.ratio`); empty for the file as a whole.
+        message: The mistake, then the remedy.
+        missing: Paths of the missing keys that cause the mistake.
+        meant: For an unknown key, the path of the key that was probably meant, "" if there is none
+            near; None if the key is known.
     """
 
     path: str
@@ -108,7 +109,7 @@ class Problem(NamedTuple):
 
         Args:
             path: Dotted name of the key.
-            hint: Why it is needed, or what to write.
+            hint: Reason why it is needed, or an example of a value.
         """
         return cls(path, f"is missing; {hint}", (path,))
 
@@ -121,7 +122,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """Return the error of a file that cannot be written; it names a missing folder.
+    """Return the error for a file that cannot be written; a missing folder is named.
 
     Args:
         target: Path of the file.
@@ -135,7 +136,7 @@ def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
 
 
 class InputError(BalcliError):
-    """All mistakes of one input file at once; `more` is the number of those not listed."""
+    """All mistakes of one input file; `more` is the number of mistakes that are not listed."""
 
     def __init__(self, problems: Iterable[Problem], file: str = "", more: int = 0) -> None:
         self.problems = tuple(problems)
@@ -153,7 +154,7 @@ class InputError(BalcliError):
 
 
 class OtherKindError(InputError):
-    """A file of one kind where another is wanted."""
+    """A file of one kind where another kind is needed."""
 
 
 @contextmanager
@@ -166,7 +167,7 @@ def naming_file(file: str) -> Iterator[None]:
 
 
 def check_type(function: str, value: object, kind: type | tuple[type, ...], wanted: str) -> None:
-    """Raise an error if an argument of the library is not of this kind.
+    """Raise an error if an argument of a public function has a wrong type.
 
     Args:
         function: Name of the function or argument.
@@ -175,14 +176,15 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
         wanted: A right value, in words.
 
     Raises:
-        TypeError: It is not.
+        TypeError: The value has another type.
     """
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise wrong_type(function, value, wanted)
 
 
 def check_number(name: str, value: object, wanted: str) -> float:
-    """Return an argument of the library as a number; hundreds of digits count as infinite.
+    """Return an argument of a public function as a float; an integer too large for that is
+    infinite.
 
     Args:
         name: Name of the argument.
@@ -190,7 +192,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
         wanted: A right value, in words.
 
     Raises:
-        TypeError: It is no number.
+        TypeError: The value is no number.
     """
     check_type(name, value, Real, wanted)
     try:
@@ -200,16 +202,16 @@ def check_number(name: str, value: object, wanted: str) -> float:
 
 
 def refuse_more(name: str, values: object, most: int) -> None:
-    """Raise BalcliError if a list, a range or an array has more values than `most`, or the first
-    member of a list has; none is copied.
+    """Raise an error if a list, range or array has more than `most` values. The first member of a
+    list is checked in the same way. Nothing is copied.
 
     Args:
         name: Name of the argument.
-        values: Argument; what has no length passes.
+        values: Value of the argument; one without a length passes.
         most: Largest number of values.
 
     Raises:
-        BalcliError: It has more.
+        BalcliError: There are more values.
     """
     size = getattr(values, "size", None)
     try:
@@ -225,10 +227,10 @@ def refuse_more(name: str, values: object, most: int) -> None:
 
 
 def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) -> list[T]:
-    """Return an argument of the library as a list, however many values it would yield.
+    """Return an iterable argument as a list; reading ends once it has yielded too many values.
 
     Raises:
-        BalcliError: it has more than `most`.
+        BalcliError: There are more than `most` values.
     """
     refuse_more(name, values, most)
     listed = list(islice(values, most + 1))
@@ -239,7 +241,7 @@ def list_values(name: str, values: Iterable[T], most: int = MOST_LIST_VALUES) ->
 def list_words(
     name: str, words: str | Iterable[str], example: str = '["force", "moment"]'
 ) -> list[str]:
-    """Return an argument of the library, a list of words or a text with commas, as a list.
+    """Return an argument (a list of words, or words with commas between them) as a list.
 
     Args:
         name: Name of the argument.
@@ -247,7 +249,7 @@ def list_words(
         example: A right value, as it is typed.
 
     Raises:
-        TypeError: They are no words.
+        TypeError: A member is no word.
     """
     if isinstance(words, str):
         return [word.strip() for word in words.split(",")]
@@ -259,7 +261,7 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """Return the error for an argument of the library, with the value and a right one.
+    """Return the error for an argument of a wrong type; it shows the value and a right one.
 
     Args:
         function: Name of the function or argument.
@@ -268,13 +270,13 @@ def wrong_type(function: str, value: object, wanted: str) -> TypeError:
     """
     try:
         text = repr(value)
-    except ValueError:  # Python writes no number of thousands of digits
+    except ValueError:  # Python refuses to write such long numbers
         text = "a number of thousands of digits"
     shown = text if len(text) <= 60 and "\n" not in text else f"{text[:57].splitlines()[0]}..."
     return TypeError(f"{function}: {legible(shown)} ({type(value).__name__}): {wanted}")
 
 
-# What a file lacks, for whoever asks for it.
+# Messages for results that need more than the file gives.
 NO_GAS = (
     'has no [gas]; give a diagram, a cycle or harmonics, such as cycle = "wiebe", '
     "compression_ratio = 10.5, imep = 10"

@@ -1,4 +1,4 @@
-"""Atomic writes: a temporary file next to the target replaces it when it is whole."""
+"""Atomic writes: a temporary file next to the target replaces it once it is complete."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .errors import BalcliError, note, tell_unwritable
 def replacing(target: Path) -> Iterator[Path]:
     """Yield a temporary file, which replaces the target afterwards unless there was an error.
 
-    A symbolic link stays, and the file it points to is replaced. A device or pipe is written to
+    A symbolic link is kept; the file to which it points is replaced. A device or pipe is written to
     directly. An existing target keeps its mode.
 
     Raises:
-        BalcliError: the target cannot be written; an older one is left as it was.
+        BalcliError: The target cannot be written; an existing one is unchanged.
     """
     try:
         mode = _read_mode(target)
@@ -31,7 +31,7 @@ def replacing(target: Path) -> Iterator[Path]:
         real = Path(os.path.realpath(target))
         place = name_hidden(real)
         try:
-            # private if there is a target, whose mode it gets later
+            # private if the target exists; it gets the target's mode later
             flags, private = os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600
             os.close(os.open(place, flags, 0o666 if mode is None else private))
             yield place
@@ -49,10 +49,10 @@ def replacing(target: Path) -> Iterator[Path]:
 
 
 def _read_mode(path: Path) -> int | None:
-    """Return the mode of what a path leads to; None if there is nothing.
+    """Return the mode of the file or device at a path; None if there is none.
 
-    Unlike `Path.exists`, this never takes a refusal of the system, such as of a link in a shared
-    folder, for a file that is not there.
+    If the system refuses access, this raises OSError, where `Path.exists` would report a missing
+    file.
     """
     try:
         return os.stat(path).st_mode

@@ -1,7 +1,7 @@
-"""Modules by name: the one place where modules stand in strings.
+"""Names of modules that are imported on demand: the only module that holds such names as strings.
 
-It lists objects that modules below them import on demand: the package's public names, renderers of
-results, types of documents, tables of chapters in an engine file, and their quantities. It loads no
+It lists the package's public names, the renderers of results, the types of JSON documents, the
+tables of a chapter (such as torsion) in an engine file, and the quantities of chapters. It loads no
 library.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-# What `import balcli` offers: the names of each module.
+# The public names that each module offers to `import balcli`.
 _ROOMS = {
     "analysis.answer": "Analysis analyze",
     "analysis.comparison": "Comparison compare",
@@ -40,7 +40,7 @@ _ROOMS = {
 }
 PUBLIC = {name: module for module, names in _ROOMS.items() for name in names.split()}
 
-# What shows a kind of result: the module with its RENDERER.
+# The module whose RENDERER shows a class of results.
 RENDERERS = {
     "Analysis": "analysis.show",
     "Balance": "balancing.show",
@@ -59,7 +59,7 @@ RENDERERS = {
     "TorsionAnalysis": "torsion.show",
 }
 
-# JSON documents, by the name that stands in `format`: the class that declares each.
+# The class that declares a JSON document, by the name in the document's `format`.
 DOCUMENTS = {
     "analysis": "analysis.answer:Analysis",
     "balance": "balancing.show:BalanceDocument",
@@ -83,7 +83,7 @@ DOCUMENTS = {
     "torsion": "torsion.answer:TorsionAnalysis",
 }
 
-# Tables of chapters in an engine file; the class of each is called like the key.
+# The module of each chapter's table in an engine file; the class has the name of the key.
 CHAPTERS = {
     "articulation": "file.model",
     "gas": "file.gas_tables",
@@ -93,13 +93,13 @@ CHAPTERS = {
     "body": "file.mount_tables",
     "locomotive": "file.locomotive_tables",
 }
-# Those that may stand several times in a file.
+# Tables that a file may have several times.
 CHAPTER_LISTS = {
     "mount": "file.mount_tables",
     "point": "file.mount_tables",
     "axle": "file.locomotive_tables",
 }
-# What computes the quantities of a chapter for sweep, search and scatter.
+# The module that computes the quantities of a chapter for sweep, search and scatter.
 QUANTITIES = {
     "guide": "forces.guide",
     "cycle": "torque.quantity",

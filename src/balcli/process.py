@@ -1,5 +1,5 @@
-"""The process: signals that end it, its environment, its cores, and the callback of long
-computations.
+"""The process: signals that end it, its environment, its processor cores, and the type of progress
+callbacks.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ _ENDING = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGALRM", "SIGUSR1", "SIGUSR2", "SIG
 
 def exit_on_signals() -> None:
     """Let every signal that ends a process raise SystemExit (128 + number), so that temporary files
-    are removed. A signal that was ignored from the start (`nohup`) still is.
+    are removed. Signals that the caller ignores (`nohup`) stay ignored.
     """
     for name in _ENDING:
-        number = getattr(signal, name, None)  # some are missing on Windows, the last elsewhere
+        number = getattr(signal, name, None)  # Windows lacks some; only Windows has the last
         if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, _exit)
 
@@ -29,12 +29,12 @@ def _exit(number: int, _frame: object) -> None:
 
 
 def ignore_matplotlib_settings() -> None:
-    """Keep matplotlib from reading settings of other people: a `matplotlibrc` in the working folder
-    may come with an archive, and a backend for windows may not be installed.
+    """Keep matplotlib from reading foreign settings: a `matplotlibrc` in the working folder may
+    come with an archive, and the environment may name a backend that is not installed.
     """
     for name in ("MPLBACKEND", "MATPLOTLIBRC"):
         os.environ.pop(name, None)
-    if os.path.lexists("matplotlibrc"):  # it is read when matplotlib is imported
+    if os.path.lexists("matplotlibrc"):  # matplotlib reads it when it is imported
         with chdir(os.path.dirname(__file__)):
             import matplotlib  # noqa: F401
 
@@ -52,8 +52,8 @@ def count_cores() -> int:
         return os.cpu_count() or 1
 
 
-# Is told, time and again, how much is done: a share from 0 to 1, or a number where the function
-# says so; True: that is enough, what can end early does so.
+# A progress callback. It is called repeatedly with the share that is done (0 to 1), or with a
+# number where the function says so. If it returns True, a computation that can end early ends.
 Tell = Callable[[float], bool]
 
 

@@ -1,10 +1,10 @@
 """Compare recorded results of engines with what balcli computes now.
 
-A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the
-main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
-Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
-the largest figure of their group. Axes, phases and peak angles of an order, and whether it is
-balanced, follow from its vectors, which are compared; they are not compared again.
+A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the main
+figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`. Two
+records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of the
+largest figure of their group. An order's axis, phase, peak angle and "balanced" follow from its
+vectors; only the vectors are compared.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from .mounts.answer import analyze_mounts
 from .torque.answer import analyze_torque
 from .torsion.answer import analyze_torsion
 
-TOLERANCE = 1e-9  # share of the largest figure of a group, beyond what rounding may do
+TOLERANCE = 1e-9  # share of the largest figure of a group; rounding is allowed in addition
 PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
-_LABELS = ("order", "mode", "name", "cylinder")  # by which members of lists are matched
+_LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
 _DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced", "force_deg", "moment_deg")
 _BROKEN = (
     OSError,
@@ -51,10 +51,11 @@ _BROKEN = (
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """A figure that moved, or the reason why a record could not be compared.
+    """A figure that differs from its record, or the reason why a record could not be compared.
 
     Attributes:
-        cause: What the figure belongs to, such as `force`; null for a missing or broken record.
+        cause: Quantity or chapter of the figure, such as `force`; null for a missing or broken
+            record.
         figure: The figure that moved, or the reason.
         recorded: Recorded value; null without one.
         now: Present value; null without one.
@@ -69,7 +70,7 @@ class Difference:
 
     @classmethod
     def of_record(cls, reason: str) -> Difference:
-        """Return the difference that a record cannot be compared."""
+        """Return the difference that stands for a record that cannot be compared."""
         return cls(cause=None, figure=reason, recorded=None, now=None, share=None)
 
     def __str__(self) -> str:
@@ -89,7 +90,7 @@ class CheckedEngine:
     Attributes:
         engine: Path of the engine file.
         differences: Every figure that moved.
-        error: Why the file could not be compared; None: it was.
+        error: Why the file could not be compared; None if it was compared.
     """
 
     engine: str
@@ -102,7 +103,7 @@ class Check:
     """Engines compared with their recorded results.
 
     Attributes:
-        engines: All that were compared or could not be.
+        engines: All engines, compared or not.
     """
 
     format: Literal["balcli.check/1"] = "balcli.check/1"
@@ -113,7 +114,9 @@ _Path = tuple[str, ...]  # keys from the top of the document, and labels such as
 
 
 def _find_group(path: _Path) -> str:
-    """Return the first key with a unit: figures of a group are compared with the largest of it."""
+    """Return the group of a figure: the first key of its path that has a unit. The tolerance is a
+    share of the largest figure of a group.
+    """
     units = ("_N", "_Nm", "_Hz", "_mm", "_Pa", "_J", "_W", "_m", "_m3")
     return next((key for key in path if key.endswith(units)), path[-1])
 
@@ -160,7 +163,7 @@ def _read(record: Path) -> Any:
     """Return the content of a record.
 
     Raises:
-        BalcliError: The file is larger than an engine file may be, or no regular file.
+        BalcliError: The file is no regular file, or is larger than an engine file may be.
         OSError, ValueError: The file cannot be read.
     """
     if not record.is_file():
@@ -193,7 +196,7 @@ def record_result(engine: Engine) -> str:
 
 
 def _describe(engine: Engine, orders: Iterable[float] | None = None) -> tuple[Node, Spectra]:
-    """Return the record of an engine, and the phasors of the orders in it."""
+    """Return the record of an engine and the phasors of its orders."""
     only = RECORDED if engine.gas is None else (*RECORDED, GAS.name)
     found = analyze(engine, orders, only)
     document = to_document(found) | _describe_chapters(engine)
@@ -309,7 +312,7 @@ def _compare(
             allowed = max(least, tolerance * 360)
         if len(figures) == 2 and (None not in (before, after) or not shared):
             same = abs(figures[1] - figures[0]) <= allowed
-        else:  # an order that only one of them has is judged by its figures
+        else:  # if only one side has an order, its figures decide
             same = before == after or (
                 path[-1] == "order" and not shared and (before or after or 0) > 2
             )  # 1 and 2 are always recorded
@@ -325,8 +328,8 @@ def _compare(
 
 
 def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """Return how far rounding may move a figure, by group and order: what decides whether an order
-    is balanced. Where all large orders cancel, this is more than a share of what remains.
+    """Return how far rounding may move a figure, by group and order. The same bound decides whether
+    an order is balanced. Where the large orders cancel, it exceeds a share of the rest.
     """
     errors: dict[tuple[str, str], float] = {}
     for kind, phasors in found.items():

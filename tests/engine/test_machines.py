@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 from support.engines import engine
 
-from balcli import analyze_torque, curves, search
+from balcli import InputError, analyze_torque, curves, load, search
 from balcli.core.cylinders import find_travel
 from balcli.forces.spectrum import compute_spectra
 from balcli.torsion.build import weigh_running_gear
@@ -78,11 +78,14 @@ def test_opposed_pistons_on_one_crank_balance_order_1(mass, inner, outer):
         "cylinder": {n: {"piston_mass": mass * inner / outer / 2} for n in "13"},
     }
     found = compute_spectra(engine(**parts), [1, 2])
-    assert found.force.balanced[0] and found.moment.balanced[0] and not found.force.balanced[1]
+    assert found.force.balanced[0]
+    assert found.moment.balanced[0]
+    assert not found.force.balanced[1]
     parts["crank"] = {"stroke": [outer, inner], "throws": [0, 180], "spacing": 300}
     parts["cylinder"] = {"1": {"piston_mass": mass * inner / outer}}
     found = compute_spectra(engine(**parts), [1])
-    assert found.force.balanced[0] and not found.moment.balanced[0]
+    assert found.force.balanced[0]
+    assert not found.moment.balanced[0]
 
 
 def test_gas_motion_and_torsion_take_the_stroke_of_the_cylinder():
@@ -105,12 +108,15 @@ def test_a_mass_without_a_radius_has_that_of_the_nearest_throw():
     assert [made.find_radius(z / 1e3) for z in (-200, -45, 20, 46, 90)] == [0.03, 0.03, 0.04, 0.05, 0.05]
 
 
-def test_a_crank_seen_from_its_other_end_is_another_where_strokes_differ():
-    def count(stroke):
-        parts = in_line(stroke, [0, 1 / 4, 1 / 2, 3 / 4], 0, [0.5] * 4)
-        return len(search(engine(**parts), "throws", "force.1.major").results)
+def test_a_crank_seen_from_its_other_end_is_another_where_strokes_or_masses_differ():
+    """0-0-180 is 180-0-0 from the other end; no force of order 3 tells them apart."""
 
-    assert count([80, 90, 90, 80]) == count(90) < count([80, 90, 100, 110])
+    def count(stroke, mass):
+        parts = in_line(stroke, [0, 0, 1 / 2], mass, [0.5] * 3, piston={"mass": 0.5})
+        return len(search(engine(**parts), "throws", "force.3.major").results)
+
+    assert count(90, 1) == count([90, 80, 90], [1, 0, 1]) == 2
+    assert count([80, 90, 90], 1) == count(90, [0, 1, 1]) == 3
 
 
 # ------------------------------------------------------------------ harmonic motion
@@ -127,7 +133,9 @@ def test_harmonic_motion_is_the_limit_of_a_long_rod():
     cosine, long = (spectra(**harmonic(m)) for m in ({"motion": "harmonic"}, {"ratio": 1e-9}))
     scale = np.abs(long).max(axis=(1, 2), keepdims=True)
     assert np.allclose(cosine[[0, 1, 3]] / scale[[0, 1, 3]], long[[0, 1, 3]] / scale[[0, 1, 3]], rtol=0, atol=1e-8)
-    assert not cosine[:2, :, 1:].any() and not cosine[3][:, [0, 2, 3, 4]].any() and not cosine[2].any()
+    assert not cosine[:2, :, 1:].any()
+    assert not cosine[3][:, [0, 2, 3, 4]].any()
+    assert not cosine[2].any()
 
 
 def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
@@ -136,7 +144,8 @@ def test_an_offset_piston_in_harmonic_motion_has_a_couple_and_even_strokes():
     assert each == pytest.approx(2.2 * 0.005 * 0.045 * float(made.omega) ** 2, rel=1e-12)
     travel = find_travel(made.cylinders)
     assert travel.stroke == pytest.approx(0.09, rel=1e-15)
-    assert not np.any(travel.top_deg) and not np.any(travel.bottom_deg)
+    assert not np.any(travel.top_deg)
+    assert not np.any(travel.bottom_deg)
 
 
 def test_forces_on_the_pin_of_a_yoke_do_its_work():
@@ -145,7 +154,17 @@ def test_forces_on_the_pin_of_a_yoke_do_its_work():
     along, across, turned = found.curves["pin_x_N"], found.curves["pin_y_N"], np.radians(found.crank_deg)
     torque = 0.045 * (across * np.cos(turned) - along * np.sin(turned))
     assert torque == pytest.approx(found.curves["torque_Nm"], rel=1e-9, abs=1e-6)
-    assert not found.curves["side_thrust_N"].any() and not found.curves["rod_angle_deg"].any()
+    assert not found.curves["side_thrust_N"].any()
+    assert not found.curves["rod_angle_deg"].any()
+
+
+def test_a_length_divides_the_mass_of_a_rod_in_harmonic_motion():
+    parts = {**harmonic({}), "rod": {"motion": "harmonic", "mass": 0.7, "cg": 40}}
+    with pytest.raises(InputError, match=r"rod\.length: is missing; it divides rod\.mass at rod\.cg"):
+        load(parts)
+    for rod in ({"length": 140}, {"ratio": 45 / 140}, {"mass": None, "cg": None, "small_end": 0.2, "big_end": 0.5}):
+        (weighed, _) = load({**parts, "rod": {**parts["rod"], **rod}}).weighed
+        assert (weighed.small_end, weighed.big_end) == pytest.approx((0.2, 0.5))
 
 
 # ------------------------------------------------------------------ radials in rows
@@ -175,6 +194,12 @@ def test_rows_are_banks_of_single_cylinders(count, rows, turn, data):
     assert all(np.array_equal(found[kind].vectors, same[kind].vectors) for kind in KINDS)
 
 
+def test_each_row_has_its_master():
+    made = engine(**radial(2, layout={"radial": 7, "rows": 2}, articulation=HUNG | {"master": [1, 3]}))
+    strokes = zip(made.numbers, find_travel(made.cylinders).stroke, strict=True)
+    assert {number for number, stroke in strokes if abs(stroke - 0.14) < 1e-9} == {1, 10}
+
+
 @pytest.mark.parametrize(("count", "step"), [(14, 9), (18, 11)])
 def test_the_orders_of_makers_fire_evenly_round_two_rows(count, step):
     order = [(step * k) % count + 1 for k in range(count)]
@@ -186,5 +211,6 @@ def test_the_orders_of_makers_fire_evenly_round_two_rows(count, step):
         made = engine(**parts)
         assert np.diff([*made.fires_deg.values()]) == pytest.approx(720 / count, abs=1e-9)
         found = compute_spectra(made, [1, 2])
-        assert found.force.balanced.all() and found.moment.balanced[1]
+        assert found.force.balanced.all()
+        assert found.moment.balanced[1]
         assert found.moment.minor[0] == pytest.approx(found.moment.major[0])

@@ -73,7 +73,8 @@ def test_keys_that_exclude_each_other():
 def test_units_and_bounds():
     stroke = DOCUMENT["$defs"]["Crank"]["properties"]["stroke"]
     one, each = stroke["anyOf"]
-    assert each["items"] == one and one["type"] == ["number", "string"]
+    assert each["items"] == one
+    assert one["type"] == ["number", "string"]
     assert (stroke["unit"], one["exclusiveMinimum"], stroke["examples"]) == ("mm", 0, [90])
     assert DOCUMENT["$defs"]["Shaft"]["properties"]["ratio"]["not"] == {"const": 0}
     assert DOCUMENT["$defs"]["Layout"]["properties"]["strokes"]["enum"] == [2, 4]

@@ -97,7 +97,6 @@ class Engine:
 
     def __post_init__(self) -> None:
         data = self.data
-        self.radius = data["crank"]["stroke"] / 2e3
         self.speed = data.get("operation", {}).get("speed", 1000.0) * 2 * math.pi / 60
         self._arrange()
         for cell in self.cells:
@@ -120,14 +119,17 @@ class Engine:
         )
         shared = layout.get("rods", "shared") == "shared"
         rods = len(banks) if shared else 1
-        count = len(crank["throws"]) if "throws" in crank else len(order) // rods if order else 1
+        rows = layout.get("rows", 1)
+        count = len(crank["throws"]) if "throws" in crank else len(order) // rods if order else rows
+        turn = layout.get("row_angle", 360 / len(banks) / count if "rows" in layout else 0)
         where = [(b, t) for b in range(len(banks)) for t in range(count) if shared or t % len(banks) == b]
+        if "rows" in layout or "row_angle" in layout:
+            where = sorted(where, key=lambda place: place[::-1])
         numbers = (
             [n for row in layout["numbering"] for n in row] if "numbering" in layout else list(range(1, len(where) + 1))
         )
         along = crank.get("positions") or [(t - (count - 1) / 2) * crank.get("spacing", 0) for t in range(count)]
         lean = layout.get("stagger", 0) if shared else 0
-        self.share = crank.get("throw_mass", 0) / rods
         card = self.data.get("bobweight", {})
         self.shells = card.get("rod_bearing", 0) + card.get("oil", 0)  # on each rod of a crank pin
         self.cells = []
@@ -139,7 +141,9 @@ class Engine:
                     "bank": bank,
                     "throw": throw,
                     "own": own,
-                    "axis": own.get("bank", banks[bank]),
+                    "axis": own.get("bank", banks[bank] + turn * throw),
+                    "radius": own.get("stroke", _of_each(crank["stroke"], count)[throw]) / 2e3,
+                    "share": _of_each(crank.get("throw_mass", 0), count)[throw] / rods,
                     "z": own.get("position", along[throw] + (bank - (rods - 1) / 2) * lean) / 1e3,
                 }
             )
@@ -151,7 +155,7 @@ class Engine:
 
     def _pins(self, order: list[int] | None, layout: dict[str, Any], crank: dict[str, Any]) -> None:
         splay = crank.get("splay", 0)
-        throws = dict(enumerate(crank.get("throws", [0])))
+        throws = dict(enumerate(crank.get("throws", [0, 180])))
         if "throws" not in crank and order:
             cycle = 180 * layout.get("strokes", 4)
             steps = layout.get("firing_intervals", [cycle / len(order)] * len(order))
@@ -170,7 +174,7 @@ class Engine:
         piston, rod = self._parts(cell)
         if "articulation" in self.data and cell["bank"] != self.data["articulation"].get("master", 1) - 1:
             return cell["axis"]
-        return cell["axis"] + math.degrees(math.asin(piston["offset"] / (self.radius + rod["length"])))
+        return cell["axis"] + math.degrees(math.asin(piston["offset"] / (cell["radius"] + rod["length"])))
 
     def _parts(self, cell: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
         """Piston (mass, offset) and rod (length, mass, cg from its lower end, inertia) of a cylinder, SI."""
@@ -183,7 +187,7 @@ class Engine:
             if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
-        length = rod["length"] / 1e3 if "length" in rod else self.radius / rod["ratio"]
+        length = rod["length"] / 1e3 if "length" in rod else cell["radius"] / rod["ratio"]
         if "small_end" in rod:
             mass = rod["small_end"] + rod["big_end"]
             cg = length * rod["small_end"] / mass if mass else 0.0
@@ -211,7 +215,7 @@ class Engine:
 
     def _pin(self, cell: dict[str, Any]) -> np.ndarray:
         turning = not self.data.get("layout", {}).get("rotary", False)
-        return self.radius * np.exp(
+        return cell["radius"] * np.exp(
             1j * (math.radians(self.first["axis"] + cell["pin"]) + (THETA if turning else 0 * THETA))
         )
 
@@ -234,10 +238,10 @@ class Engine:
             angle = table["knuckle_angles"][cell["bank"]] if "knuckle_angles" in table else cell["axis"] - chief["axis"]
             along = self._piston(chief, foot) - foot
             knuckle = table["knuckle_radius"] / 1e3 * np.exp(1j * math.radians(angle)) * along / np.abs(along)
-            bodies = [Body(foot, cell["z"], self.share)]
+            bodies = [Body(foot, cell["z"], cell["share"])]
             foot = foot + knuckle
         else:
-            bodies = [Body(foot, cell["z"], self.share + self.shells)]
+            bodies = [Body(foot, cell["z"], cell["share"] + self.shells)]
         piston, rod = self._parts(cell)
         top = self._piston(cell, foot)
         direction = (top - foot) / rod["length"]
@@ -301,8 +305,13 @@ class Engine:
 
         force = largest("force", range(1, 2))
         turning = max(largest(q, range(1, 5)) for q in ("couple", "torque", "roll"))
-        moment = max(largest("moment", range(1, 2)), force * self.radius)
+        moment = max(largest("moment", range(1, 2)), force * max(cell["radius"] for cell in self.cells))
         return {"force": force, "moment": moment, "couple": turning, "torque": turning, "roll": turning}
+
+
+def _of_each(value: float | list[float], count: int) -> list[float]:
+    """One figure for all throws, or a list of them."""
+    return value if isinstance(value, list) else [value] * count
 
 
 def _bare(value: Any) -> Any:

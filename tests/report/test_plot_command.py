@@ -75,8 +75,8 @@ def test_names_of_pages():
 @pytest.mark.parametrize(
     ("options", "told"),
     [
-        (["--speeds", "1000:2000"], "--speeds counts for pages of torsion alone"),
-        (["--what", "modes", "--speed", "1500"], "--speed counts for nothing here"),
+        (["--speeds", "1000:2000"], "--speeds has an effect only on pages of torsion"),
+        (["--what", "modes", "--speed", "1500"], "--speed has no effect on pages of torsion"),
         (["--what", "modes", "--speeds", "1000:2000"], None),
         (["--what", "modes,polar", "--speeds", "1000:2000", "--speed", "1500"], None),
     ],

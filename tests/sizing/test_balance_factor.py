@@ -122,10 +122,10 @@ def pull_of_pins(text: str, factor: float) -> tuple[np.ndarray, np.ndarray, floa
     for cell in oracle.cells:
         piston, rod = oracle._parts(cell)
         small = rod["mass"] * rod["cg"] / rod["length"]
-        mass = rod["mass"] - small + oracle.share + oracle.shells
+        mass = rod["mass"] - small + cell["share"] + oracle.shells
         mass += factor * (piston["mass"] + small)
         angle = momentum.THETA + math.radians(oracle.first["axis"] + cell["pin"])
-        pull = mass * oracle.radius * omega**2 * np.exp(1j * angle)
+        pull = mass * cell["radius"] * omega**2 * np.exp(1j * angle)
         force += pull
         moment += 1j * (cell["z"] - oracle.z) * pull
         sizes += abs(pull[0])

@@ -1,1 +1,1 @@
-"""An `Engine` and a question in, one complete frozen answer out."""
+"""Analyze an `Engine`: each function returns one complete, frozen result."""

@@ -1,4 +1,4 @@
-"""Engine -> Analysis: forces and moments by order, peaks, sizing, as far as they are asked."""
+"""Analyze an engine: forces and moments by order, peaks, devices, and further parts on request."""
 
 from __future__ import annotations
 
@@ -50,34 +50,34 @@ from .records import (
     name_devices,
 )
 
-UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
+UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide", "journals", "masses")  # computed only when they are named
+EXTRAS = ("inner", "guide", "journals", "masses")  # quantities that are computed only on request
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
+    """Free forces and moments of an engine, order by order. Parts that were not requested are None.
 
     Attributes:
-        engine: Engine as analyzed.
+        engine: Analyzed engine.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: Values taken because the engine file leaves them out.
-        peak: Largest values over a revolution, all orders together.
+        assumed: Values that are used because the engine file leaves them out.
+        peak: Largest values over a revolution, sum of all orders.
         sizing: Devices of the scheme `auto`, and the forces left with them.
         ladder: Devices that balance the engine, step by step.
-        cylinders: Each cylinder alone, without devices.
-        inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
-            bearings and in the block as well.
+        cylinders: Forces and moments of each single cylinder, without devices.
+        inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
+            bearing loads, and loads in the block.
         guide: H- and X-type guide-force moments.
-        travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
-            all cylinders are plain slider-cranks.
+        travel: Strokes and dead centres of all cylinders; left out where all are plain
+            slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
-        why: Whether the orders shown are balanced by symmetry.
-        small: Share of what one cylinder makes below which a part is small.
+        why: Whether the orders shown are balanced by symmetry or by chance.
+        small: Share of one cylinder's first order below which a part is small.
     """
 
     format: Literal["balcli.analysis/1"] = "balcli.analysis/1"
@@ -110,29 +110,31 @@ class Analysis(Result):
 
     @property
     def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Each kind whose peak was asked for, with its peak."""
+        """Each kind whose peak was computed, with its peak."""
         return [] if self.peak is None else self.peak.items()
 
     @property
     def moments_known(self) -> bool:
-        """Whether the file says where the throws stand; else moments are of coincident ones."""
+        """Whether the file gives the positions of the throws. If not, moments are those of throws
+        in one plane.
+        """
         return self.engine.places_known
 
     @property
     def has_higher_orders(self) -> bool:
-        """Whether there may be orders above those that are shown unless they are asked for."""
+        """Whether the engine has orders above those that are shown by default."""
         return bool(find_relevant_orders(self.engine)[-1] > HIGHEST_ORDER_UNASKED)
 
     @property
     def textbook(self) -> Textbook:
-        """Force and moment, as far as they were asked for and are known, as textbooks have them."""
+        """Force and moment as textbooks state them, if they were computed and are known."""
         asked = [kind.name for kind, _ in self.spectra.vectors()]
         known = [name for name in asked if name != "moment" or self.moments_known]
         return find_textbook(self.engine, self.orders, known)
 
     @property
     def of_one_cylinder(self) -> dict[str, float]:
-        """Largest force and moment of one cylinder, by kind: the scale that makes a value small."""
+        """Largest force and moment of one cylinder, by kind, with which values are compared."""
         scales = self.scales
         return {
             "force": scales.force,
@@ -142,12 +144,12 @@ class Analysis(Result):
 
     @property
     def scales(self) -> Scales:
-        """Largest first-order force of one cylinder, and its moments."""
+        """Largest first-order force, moment and roll of one cylinder."""
         return find_scales(self.engine)
 
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
-    """Return peaks, which must have been asked for, and orders alone."""
+    """Return only peaks, which must have been computed, and orders."""
     assert analysis.peak is not None
     return PeaksAndOrders(analysis.peak, analysis.spectra)
 
@@ -157,7 +159,7 @@ class Sizing:
     """Devices of the scheme `auto`, and the forces left with them.
 
     Attributes:
-        remedy: The devices.
+        remedy: New devices.
         after: Analysis with the devices.
     """
 
@@ -178,23 +180,25 @@ def analyze(
     """Return the free forces and moments of an engine, order by order.
 
     Args:
-        engine: without trailing axes.
-        orders: which orders to show; default: 1 and 2 (0 too at uneven speed) and all in which a
-            quantity that was asked for exceeds 1e-6 of its own largest order, up to 512.
-        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses and gas, or a text of them with commas between; default: all but those
-            after peak.
-        by_cylinder: also the phasors of every cylinder alone.
-        reasons: also why each order is balanced, or is not.
-        guide_height_m: from the crankshaft to the middle of the guides, for the X-type guide
-            moment; default: the rods' lengths.
-        beside: further engines analyzed by the same orders; half orders may be theirs as well.
-        small: share of one cylinder's first order below which ladder and sizing leave a part.
+        engine: Engine without trailing axes.
+        orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and all up to 512 in
+            which a quantity exceeds 1e-6 of its largest order.
+        only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
+            journals, masses and gas, as a list or a text with commas; default: force to peak, and
+            gas if the engine has some.
+        by_cylinder: Whether to compute the phasors of each single cylinder as well.
+        reasons: Whether to find out why each order is balanced or not.
+        guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
+            guide moment; default: the rods' lengths.
+        beside: Further engines that are analyzed for the same orders; half orders are allowed if
+            one of them has some.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part
+            unbalanced.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
-            of too many cylinders; a height that is not above 0.
-        TypeError: an argument of another type.
+        BalcliError: A quantity is unknown, an order is negative or above 4096, there are too many
+            orders x cylinders, or a height is not above 0.
+        TypeError: An argument has a wrong type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
@@ -217,7 +221,7 @@ def analyze(
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)
-    else:  # near its lock an engine has tens of thousands: peaks need them, gas and tables do not
+    else:  # an engine close to locking has tens of thousands: only peaks need all of them
         few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
@@ -243,7 +247,7 @@ def analyze(
 
 
 def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
-    """Return results that are seldom asked for; their modules are loaded for them alone."""
+    """Return results that are seldom wanted; their modules are loaded only for them."""
     if not {"journals", "masses"}.intersection(wanted):
         return {}
     from . import crank_drive
@@ -265,8 +269,8 @@ def _check_height(guide_height_m: float | None) -> None:
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """Return the quantities that are computed unless some are named: all but sizing and ladder;
-    those of gas if the engine has gas.
+    """Return the quantities that are computed by default; with gas, these include all quantities of
+    gas.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
@@ -303,13 +307,13 @@ def _size(engine: Engine, ladder: Ladder, asked: Array | None, wanted: Collectio
 
 
 def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
-    """Return strokes and dead centres by the numbers of the cylinders, in rising order."""
+    """Return strokes and dead centres, sorted by cylinder number."""
     columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
     return tuple(sorted(map(Stroke, engine.numbers, *columns)))
 
 
 def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
-    """Return why orders are balanced; nothing can be proved of order 0, nor of moments that are
+    """Return whether orders are balanced by symmetry, without order 0 and without moments that are
     not known.
     """
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
@@ -317,11 +321,12 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Return shear, bending and bearing loads along the crankshaft, with gas as far as it is known.
+    """Return shear, bending and bearing loads along the crankshaft; with gas if its loads are
+    known.
 
     Args:
         engine: Engine without trailing axes.
-        asked: Orders to show, shape (orders,); None: the usual ones.
+        asked: Orders to show, shape (orders,); None: the default ones.
     """
     inner = compute_inner_loads(engine, asked)
     return inner if engine.gas is None else add_gas_loads(inner, engine, asked)

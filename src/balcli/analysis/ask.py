@@ -1,5 +1,5 @@
-"""What `balcli analyze` does between its options and its output: files analyzed at one speed, over
-several, or for the sheet of marine builders.
+"""Answer a request of `balcli analyze`: analyze files at one speed, at several speeds, or for the
+sheet of marine builders, and print the results.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 def answer(
     paths: Sequence[str], asked: Request, form: Format, output: Path | None, units: Units
 ) -> None:
-    """Analyze files and print the results, by the engines' names; messages name bad files.
+    """Analyze files and print the results with the engines' names; messages name bad files.
 
     Args:
         paths: Engine files.
@@ -74,7 +74,7 @@ def answer(
         return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
     found, errors = try_each(paths, find_one)
-    if found and not (errors and output):  # a file gets all of them or is left as it was
+    if found and not (errors and output):  # a file gets all results or is not changed
         engines, good, results = zip(*found, strict=True)
         named = zip(name_engines(engines, good), results, strict=True)
         show([NamedResult(*one, view) for one in named], renderer, form, output, units)
@@ -84,7 +84,7 @@ def answer(
 def _choose_result(
     asked: Request, for_people: bool
 ) -> tuple[Callable[[Engine], object], Renderer[NamedResult[Any]]]:
-    """Return the result for an engine, and how it is shown."""
+    """Return the function that computes the result for an engine, and its renderer."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     if asked.marine:
@@ -105,10 +105,12 @@ def _choose_result(
 
 
 def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:
-    """Return `analyze` for an engine like this one, at any speed and by any orders."""
+    """Return `analyze` with the requested options; the engine, at any speed, and the orders remain
+    to be given.
+    """
     if asked.quantities is None:
         wanted = list(list_usual_quantities(engine))
-        if not asked.over_speed:  # they are the same at all speeds
+        if not asked.over_speed:  # devices are the same at all speeds
             wanted.append("ladder")
             if asked.whole or not for_people:
                 wanted.append("sizing")
@@ -118,7 +120,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
         wanted = list(asked.quantities)
         if "verdict" in asked.parts and for_people:
             wanted.append(COUPLE.name)
-            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # what rocks the engine
+            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for rocking
     return partial(
         analyze,
         only=wanted,

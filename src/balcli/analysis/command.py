@@ -118,17 +118,17 @@ def compare(
 
 
 def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
-    """Reject parts of `analyze` that describe one engine alone.
+    """Reject parts of `analyze` that describe a single engine.
 
     Raises:
-        BalcliError: Names the command that shows them.
+        BalcliError: There is such a part; the error names the command that shows it.
     """
     if of_one := [word for word in words if word in PARTS]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 
 
-Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
+Cylinder = Annotated[int | None, optional("N", "Motion of this piston, also pressure with [gas].")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 Form = Annotated[
     SeriesFormat | None,
@@ -199,12 +199,12 @@ Phase = Annotated[
     str,
     typer.Option(
         metavar="DEG",
-        help="Crank angle by which the second engine leads, counted from that engine's own x axis: "
+        help="Crank angle by which the second engine leads, from its own x axis: "
         "with --turn 90 the cranks point the same way at --phase -90.",
     ),
 ]
-At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
-Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]
+At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Origin of the second engine, mm.")]
+Turn = Annotated[str, typer.Option(metavar="DEG", help="Angle by which it is turned about z.")]
 Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")

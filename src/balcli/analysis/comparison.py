@@ -1,4 +1,4 @@
-"""Engines side by side: `compare`, its result, and how it is shown."""
+"""Compare engines side by side: `compare`, its result, and the tables that show it."""
 
 from __future__ import annotations
 
@@ -62,16 +62,16 @@ LEFT = {
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """One figure of every engine, SI: the amplitude of an order, or the peak of the whole curve.
+    """One figure of every engine, SI: the amplitude of an order, or the peak over a revolution.
 
     Attributes:
         quantity: Name of the figure, which ends in its unit.
         order: Order; null for a peak.
-        values: One an engine; null for moments that are not known.
+        values: Value for each engine; null for moments that are not known.
         ratios: Ratios to the first engine's value; null where that is 0.
         kind: Kind of force or moment.
-        single: Value against which each one may be negligible, such as that of one cylinder; 0
-            where there is no such measure.
+        single: Scale with which each value is compared, such as the value of one cylinder; 0 if
+            there is none.
     """
 
     quantity: str
@@ -88,13 +88,13 @@ class Line:
 
     @property
     def negligible(self) -> list[bool]:
-        """Whether each value is 0, or small against its measure."""
+        """Whether each value is 0, or negligible against its scale."""
         pairs = zip(self.values, self.single, strict=True)
         return [value == 0 or value < NEGLIGIBLE * single for value, single in pairs]
 
     @property
     def low(self) -> bool:
-        """Whether it is a peak, or of an order up to 2."""
+        """Whether it is a peak, or an order up to 2."""
         return self.order is None or self.order <= 2
 
 
@@ -105,13 +105,13 @@ class Comparison(Result):
     Attributes:
         format: Name and version of the document.
         engines: Names of the engines.
-        speeds_rpm: Speed at which each is compared.
-        assumed: Values taken because the files leave them out; with the engine's name where one
-            does not hold for all.
+        speeds_rpm: Speed of each engine.
+        assumed: Values that are used because the files leave them out, with the engine's name if
+            they do not hold for all.
         figures: Figures of all engines.
         ladders: Devices that balance each engine, step by step.
-        compared: The engines.
-       whole: Whether tables show negligible orders as well.
+        compared: Engines.
+        whole: Whether tables show negligible orders as well.
     """
 
     format: Literal["balcli.compare/1"] = "balcli.compare/1"
@@ -137,19 +137,20 @@ def compare_engines(
     whole: bool = False,
     small: float = SMALL,
 ) -> Comparison:
-    """Return the free forces and moments of several engines: the largest of each order, and peaks.
+    """Return the free forces and moments of several engines: the largest value of each order, and
+    peaks.
 
     Args:
-        engines: without trailing axes, at least two.
-        names: what to call them.
-        orders: default: all that `analyze` shows for one of them.
-        only: as in `analyze`; of sizing, the peaks that are left with the devices; default: the
-            usual ones, and gas where all engines have some.
-        whole: whether tables show negligible orders as well; they do if orders are given.
-        small: as in `analyze`.
+        engines: At least two engines without trailing axes.
+        names: Names of the engines.
+        orders: Orders to show; default: all that `analyze` shows for one of them.
+        only: As in `analyze` (sizing gives the peaks with the devices); default: force to peak, and
+            gas if all engines have some.
+        whole: Whether tables show negligible orders as well; they do if orders are given.
+        small: As in `analyze`.
 
     Raises:
-        BalcliError: fewer than two engines.
+        BalcliError: There are fewer than two engines.
     """
     if len(engines) < 2:
         raise BalcliError("compare needs at least two engine files")
@@ -176,12 +177,12 @@ def analyze_alike(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> tuple[Analysis, ...]:
-    """Return analyses of several engines, or of one at several speeds, all by the same orders.
+    """Return analyses of several engines, or of one at several speeds, all for the same orders.
 
     Args:
         engines: Engines without trailing axes.
-        orders: Orders to show; None: each that one of the analyses shows by default.
-        analyze_one: Function that analyzes an engine by such orders.
+        orders: Orders to show; None: all that one of the analyses shows by default.
+        analyze_one: Function that analyzes an engine for given orders.
     """
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
     if orders is not None:
@@ -193,13 +194,13 @@ def analyze_alike(
 def make_line(
     kind: Kind, order: float | None, values: tuple[float, ...], single: tuple[float, ...]
 ) -> Line:
-    """Return one figure of every engine, with its ratios to the first value.
+    """Return one figure of every engine with its ratios to the first value.
 
     Args:
         kind: Kind of force or moment.
         order: Order; None for a peak.
-        values: Values, SI, one an engine.
-        single: Value against which each one may be negligible.
+        values: Values, SI, one for each engine.
+        single: Scale with which each value is compared.
     """
     name = f"peak_{kind.key}" if order is None else kind.key
     ratios = tuple(value / values[0] if values[0] else nan for value in values)
@@ -207,10 +208,11 @@ def make_line(
 
 
 def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tuple[Line, ...]:
-    """Return every figure of analyses by the same orders side by side.
+    """Return every figure of several analyses side by side.
 
     Args:
-        every_order: also orders above 2 that are balanced in all of them.
+        analyses: Analyses for the same orders.
+        every_order: Whether to include orders above 2 that are balanced in all analyses.
     """
     guides = _list_guides(analyses)
     alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia alone"
@@ -221,7 +223,7 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     lines = []
     for kind, order in tables[0]:
         if not all((kind, order) in table for table in tables):
-            continue  # one throw has no known bearings
+            continue  # bearings of a single throw are not known
         values = tuple(table[kind, order] for table in tables)
         shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
         single = tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
@@ -268,7 +270,7 @@ def _list_sizes(
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
-    """Return guide moments with gas where all engines have some, else of inertia alone."""
+    """Return guide moments of inertia and gas if all engines have gas, else of inertia only."""
     found = [one.guide for one in analyses]
     known = [guide for guide in found if guide is not None]
     if len({guide.with_gas for guide in known}) < 2:
@@ -288,20 +290,21 @@ def compare(
     the first engine's.
 
     Args:
-        engines: two or more, as `load` makes them.
-        names: what to call them; default: as their files do, or by number where names are missing
-            or stand for several.
-        orders: which to show; default: all that are not negligible in one of them.
-        only: any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
-            default: all but the four after peak.
+        engines: Two or more engines from `load`.
+        names: Names of the engines; default: those in their files, or numbers if a name is missing
+            or occurs twice.
+        orders: Orders to show; default: all that are not negligible in one of them.
+        only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
+            default: force to peak, and gas if all engines have some.
 
     Returns:
         Every figure in `result.figures`, with the values of all engines in SI units and their
         ratios.
 
     Raises:
-        BalcliError: fewer than two engines; other than one name for each; an unknown quantity.
-        TypeError: one that is no engine; names that are no texts.
+        BalcliError: There are fewer than two engines, not one name for each, or a quantity is
+            unknown.
+        TypeError: An argument is no engine, or names are no texts.
 
     Example:
         >>> compare(load("i4.toml"), load("i6.toml")).to_pandas()
@@ -319,8 +322,8 @@ def compare(
 
 
 def rows(result: Comparison, system: System) -> Rows:
-    """Return CSV: a figure a line, a column an engine; last every figure of the steps, SI, empty
-    for an engine without this step.
+    """Return the rows of CSV: a line for each figure, a column for each engine. Figures of ladder
+    steps come last, in SI; they are empty for an engine without the step.
 
     Args:
         result: Comparison of the engines.
@@ -341,7 +344,7 @@ def rows(result: Comparison, system: System) -> Rows:
 
 
 def sheet(result: Comparison, system: System) -> Sheet:
-    """Return tables of amplitudes, with ratios to the first engine's below their size.
+    """Return tables of amplitudes, with ratios to those of the first engine.
 
     Args:
         result: Comparison of the engines.
@@ -375,7 +378,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
 
 
 def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
-    """Return the unit that fits the largest of all known values.
+    """Return the unit that fits the largest known value.
 
     Args:
         kind: Kind of force or moment.
@@ -386,8 +389,8 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Return the orders that are not small against the largest or against one cylinder's, and the
-    peak; none if all are 0. Low orders are kept where one engine's are not known.
+    """Return the orders that are not small compared with the largest or with one cylinder, and the
+    peak; empty if all are 0. Low orders are kept if those of an engine are not known.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
     return [
@@ -399,7 +402,7 @@ def find_lines_that_matter(lines: list[Line]) -> list[Line]:
 
 
 def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None = None) -> list[str]:
-    """Return amplitudes in their unit, or a word for one that is negligible.
+    """Return amplitudes in their unit, or a word for negligible ones.
 
     Args:
         line: Amplitudes of all engines.
@@ -414,7 +417,7 @@ def show_sizes(line: Line, unit: ShownUnit, *, every: bool, digits: int | None =
 
 
 def _row(line: Line, unit: ShownUnit, *, every: bool) -> tuple[str, ...]:
-    """Return sizes, and ratios to the first engine's unless that is negligible."""
+    """Return the row of a line: values, and ratios to the first value unless that is negligible."""
     first, *others = show_sizes(line, unit, every=every)
     ratios = (UNKNOWN if line.negligible[0] else number(ratio) for ratio in line.ratios[1:])
     return (

@@ -1,16 +1,17 @@
 """Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
 `--only masses`).
 
-The crankshaft is rigid, turns at the steady mean speed and gives its torque off at the flywheel
-end. With T_i the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque
-of all throws before it, `M_j = sum T_i, i < j`, and the pin of throw i `M_i + T_i/2`: the bearing
-before the throw takes half of the tangential force, at the arm r from the pin. The nominal shear
-stress of a hollow journal is `16 T D/(pi (D^4 - d^4))`.
+The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
+If T_i is the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque of
+all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + T_i/2`, because the
+bearing before the throw takes half of the tangential force, at the arm r from the pin. The nominal
+shear stress of a hollow journal under the torque T is `16 T D/(pi (D^4 - d^4))`.
 
-With l the length of the rod, a the distance of its centre of mass from the piston pin and b from
-the crank pin, its two masses are m b/l at the small and m a/l at the big end. They have the moment
-of inertia m a b about the centre of mass, the rod has J; H = m a b - J. A rod that swings about the
-piston pin has the reduced length (J + m a^2)/(m a), which is l if H = 0.
+Let l be the length of a rod, m its mass, a the distance of its centre of mass from the piston pin,
+and b that from the crank pin. The rod is represented by the masses m b/l at the small end and m a/l
+at the big end. About the centre of mass, these have the moment of inertia m a b and the rod has J;
+their difference is H = m a b - J. A rod that swings about the piston pin has the reduced length (J
++ m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ from ..show.units import SI, ShownUnit, System, name_with_unit
 from .records import Journal, JournalTorque, Masses, ShearStress
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
-_ROUNDING = 1e-12  # of the sum of all cylinders' amplitudes: less is no torque
+_ROUNDING = 1e-12  # share of the sum of all cylinders' amplitudes; less is rounding
 
 
 def find_journals(engine: Engine) -> tuple[Journal, ...]:
@@ -49,7 +50,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
         engine: Engine without trailing axes.
 
     Raises:
-        BalcliError: The crank of a rotary engine stands still.
+        BalcliError: The engine is rotary: its crank is at rest.
     """
     if engine.rotary:
         raise BalcliError("journals: the crank of a rotary engine stands still")
@@ -59,7 +60,7 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     waves = _Waves.of(engine)
     found = []
     for k in range(2 * count + 1):
-        throw = (k - 1) // 2 if k % 2 else k // 2  # of the pin, or behind the main journal
+        throw = (k - 1) // 2 if k % 2 else k // 2  # of the pin, or behind the journal
         weights = np.where(throws < throw, 1.0, 0.5 * (throws == throw) * (k % 2))
         at = (places if k % 2 else bearings) if engine.places_known else None
         inertia = waves.measure(weights)
@@ -93,7 +94,9 @@ class _Waves(NamedTuple):
         return cls(orders, compute_spectra(steady, orders, ("torque",), each=True)["torque"].x)
 
     def measure(self, weights: Array) -> JournalTorque:
-        """Return the inertia torque of the cylinders, each with its weight, shape (cylinders,)."""
+        """Return the inertia torque of the cylinders, each times its weight; weights have shape
+        (cylinders,).
+        """
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE
@@ -102,13 +105,15 @@ class _Waves(NamedTuple):
         return _write(highest, at_high, float(low.value), float(low.angle), 0.0)
 
     def at(self, angle: Array, weights: Array) -> Array:
-        """Return the sum of the weighted torques at crank angles, rad, in their shape."""
+        """Return the sum of the weighted torques at crank angles (rad), in the shape of the
+        angles.
+        """
         turned = np.exp(1j * np.multiply.outer(angle, self.orders))
         return np.asarray((turned @ (self.each @ weights)).real)
 
 
 def _measure_total(gas: EngineGas, waves: _Waves, weights: Array) -> JournalTorque:
-    """Return the torque of gas and inertia of the cylinders, each with its weight."""
+    """Return the torque of gas and inertia of the cylinders, each times its weight."""
     pairs = zip(gas.cylinders, weights.tolist(), strict=True)
     cylinders = [(c.torque, c.fires, c.share * weight) for c, weight in pairs if weight]
     if not cylinders:
@@ -133,7 +138,9 @@ def _write(
 
 
 def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStress | None:
-    """Return the stress of a journal of a kind, pin or main; None without its diameter."""
+    """Return the stress of a journal of this kind (pin or main); None if its diameter is not
+    given.
+    """
     table = None if engine.model is None else engine.model.bearing
     diameter = None if table is None else getattr(table, f"{kind}_diameter")
     if diameter is None:
@@ -147,7 +154,7 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
 
 # ------------------------------------------------------------------ how it is shown
 def lay_out_journals(journals: Sequence[Journal], system: System) -> Iterator[Grid]:
-    """Yield a table of the torques in journals and pins, and with gas one of inertia alone.
+    """Yield a table of the torques in journals and pins; with gas, also one of inertia only.
 
     Args:
         journals: Journals, from the free end.
@@ -197,7 +204,7 @@ def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
 
 # ------------------------------------------------------------------ masses
 def list_masses(engine: Engine) -> tuple[Masses, ...]:
-    """Return the masses of each distinct set of parts, in the order of the lowest cylinder.
+    """Return the masses of each distinct set of parts, sorted by the lowest cylinder number.
 
     Args:
         engine: Engine without trailing axes.
@@ -248,7 +255,7 @@ _LABELS = {
 
 
 def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
-    """Return a table: a figure a row, cylinders with equal parts a column.
+    """Return a table with a row for each figure and a column for cylinders with equal parts.
 
     Args:
         masses: Masses of each distinct set of parts.
@@ -268,7 +275,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
 
 
 def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
-    """Yield every figure of the masses, SI, by the lowest cylinder of each set."""
+    """Yield every figure of the masses, SI, with the lowest cylinder number of each set."""
     for one in masses:
         for name, value, unit in list_figures(to_document(one), ("cylinders",)):
             yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)

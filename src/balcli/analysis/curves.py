@@ -1,5 +1,5 @@
-"""Curves over the crank angle of an engine, or of one of its cylinders, with gas if it has some:
-`curves`, its result, and how it is written.
+"""Curves over the crank angle of an engine or one of its cylinders, with gas if it has some:
+`curves`, its result, and its output formats.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from ..show.result import Result
 
 _MOMENTS = [MOMENT.key_along(axis) for axis in ("x", "y", *MOMENT.upright)]
 
-_EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # where the sizes of parts are taken, deg
+_EVERYWHERE = np.arange(0.0, 360.0, 15.0)  # crank angles at which sizes of terms are estimated, deg
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -55,8 +55,8 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: Values taken because the engine file leaves them out: with `crank.spacing = 0`,
-            moments are those of throws in one plane.
+        assumed: Values that are used because the engine file leaves them out: with `crank.spacing =
+            0`, moments are those of throws in one plane.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -72,18 +72,18 @@ class Curves(Result):
         return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
     def known(self) -> dict[str, Array]:
-        """The curves without moments that are not known."""
+        """Return the curves without moments that are not known."""
         unknown = _MOMENTS if "crank.spacing = 0" in (self.assumed or ()) else ()
         return {name: values for name, values in self.curves.items() if name not in unknown}
 
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
-    """Free force (N), moment, couple, inertia torque and roll (N m) of a whole engine, devices
-    included; force and moment also by which way is up, if that is known.
+    """Return free force (N), moment, couple, inertia torque and roll (N m) of an engine with its
+    devices; force and moment also as vertical and horizontal components, if `frame.up` is given.
 
     Args:
-        engine: without trailing axes.
-        crank_deg: shape (angles,).
+        engine: Engine without trailing axes.
+        crank_deg: Crank angles, shape (angles,).
     """
     found = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
     curves = dict(found.curves)
@@ -102,12 +102,12 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     m/s2) and rod angle (deg) of one cylinder.
 
     Args:
-        engine: without trailing axes.
-        number: of the cylinder, as the engine file counts them.
-        crank_deg: shape (angles,).
+        engine: Engine without trailing axes.
+        number: Number of the cylinder.
+        crank_deg: Crank angles, shape (angles,).
 
     Raises:
-        BalcliError: the engine has no such cylinder.
+        BalcliError: The engine has no such cylinder.
     """
     row = find_row(engine, number, "--cylinder")
     return _sum_parts(
@@ -118,10 +118,13 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
-    """Return the sum of the parts of each curve; a sum within their rounding error is 0.
+    """Return the sum of the terms of each curve; a sum within their rounding error is 0.
 
     Args:
-        compute: parts at some angles, by name, each of shape (parts, angles).
+        engine: Engine.
+        crank_deg: Crank angles, shape (angles,).
+        compute: Function that returns the terms at some angles, by name, each of shape (terms,
+            angles).
     """
     noise = {
         name: 8 * len(parts) * EPS * float(np.abs(parts).sum(axis=0).max())
@@ -143,7 +146,9 @@ def _sum_parts(
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """Return the curves of each cylinder and device, shape (cylinders and devices, angles)."""
+    """Return the terms of each curve: those of cylinders and devices, shape (cylinders + devices,
+    angles).
+    """
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
     force = np.concatenate([_force_of_cylinders(motion), of_devices])
@@ -167,7 +172,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 
 def _compute_cylinder_parts(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Return parts of the motion of the cylinder in this row, shape (parts, angles)."""
+    """Return the terms of the motion of the cylinder in this row, each of shape (terms, angles)."""
     motion = EngineMotion(engine, crank_deg)
     m, r = motion.moved, float(engine.cylinders.radius_of_each[row])
     v, a = -m.velocity[row], -m.acceleration[row]
@@ -193,7 +198,8 @@ def _force_of_cylinders(motion: EngineMotion) -> Complex:
 
 def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Return the free couple of each cylinder about the crank's axis, N m, shape (cylinders,
-    angles): h = -m_rec e s' + m_rot r^2 - H spin (+ the masses on curves), s' = -r v.
+    angles), from the moment of momentum h = -m_rec e s' + m_rot r^2 - H spin (+ masses of the
+    linkage), s' = -r v.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
@@ -207,19 +213,19 @@ _ROUNDING = 1e-14
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """Return the torque of all cylinders' gas, N m, shape (angles,)."""
+    """Return the gas torque of all cylinders, N m, shape (angles,)."""
     at = np.radians(crank_deg)
     each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
     return {GAS.key: sum(each, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
-    """Return pressure (Pa), volume (m3), gas force, side thrust, force along the rod, force on the
-    crank or knuckle pin along and across the cylinder (N), and the torque of gas and inertia (N m)
-    of the cylinder in a row, as far as they are known, each (angles,).
+    """Return curves of the cylinder in a row, each of shape (angles,): pressure (Pa), volume (m3),
+    gas force, side thrust, force along the rod, force on the crank or knuckle pin along and across
+    the cylinder (N), and torque of gas and inertia (N m). Curves that are not known are omitted.
 
-    Forces across count to the side to which the crank pin moves after top dead centre, which seen
-    from a cylinder that turns lies behind it.
+    Forces across the cylinder are positive towards the side to which the crank pin moves after top
+    dead centre. (In a rotary engine, this is behind the turning cylinder.)
     """
     found: dict[str, Array] = {}
     gas = take_gas(engine)
@@ -243,7 +249,7 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
 
 
 def _settle(values: Array) -> Array:
-    """Return values in which rounding errors next to the largest value are 0."""
+    """Return the values, with those that are only rounding errors of the largest set to 0."""
     return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
 
 
@@ -254,17 +260,19 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
 
     Args:
         engine: Engine from `load`.
-        step_deg: Step of the crank angle, which begins at 0; with gas it runs over the whole cycle.
+        step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
+            cycle.
         cylinder: Number of the cylinder whose piston travel, speed, acceleration and rod angle are
             wanted, with its pressure if it has gas; default: the whole engine.
 
     Returns:
         `crank_deg` and, by name with unit (`force_x_N`), `curves` of the same shape (angles,).
-        Forces of a cylinder count along it, outward, and across it, to the side to which the crank
-        pin moves after top dead centre; travel counts towards the crank (docs/json.md).
+        Forces of a cylinder are positive outward along its axis, and across it towards the side to
+        which the crank pin moves after top dead centre; travel is positive towards the crank
+        (docs/json.md).
 
     Raises:
-        BalcliError: a step that is too small or too large; no such cylinder.
+        BalcliError: The step is too small or too large, or there is no such cylinder.
         TypeError: `engine` is not an Engine.
 
     Example:
@@ -303,12 +311,12 @@ def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float
 
 
 def columns(curves: Curves) -> Columns:
-    """Return crank angles, and each quantity that is known; units stand in the names."""
+    """Return crank angles and each quantity that is known; names include units."""
     return Columns({"crank_deg": curves.crank_deg, **curves.known()})
 
 
 def rows(curves: Curves) -> Rows:
-    """Return CSV: a line a crank angle, a column a quantity that is known."""
+    """Return the rows of CSV: a line for each crank angle, a column for each known quantity."""
     found = columns(curves).values
     return Rows(tuple(found), np.column_stack([*found.values()]).tolist())
 

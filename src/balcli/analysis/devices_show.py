@@ -1,4 +1,6 @@
-"""Counterweights, balancer shafts and sliders of a remedy, and what a workshop asks of them."""
+"""Show counterweights, balancer shafts and sliders of a remedy, and their figures for the
+workshop.
+"""
 
 from __future__ import annotations
 
@@ -32,9 +34,9 @@ if TYPE_CHECKING:
     from ..sizing.workshop import Practical, Tools
 
 
-_ROUNDING = 1e-12  # of what one cylinder makes
-_HARDLY = 0.05  # % of one cylinder, which would be printed as 0.0
-_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # of CSV
+_ROUNDING = 1e-12  # share of one cylinder's value
+_HARDLY = 0.05  # % of one cylinder; smaller values would be printed as 0.0
+_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # keys in CSV
 ANGLES = (
     "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
     "counterweights from cylinder 1's crank pin, of shafts from x."
@@ -79,7 +81,7 @@ def ladder_grid(
         ladder: Ladder to show.
         engine: Engine as drawn.
         system: System of units.
-        tell_fitted: Whether a sentence says what `balcli balance` fits.
+        tell_fitted: Whether a sentence names the step that `balcli balance` fits.
     """
     steps, scale = ladder.steps, ladder.scale
     columns = [("step", [f"{k} {step.step}" for k, step in enumerate(steps)])]
@@ -118,7 +120,9 @@ def ladder_grid(
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
-    """Return a sentence on an omitted step, with the larger of the force and moment it removes."""
+    """Return a sentence on an omitted step, with the larger of the force and moment that it would
+    remove.
+    """
     size, fall = abs(ladder.measure(out)), out.main_bearing_N
     if size < _HARDLY:
         return ""
@@ -138,7 +142,7 @@ def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
-    """Yield notes on shafts and sliders: how angles count, and where a shaft may stand."""
+    """Yield notes on shafts and sliders: how angles count, and where a shaft may be."""
     if any(isinstance(device, Shaft) for device in devices):
         yield (
             "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
@@ -160,8 +164,14 @@ def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> s
     return number(unit.of(millimetres / 1e3), digits)
 
 
+def list_radii(practical: Sequence[Practical], unit: ShownUnit) -> str:
+    """Return the radii of devices: several where the throws have different ones."""
+    radii = dict.fromkeys(_length(each.radius_mm, unit, 4) for each in practical)
+    return f"{', '.join(radii)} {unit.name}"
+
+
 def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: System) -> Grid:
-    """Return a table of the workshop's figures, one row for each device.
+    """Return a table of figures for the workshop, one row for each device.
 
     Args:
         remedy: Devices.
@@ -169,14 +179,14 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
         system: System of units.
     """
     length, mass, force = system.length, system.mass, system.force
-    radius = f"{_length(practical[0].radius_mm, length, 4)} {length.name}"
+    radius = list_radii(practical, length)
     note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
     if remedy.sliders:
         note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
     rows = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         disc = [_length(size, length, 3) for size in (p.disc_radius_mm, p.disc_thickness_mm)]
-        disc = [UNKNOWN, UNKNOWN] if isinstance(device, Slider) else disc  # it is no disc
+        disc = [UNKNOWN, UNKNOWN] if isinstance(device, Slider) else disc  # a slider is no disc
         at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg)))
         rows.append((f"{k} {name_kind(device)}", *at_speed, *disc))
     units = (f"force, {force.name}", f"mass, {mass.name}")
@@ -187,17 +197,17 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 def holes_grid(
     remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
 ) -> Grid:
-    """Return a table of where to drill, how many holes and how deep; or of where to put slugs.
+    """Return a table of the holes to drill for each device (or for slugs): angle, number and depth.
 
     Args:
         remedy: Devices.
         practical: Figures of the devices for the workshop, at least one.
-        tools: Drill and radius; it has a drill.
+        tools: Tools of the workshop, with a drill.
         system: System of units.
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
-    rim = tell_rim(tools, f"{_length(practical[0].radius_mm, unit, 4)} {unit.name}")
+    rim = tell_rim(tools, list_radii(practical, unit))
 
     rows = tuple(
         (
@@ -222,10 +232,10 @@ def holes_grid(
 
 
 def tell_rim(tools: Tools, radius: str) -> str:
-    """Return in words where holes start, and whether the radius was given.
+    """Return in words the radius at which holes start, and whether it was given.
 
     Args:
-        tools: Drill and radius.
+        tools: Tools of the workshop.
         radius: Radius as it is printed.
     """
     why = "--radius" if tools.radius else "the crank radius, assumed: --radius says where it is"
@@ -233,11 +243,11 @@ def tell_rim(tools: Tools, radius: str) -> str:
 
 
 def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
-    """Yield how long the largest row of holes is.
+    """Yield a sentence on the length of the largest row of holes.
 
     Args:
         practical: Figures of the devices for the workshop.
-        tools: Drill and radius.
+        tools: Tools of the workshop.
         unit: Unit of lengths.
     """
     most = max((p.holes for p in practical if p.holes), default=0)
@@ -264,7 +274,7 @@ def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, Device
 
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, float | str, str]]:
-    """Yield name, value and unit of every figure of a device, as an engine file has it.
+    """Yield name, value and unit of every figure of a device, by the keys of an engine file.
 
     Args:
         device: Table of the device.

@@ -1,4 +1,4 @@
-"""Options of `balcli analyze`, and the request that they make."""
+"""Options of `balcli analyze`, and the request that holds their values."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..show.formats import Format
 
 
 class AnalysisFormat(StrEnum):
-    """How an analysis is written: as all results, or as the sheet of marine builders."""
+    """Format of an analysis: that of all results, or the sheet of marine builders."""
 
     TABLE = "table"
     JSON = "json"
@@ -31,21 +31,21 @@ AnalysisFormatOption = Annotated[
     list[AnalysisFormat] | None,
     format_option(
         AnalysisFormat,
-        "How to write the result; default: by the ending of -o, else table. marine: external "
-        "forces and moments, guide moments and torque by order; with -f csv as well, in CSV.",
+        "Format of the result; default: by the ending of -o, else table. marine: table of external "
+        "forces and moments, guide moments and torque by order; add -f csv for CSV.",
     ),
 ]
 SpeedsOption = Annotated[
     str | None,
     optional(
         "RPM|RPM:RPM:STEP|RPM,...",
-        "Crank speed instead of the file's, rpm, or several, such as 60:124:8; the last speed of a "
+        "Crank speed instead of the file's, rpm, or several, such as 60:124:8. The last speed of a "
         "range is always computed.",
         "--speed",
         "--rpm",
     ),
 ]
-By = Annotated[str, optional("cylinder", "cylinder: also each cylinder's share.", "--by")]
+By = Annotated[str, optional("cylinder", "cylinder: also show each cylinder's share.", "--by")]
 Why = Annotated[bool, typer.Option("--why", help="Print why each order is balanced or not.")]
 
 
@@ -55,14 +55,14 @@ class Request(NamedTuple):
     Attributes:
         speeds_rpm: Crank speeds; empty: the file's.
         orders: Orders to show; None: those that the engine has.
-        quantities: Quantities to compute; None: the usual ones of each engine.
-        parts: Words of `--only`; empty: none was given.
+        quantities: Quantities to compute; None: the default ones of each engine.
+        parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
         by_cylinder: Whether each cylinder's share is shown.
         why: Whether reasons are shown.
         height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
         misfires: Numbers of the cylinders without gas.
-        marine: Whether it is the sheet of marine builders.
+        marine: Whether the sheet of marine builders is wanted.
         small: Share of one cylinder's first order below which ladder and sizing leave a part.
     """
 
@@ -85,14 +85,14 @@ class Request(NamedTuple):
 
     @property
     def words(self) -> frozenset[str] | None:
-        """Words that were named, for warnings; None: nothing in particular."""
+        """Words of `--only`, for warnings; None if it is not given."""
         return None if self.quantities is None else self.parts
 
     def check(self) -> Request:
-        """Return the request; options that would have no effect are refused or warned about.
+        """Return the request; options without effect cause an error or a warning.
 
         Raises:
-            BalcliError: two options that do not go together.
+            BalcliError: Two options exclude each other.
         """
         given = {"--by": self.by_cylinder}
         if self.marine:
@@ -118,7 +118,7 @@ def choose_analysis_format(
 
     Args:
         output: File to write; None: standard output.
-        asked: Values of `--format`; None: none.
+        asked: Values of `--format`; None if it is not given.
     """
     given = asked or ()
     plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
@@ -128,7 +128,7 @@ def choose_analysis_format(
 
 
 def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:
-    """Return one speed, or a range or list of them, rpm."""
+    """Return the speeds (rpm) of a number, a range or a list; empty without a text."""
     if text is not None and (":" in text or "," in text):
         several = parse_speeds(text, "--speed", MOST_ANALYSED_SPEEDS)
         return () if several is None else tuple(several.tolist())
@@ -140,7 +140,7 @@ def is_by_cylinder(by: str) -> bool:
     """Return whether --by asks for each cylinder's share.
 
     Raises:
-        BadParameter: it asks for something else.
+        BadParameter: The value is another word.
     """
     if by not in ("", "cylinder"):
         raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")

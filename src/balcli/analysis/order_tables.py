@@ -1,6 +1,5 @@
-"""Forces and moments order by order, as tables; and their largest values over a revolution.
-
-What gas and inertia together do about the crank's axis, in brief.
+"""Tables of forces and moments order by order, of their largest values over a revolution, and of
+torque and roll of gas and inertia.
 """
 
 from __future__ import annotations
@@ -64,10 +63,12 @@ def order_tables(
     """Yield a table of each vector, and one of the torques about z.
 
     Args:
-        pivot: axis of couple and roll, in words.
-        roll: a sentence on what the roll is, if it is more than the couple C less the torque T.
-        with_gas: whether the engine has gas; the part of inertia is then labelled.
-        every: also orders above 2 in which all is balanced.
+        spectra: Spectra to show.
+        system: System of units.
+        pivot: Axis of couple and roll, in words.
+        roll: Sentence that defines the roll, if it is not just the couple C less the torque T.
+        with_gas: Whether the engine has gas; torques of inertia are then labelled.
+        every: Whether to show orders above 2 that are balanced as well.
     """
     for kind, phasors in spectra.vectors():
         yield _vector_table(kind, phasors, system.unit(kind), every)
@@ -78,8 +79,8 @@ def order_tables(
 
 
 def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield tables of vectors along x and y, or vertical and horizontal where the file says which
-    way is up, as builders list them, if the spectra have vectors.
+    """Yield a table of the components of vectors, if there are any: along x and y, or vertical and
+    horizontal if the file gives `frame.up`.
 
     Args:
         spectra: Spectra to show.
@@ -117,8 +118,7 @@ def direction_tables(spectra: Spectra, system: System, *, every: bool = False) -
 
 
 def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> Iterator[Grid]:
-    """Yield tables of force and moment as multiples of the units of textbooks, where such units
-    exist.
+    """Yield tables of force and moment as multiples of the units of textbooks, if such units exist.
 
     Args:
         book: Forces in the form of textbooks.
@@ -143,11 +143,11 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
-    """Return a table of one cylinder's share, as lecturers list it: vectors as size and angle.
+    """Return a table of one cylinder's share, with size and angle of each rotating vector.
 
     Args:
         cylinder: Number of the cylinder.
-        share: Its spectra.
+        share: Spectra of the cylinder.
         system: System of units.
     """
     heads, columns = ["order"], [list(map(order_name, share.orders))]
@@ -173,7 +173,7 @@ def peak_facts(
         result: Result with peaks.
         system: System of units.
         title: Title of the block.
-        single: Size of each kind for one cylinder, against which a peak may be negligible.
+        single: Size of each kind for one cylinder, with which peaks are compared.
     """
     pairs = []
     for kind, peak in result.peaks:
@@ -191,8 +191,8 @@ def _table(
     every: bool,
     note: str = "",
 ) -> Grid:
-    """Return a table with a row for each order up to 2, for those in which one of these quantities
-    is not balanced, or for every one.
+    """Return a table with a row for each order up to 2 and each in which one of the phasors is not
+    balanced; with `every`, for all orders.
     """
     rows = tuple(
         (order_name(order), *cells(k))
@@ -205,8 +205,8 @@ def _table(
 def vector_cells(
     phasors: Phasors, k: int, unit: ShownUnit, digits: int | None = None
 ) -> tuple[str, str, str, str, str]:
-    """Return one order of a force or moment: largest and smallest value, axis, and the parts that
-    turn with the crank and against it.
+    """Return the cells of one order of a force or moment: largest and smallest value, axis, and the
+    sizes of the vectors that turn with and against the crank.
 
     Args:
         phasors: Force or moment.
@@ -246,12 +246,12 @@ def _scalar_table(spectra: Spectra, unit: ShownUnit, roll: str, what: str, every
 
 
 def fit_largest(unit: ShownUnit, *columns: Phasors) -> ShownUnit:
-    """Return the unit for the largest of all that is known."""
+    """Return the unit that fits the largest known value."""
     return unit.fit(max(float(np.nan_to_num(p.major).max(initial=0)) for p in columns))
 
 
 def _textbook_table(kind: Kind, book: Textbook, note: str, every: bool) -> Grid:
-    """Return multiples of each order's own unit; a dash where the order is no multiple of it."""
+    """Return a table of multiples of each order's unit; a dash where there is no such unit."""
     alone, built = book.reciprocating[kind.name], book.built[kind.name]
 
     columns = (alone.major, abs(alone.forward), abs(alone.backward), built.major)
@@ -283,12 +283,15 @@ _SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
 def gas_grid(
     spectra: Spectra, system: System, pivot: str, *, every_order: bool, hints: bool
 ) -> Iterator[Grid]:
-    """Yield inertia torque, gas torque, both together and the roll of the frame, by order, if all
-    of them are known; negligible orders are left out unless every one was asked for.
+    """Yield a table by order of inertia torque, gas torque, their sum and the roll of the frame, if
+    all are known. Negligible orders are omitted by default.
 
     Args:
-        pivot: about what the roll is.
-        hints: whether the command that shows more is named.
+        spectra: Spectra to show.
+        system: System of units.
+        pivot: Axis of the roll, in words.
+        every_order: Whether to show negligible orders as well.
+        hints: Whether to name the command that shows more.
     """
     found = [phasors for kind, phasors in spectra.items() if kind.name in _SHOWN]
     if len(found) < len(_SHOWN):

@@ -1,7 +1,6 @@
-"""An analysis in brief: the orders that matter, roll, peaks, and the devices in one line.
-
-Plain words on each order: which part turns with the crank and can be met by a counterweight,
-which part needs shafts.
+"""An analysis in brief: tables of the orders that matter, roll and peaks in a line each, and the
+verdict. The verdict tells in a sentence for each order which part turns with the crank, so that
+counterweights can cancel it, and which part needs shafts.
 """
 
 from __future__ import annotations
@@ -38,12 +37,12 @@ if TYPE_CHECKING:
 
 
 def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[float]:
-    """Return orders to 2, and those with a force or moment that is not small against one
-    cylinder's.
+    """Return the orders up to 2, and those with a force or moment that is not negligible compared
+    with one cylinder.
 
     Args:
         spectra: Spectra to show.
-        single: Size of each kind for one cylinder; kinds not in it are never small.
+        single: Size of each kind for one cylinder; other kinds are never negligible.
     """
     return [
         float(order)
@@ -54,14 +53,14 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
 
 def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints: bool) -> Grid:
-    """Return force and moment side by side, with the parts of each that turn with the crank and
-    against it; the other orders are listed in one line, with a hint how to see them.
+    """Return a table of force and moment side by side, each with its vectors that turn with and
+    against the crank. A line on the other orders follows.
 
     Args:
         spectra: Spectra to show.
         shown: Orders that have rows.
         system: System of units.
-        hints: Whether the option that shows more is named.
+        hints: Whether to name the option that shows more.
     """
     chosen = spectra.select_orders(shown)
     heads = ["order"]
@@ -81,17 +80,20 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
 
 
 def name_column(kind: Kind) -> str:
-    """Return a kind at the head of a column, or in a sentence."""
+    """Return the name of a kind in heads of columns and in sentences."""
     return "roll with gas" if kind is ROLL_TOTAL else kind.name
 
 
 def tell_others(
     states: Sequence[Spectra], shown: list[float], system: System, *, hints: bool
 ) -> str:
-    """Return one line on the orders that are not shown, or nothing.
+    """Return a line on the orders that are not shown; empty if there are none.
 
     Args:
-        states: of one engine, as of now or before and after, with the same orders.
+        states: Spectra of an engine, or of two states (before and after), with the same orders.
+        shown: Orders that are shown.
+        system: System of units.
+        hints: Whether to name the option that shows more.
     """
     others = [
         float(order)
@@ -104,7 +106,7 @@ def tell_others(
     sizes = []
     for kind, _ in rest[0].items():
         largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
-        if largest:  # nan, and so 0 here, where it is not known
+        if largest:  # 0 here if it is not known (nan)
             sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
@@ -114,7 +116,7 @@ def tell_others(
 
 
 def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Facts:
-    """Return moments about the crank's axis and the largest values over a revolution, a line each.
+    """Return lines on the roll by order and on the largest values over a revolution.
 
     Args:
         result: Analysis to show.
@@ -132,7 +134,7 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:
-    """Return every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as of
+    """Return the roll of every order that matters: `order 2: 458, 4: 26.3 N m`; arguments as for
     `roll_and_peaks`.
     """
     least = NEGLIGIBLE * result.of_one_cylinder[ROLL.name]
@@ -147,8 +149,8 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
-_MOST_WORDS = 25  # of a sentence
-_MOST_NAMED = 5  # orders in a row
+_MOST_WORDS = 25  # words in a sentence
+_MOST_NAMED = 5  # orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
 _SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
@@ -158,7 +160,7 @@ _UNEVEN = (
 
 
 class _Vector(NamedTuple):
-    """Force or moment, and what one cylinder makes of it (0: not known)."""
+    """Force or moment, with the value of one cylinder (`scale`; 0: not known)."""
 
     kind: Kind
     phasors: Phasors
@@ -167,18 +169,18 @@ class _Vector(NamedTuple):
     up_deg: float | None
 
     def part(self, k: int, sense: int) -> float:
-        """Return the size of what turns with the crank (1), or against it (-1)."""
+        """Return the size of the vector that turns with the crank (1) or against it (-1)."""
         turning = self.phasors.forward if sense > 0 else self.phasors.backward
         return float(abs(turning[k]))
 
     def tell_size(self, k: int, sense: int = 0) -> str:
-        """Return the largest value of an order, or of its part in one sense."""
+        """Return in words the largest value of an order, or the size of its vector in one sense."""
         size = self.part(k, sense) if sense else float(self.phasors.major[k])
         return size_text(size, self.unit)
 
     def describe(self, k: int, *, directed: bool) -> str:
-        """Return size and direction: `force of 4 N along x`; the axis is also named where the file
-        says which way is up.
+        """Return size and direction in words: `force of 4 N along x`. If the file gives `frame.up`,
+        the axis is also called vertical or horizontal.
         """
         told = f"{self.kind.name} of {self.tell_size(k)}"
         if not directed:
@@ -197,14 +199,14 @@ class _Vector(NamedTuple):
 
 
 class _Order(NamedTuple):
-    """An order, and the parts of its sentence in the verdict.
+    """An order and the parts of its sentence in the verdict.
 
     Attributes:
-        k, order: Its index, and the order.
-        large: Force and moment, as far as they are not small.
-        rest: Force and moment, as far as they are small.
-        couple: Its roll couple in words, where the moment is balanced and the couple is not.
-        cures: Devices that would cancel the parts that are not small, by sense of rotation.
+        k, order: Index of the order, and the order.
+        large: Those of force and moment that are not small.
+        rest: Those of force and moment that are small.
+        couple: Roll couple in words, if the moment is balanced and the couple is not.
+        cures: Devices that would cancel the vectors that are not small, by sense of rotation.
     """
 
     k: int
@@ -220,7 +222,7 @@ class _Order(NamedTuple):
         return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
     def tell(self) -> str:
-        """Return the longest sentence on the order that is not too long."""
+        """Return the sentence on the order: the most detailed one that is not too long."""
         n = int(self.order)
         name = f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
         if self.order % 1:
@@ -238,7 +240,9 @@ class _Order(NamedTuple):
         return told
 
     def _tell_cure(self, sizes: bool) -> str:
-        """Return what cancels the order; with the sizes of its parts, if there is one vector."""
+        """Return in words the devices that cancel the order; with the sizes of its parts if only
+        one vector is large.
+        """
         if not self.cures:
             return ""
         if self.order > 2:
@@ -271,15 +275,15 @@ def verdict(
     steady: bool = True,
 ) -> tuple[str, ...]:
     """Return a sentence for every order that is not small, and one on the others, each of at most
-    25 words; none without forces and moments.
+    25 words; empty if the spectra have no force or moment.
 
     Args:
         spectra: Spectra to judge.
         system: System of units.
-        scales: What one cylinder makes; None: not known, and nothing is small.
-        small: Share of it below which a part is small.
-        steady: Whether the speed is. If not, no cure is named: most of an order may come from
-            another one through the unevenness, and vanishes with that one.
+        scales: Force, moment and roll of one cylinder; None: not known, and no part is small.
+        small: Share of one cylinder below which a part is small.
+        steady: Whether the speed is steady. If not, no device is named, because an order may come
+            mostly from another order through the uneven speed, and would vanish with that.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -317,7 +321,7 @@ def verdict(
     names = " and ".join(vector.kind.name for vector in vectors)
     balanced = [one.order for one in every if one.balanced and one not in matter]
     small_ones = _tell_largest([(one, vector) for one in every for vector in one.rest])
-    if told or small_ones or min(balanced, default=3) <= 2:  # odd ones are of no interest then
+    if told or small_ones or min(balanced, default=3) <= 2:  # name only orders 1 and 2 then
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
     rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
@@ -326,7 +330,9 @@ def verdict(
 
 
 def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
-    """Return what would cancel the parts of an order that turn in these senses, by sense."""
+    """Return the devices that would cancel the vectors of an order that turn in these senses, by
+    sense.
+    """
     if order % 1:
         return {}  # no device turns at half orders
     ratios = {sense: round(order) * sense for sense in sorted(due, reverse=True)}
@@ -334,7 +340,7 @@ def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:
-    """Return which orders are balanced."""
+    """Return in words which orders are balanced."""
     if not orders:
         return ""
     which = f"{len(orders)} orders"
@@ -344,7 +350,9 @@ def _tell_balanced(orders: Sequence[float], names: str) -> str:
 
 
 def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:
-    """Return the largest force and the largest moment of some orders; empty if all are balanced."""
+    """Return in words the largest force and the largest moment of some orders; empty if all are
+    balanced.
+    """
     largest: dict[str, tuple[float, str]] = {}
     for one, vector in found:
         size, name = float(vector.phasors.major[one.k]), vector.kind.name

@@ -1,9 +1,9 @@
-"""Motion of the pistons: strokes, dead centres, mean and largest speed, accelerations; exact, and
-by the two terms that textbooks use.
+"""Motion of the pistons: strokes, dead centres, mean and largest speed, and accelerations; exact,
+and by the two terms that textbooks use.
 
-A cylinder's own crank angle is 0 when its pin points along its axis. The acceleration towards the
-crank is a series of cosines (`core.mechanisms.closed_form`), of which the velocity is the integral;
-their extremes are found on these series.
+Angles named "own" are crank angles of a cylinder, which are 0 when its pin points along its axis.
+The acceleration towards the crank is a series of cosines (`core.mechanisms.closed_form`), and the
+velocity is its integral. The extremes are those of these series.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 # Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
-_SAMPLES = 32  # of each period of the highest order, to count minima
+_SAMPLES = 32  # samples per period of the highest order, to count minima
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,9 +40,9 @@ class Velocity:
 
     Attributes:
         max_m_per_s: Highest velocity.
-        max_own_deg: Its crank angle.
+        max_own_deg: Crank angle of the highest velocity.
         min_m_per_s: Lowest velocity.
-        min_own_deg: Its crank angle.
+        min_own_deg: Crank angle of the lowest velocity.
     """
 
     max_m_per_s: float
@@ -57,9 +57,9 @@ class Acceleration:
 
     Attributes:
         max_m_per_s2: Highest acceleration.
-        max_own_deg: Its crank angle.
+        max_own_deg: Crank angle of the highest acceleration.
         min_m_per_s2: Lowest acceleration.
-        min_own_deg: Its crank angle.
+        min_own_deg: Crank angle of the lowest acceleration.
         type: Number of local minima in a revolution.
     """
 
@@ -72,14 +72,14 @@ class Acceleration:
 
 @dataclass(frozen=True, kw_only=True)
 class TwoTerm:
-    """The same by the first two terms: v = r w (sin psi + lam/2 sin 2 psi).
+    """Velocity and acceleration by the first two terms: v = r w (sin psi + lam/2 sin 2 psi).
 
     Attributes:
         velocity_max_m_per_s: Highest velocity.
-        velocity_max_own_deg: Its crank angle.
+        velocity_max_own_deg: Crank angle of the highest velocity.
         acceleration_max_m_per_s2: Highest acceleration.
         acceleration_min_m_per_s2: Lowest acceleration.
-        acceleration_min_own_deg: Its crank angle.
+        acceleration_min_own_deg: Crank angle of the lowest acceleration.
         type: Number of local minima of the acceleration in a revolution.
     """
 
@@ -101,13 +101,13 @@ class PistonMotion:
         stroke_m: True stroke.
         swept_volume_m3: Swept volume of one cylinder; left out without a bore.
         outer_dead_center_own_deg: Crank angle at which the piston is farthest from the crank.
-        inner_dead_center_own_deg: Crank angle at which it is nearest.
+        inner_dead_center_own_deg: Crank angle at which the piston is nearest to the crank.
         inward_stroke_deg: Crank angle from the outer to the inner dead centre.
-        outward_stroke_deg: The rest of a revolution.
+        outward_stroke_deg: Crank angle from the inner to the outer dead centre.
         mean_speed_m_per_s: Mean piston speed.
         velocity: Largest velocities.
         acceleration: Largest accelerations.
-        two_term: The same by two terms; left out for all but centred slider-cranks.
+        two_term: Velocity and acceleration by two terms; only for centred slider-cranks.
     """
 
     cylinders: tuple[int, ...]
@@ -130,13 +130,13 @@ class Pistons(Result):
 
     Attributes:
         format: Name and version of the document.
-        speed_rpm: Crank speed, taken as steady.
+        speed_rpm: Crank speed, assumed to be steady.
         type_limit_rod_ratio: Rod ratio above which the acceleration of a centred piston has two
             minima.
         swept_volume_m3: Swept volume of the engine; left out without a bore.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values that are used because the engine file leaves them out.
         mechanisms: Motion of each distinct mechanism.
-        engine: The engine.
+        engine: Analyzed engine.
     """
 
     format: Literal["balcli.piston/1"] = "balcli.piston/1"
@@ -223,7 +223,7 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
 
 
 def _find_velocity(orders: Array, series: Complex, scale: float) -> Velocity:
-    """Return the largest velocities, of the phasors of the acceleration by order."""
+    """Return the largest velocities, from the phasors of the acceleration by order."""
     swing = find_swing(orders, series / (1j * orders))
     high, low = _read(swing, scale)
     return Velocity(
@@ -232,7 +232,7 @@ def _find_velocity(orders: Array, series: Complex, scale: float) -> Velocity:
 
 
 def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
-    """Return the largest accelerations, of the phasors of the acceleration by order."""
+    """Return the largest accelerations, from the phasors of the acceleration by order."""
     (highest, at_high), (lowest, at_low) = _read(find_swing(orders, series), scale)
     angles = np.linspace(0, 2 * np.pi, _SAMPLES * len(orders), endpoint=False)
     jerk = (np.exp(1j * np.outer(angles, orders)) @ (1j * orders * series)).real
@@ -247,7 +247,7 @@ def _find_acceleration(orders: Array, series: Complex, scale: float) -> Accelera
 
 
 def _read(swing: Swing, scale: float) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return value and crank angle (deg, 0 to 360) of the highest and of the lowest place."""
+    """Return value and crank angle (deg, 0 to 360) of the maximum and of the minimum."""
     high, low = (
         (scale * float(peak.value), math.degrees(float(peak.angle)) % 360) for peak in swing
     )
@@ -257,8 +257,8 @@ def _read(swing: Swing, scale: float) -> tuple[tuple[float, float], tuple[float,
 def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     """Return the figures of the first two terms of a centred slider-crank.
 
-    The lowest acceleration of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` where that is
-    an angle, at 180 deg otherwise.
+    The minimum of `cos psi + lam cos 2 psi` is at `cos psi = -1/(4 lam)` if there is such an angle,
+    otherwise at 180 deg.
     """
     (psi, value), scale = fastest_two_term(lam), radius * omega**2
     two = lam > _TWO_TERM_LIMIT
@@ -273,7 +273,7 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
 
 
 # ------------------------------------------------------------------ how it is shown
-_TWO_TERM = {  # figures of the two terms, by those of the exact motion
+_TWO_TERM = {  # figures of the two terms, by the paths of the exact figures
     "velocity.max_m_per_s": "velocity_max_m_per_s",
     "velocity.max_own_deg": "velocity_max_own_deg",
     "acceleration.max_m_per_s2": "acceleration_max_m_per_s2",
@@ -284,7 +284,8 @@ _TWO_TERM = {  # figures of the two terms, by those of the exact motion
 
 
 def sheet(result: Pistons, system: System) -> Sheet:
-    """Return a table: a figure a row, a mechanism a column, and next to it the two terms.
+    """Return a table with a row for each figure and a column for each mechanism, followed by one
+    for the two terms.
 
     Args:
         result: Motion of the pistons.
@@ -318,7 +319,7 @@ def sheet(result: Pistons, system: System) -> Sheet:
 
 
 def _choose_unit(name: str, system: System) -> ShownUnit:
-    """Return the unit in which people read a figure, by its path."""
+    """Return the unit in which a figure is shown, by its path."""
     unit = find_unit(name)
     shown = {"m": system.length, "m³": system.volume}
     if system is IMPERIAL:
@@ -338,7 +339,9 @@ def _label(name: str, system: System) -> str:
 
 
 def rows(result: Pistons, system: System) -> Rows:
-    """Return CSV, SI: a figure a line, the numbers of the cylinders in the first column."""
+    """Return the rows of CSV, SI: a line for each figure, with the cylinder numbers in the first
+    column.
+    """
     del system
     lines = [
         (" ".join(map(str, each.cylinders)), name, value, unit)

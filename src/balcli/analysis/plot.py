@@ -1,4 +1,6 @@
-"""Bars by order, curves over crank angle and balance factor, values along the crankshaft."""
+"""Draw bars by order, curves over crank angle and balance factor, and values along the
+crankshaft.
+"""
 
 from __future__ import annotations
 
@@ -26,15 +28,16 @@ _DASHED: Look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
 def draw_vector_bars(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
-    """Draw the largest value of each order as a bar: the part that turns with the crank, and on top
-    the part that turns against it.
+    """Draw the largest value of each order as a bar: the size of the vector that turns with the
+    crank, and on top of it that of the vector that turns against it.
 
     Args:
         ax: Axes to draw on.
         curve: Phasors of the vector, shape (orders,).
         what: Name of the quantity.
-        unit: Its unit.
-        before: Phasors of the same orders whose largest value is drawn dashed; None: none.
+        unit: Unit of the quantity.
+        before: Phasors of the same orders to compare, whose largest values are drawn dashed; None
+            if there are none.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -56,7 +59,7 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
     Args:
         ax: Axes to draw on.
-        curves: Phasors by label, all of the same orders.
+        curves: Phasors by label, all with the same orders.
         unit: Unit of the moments.
     """
     shown = sorted({k for curve in curves.values() for k in visible_rows(curve)})
@@ -69,11 +72,11 @@ def draw_scalar_bars(ax: Axes, curves: Mapping[str, Phasors], unit: ShownUnit) -
 
 
 def visible_rows(curve: Phasors, before: Phasors | None = None) -> list[int]:
-    """Return the rows of orders 1 and 2 and of those large enough to be seen; at most ten.
+    """Return the rows of orders 1 and 2 and of orders large enough to be seen; at most ten.
 
     Args:
         curve: Phasors, shape (orders,).
-        before: Phasors of the same orders that are drawn as well; None: none.
+        before: Phasors of the same orders that are drawn as well; None if there are none.
     """
     major = curve.major if before is None else np.maximum(curve.major, before.major)
     always = (curve.orders == 1) | (curve.orders == 2)
@@ -98,11 +101,15 @@ def draw_curves(
     unit: ShownUnit,
     before: Array | None = None,
 ) -> None:
-    """Draw values over the crank angle, dashed the last one `before`.
+    """Draw values over the crank angle.
 
     Args:
-        crank: rad, shape (angles,).
-        lines: values by label, each of shape (angles,).
+        ax: Axes to draw on.
+        crank: Crank angles, rad, shape (angles,).
+        lines: Values by label, each of shape (angles,).
+        what: Name of the quantity.
+        unit: Unit of the quantity.
+        before: Earlier values of the last line, drawn dashed; None if there are none.
     """
     values = [*lines.values(), *([] if before is None else [before])]
     s = unit.fit(float(np.abs(values).max()))
@@ -119,7 +126,7 @@ def draw_curves(
 
 
 def set_crank_axis(ax: Axes, crank_deg: Array, label: str = "crank angle, deg") -> None:
-    """Make x the crank angle, with ticks every 90 degrees.
+    """Make the crank angle the x axis, with ticks every 90 degrees.
 
     Args:
         ax: Axes to change.
@@ -134,10 +141,13 @@ def draw_factors(
     ax: Axes, rows: Sequence[FactorPeaks], force: ShownUnit, moment: ShownUnit | None
 ) -> None:
     """Draw the largest force and its components over the balance factor, and the largest moment on
-    an axis of its own.
+    a second axis.
 
     Args:
-        moment: None if moments are not known.
+        ax: Axes to draw on.
+        rows: Largest values by factor.
+        force: Unit of forces.
+        moment: Unit of moments; None if moments are not known.
     """
     share, moments = [row.factor for row in rows], np.array([row.peak_moment_Nm for row in rows])
     s = force.fit(max(row.peak_force_N for row in rows))
@@ -171,10 +181,12 @@ def draw_along(
     """Draw the largest values at places along the crankshaft.
 
     Args:
-        curves: now, and before if there are two to compare.
+        ax: Axes to draw on.
+        curves: Present loads, and earlier ones if there are two to compare.
         what: "force" or "moment".
+        system: System of units.
         steps: matplotlib's drawstyle of the line between the places; empty: columns.
-        over: what the values are the largest of, such as "the cycle".
+        over: Span of which the values are the largest, such as "the cycle".
     """
     unit = system.force if what == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]

@@ -1,5 +1,5 @@
-"""The parts of an analysis as records: each cylinder's share, loads along the crank, guide-force
-moments, strokes, and the devices of the scheme `auto`.
+"""Records of the parts of an analysis: each cylinder's share, loads along the crank, guide-force
+moments, strokes, devices, journals and masses.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ from ..sizing.remedy import Remedy
 
 
 class CylinderShare(NamedTuple):
-    """One cylinder's share, by itself.
+    """Forces and moments of a single cylinder.
 
     Attributes:
         cylinder: Number of the cylinder.
@@ -39,7 +39,7 @@ class CylinderShare(NamedTuple):
 
 @dataclass(frozen=True)
 class PeaksAndOrders:
-    """Peaks and orders of an engine that is known.
+    """Peaks and orders of an engine.
 
     Attributes:
         peak: Largest values over a revolution.
@@ -57,8 +57,8 @@ class LoadOrder(NamedTuple):
     """One order of a load at one place.
 
     Attributes:
-        order: Times the crank speed.
-        vector: The load.
+        order: Order.
+        vector: Load of this order.
     """
 
     order: float
@@ -86,7 +86,7 @@ class Section(NamedTuple):
     """Shear force and bending moment just behind one load.
 
     Attributes:
-        position_mm: Place along the crank.
+        position_mm: Position along the crank.
         shear_N: Shear force.
         bending_Nm: Bending moment.
     """
@@ -97,11 +97,11 @@ class Section(NamedTuple):
 
 
 class Bent(NamedTuple):
-    """A shaft, or the block, section by section.
+    """Loads of the shaft or of the block, section by section.
 
     Attributes:
         largest_bending_Nm: Largest bending moment of all sections.
-        largest_at_mm: Place of the largest bending moment.
+        largest_at_mm: Position of the largest bending moment.
         sections: All sections, from the free end.
     """
 
@@ -114,7 +114,7 @@ class BearingLoad(NamedTuple):
     """The load of one main bearing.
 
     Attributes:
-        position_mm: Place of the bearing along the crank.
+        position_mm: Position of the bearing along the crank.
         load_N: Load of the bearing.
     """
 
@@ -123,12 +123,12 @@ class BearingLoad(NamedTuple):
 
 
 class WithGas(NamedTuple):
-    """Loads of inertia and gas, which bends crankshaft and block one against the other.
+    """Loads of inertia and gas; gas bends crankshaft and block in opposite directions.
 
     Attributes:
-        crankshaft: The crankshaft, cut in each main bearing.
-        bearings: Main bearings.
-        block: The block.
+        crankshaft: Loads of the crankshaft, cut in each main bearing.
+        bearings: Loads of the main bearings.
+        block: Loads of the block.
     """
 
     crankshaft: Bent
@@ -140,10 +140,10 @@ class Inner(NamedTuple):
     """Loads along the crankshaft.
 
     Attributes:
-        inertia: Loads of inertia alone.
+        inertia: Loads of inertia only.
         bearings: Inertia loads of the main bearings; left out for a crank with one throw.
         with_gas: Loads of inertia and gas.
-        obstacle: Why those with gas are not known.
+        obstacle: Reason why loads with gas are not known.
     """
 
     inertia: Annotated[Bent, INLINE]
@@ -153,7 +153,7 @@ class Inner(NamedTuple):
 
 
 def describe_inner(inner: InnerLoads) -> Inner:
-    """Return the loads along the crankshaft, place by place."""
+    """Return the record of the loads along the crankshaft."""
     gas = inner.with_gas
     return Inner(
         _describe_bent(inner.shear, inner.bending),
@@ -170,14 +170,14 @@ def describe_inner(inner: InnerLoads) -> Inner:
 
 
 def _describe_bent(shear: AlongCrank, bending: AlongCrank) -> Bent:
-    """Return shear force and bending moment at the same sections, and the largest moment."""
+    """Return the record of shear force and bending moment at the same sections."""
     (places, forces), (_, moments), most = _list_loads(shear), _list_loads(bending), bending.largest
     sections = tuple(map(Section, places, forces, moments))
     return Bent(bending.peaks[most].value, places[most], sections)
 
 
 def _list_loads(along: AlongCrank) -> tuple[list[float], list[Load]]:
-    """Return the places, mm, and the loads there."""
+    """Return the positions, mm, and the loads there."""
     loads = [Load(peak, along.at(k)) for k, peak in enumerate(along.peaks)]
     return (along.z_m * 1e3).tolist(), loads
 
@@ -190,10 +190,10 @@ class GuideOrder(NamedTuple):
     """Guide-force moments of one order.
 
     Attributes:
-        order: Times the crank speed.
+        order: Order.
         h_Nm: H-type: sum of the roll moments of all cylinders.
-        x_Nm: X-type: sum of each times its distance, over the height of the guides; left out where
-            all cylinders stand at one place, or at places that are not known.
+        x_Nm: X-type: sum of roll moments times their axial distances, over the height of the
+            guides; left out where all cylinders have one position, or positions are not known.
     """
 
     order: float
@@ -205,8 +205,8 @@ class Guide(NamedTuple):
     """Guide-force moments.
 
     Attributes:
-        includes: Whether the gas has a part in them.
-        height_m: Height of the guide of each cylinder, by its number.
+        includes: Whether they include the gas.
+        height_m: Height of each cylinder's guide, sorted by cylinder number.
         orders: Moments by order.
     """
 
@@ -223,7 +223,7 @@ def describe_guide(guide: GuideMoments) -> Guide:
 
 
 def name_included(with_gas: bool) -> Includes:
-    """Return what moments are of, by whether the gas has a part in them."""
+    """Return the words that say whether moments include the gas."""
     return "inertia and gas" if with_gas else "inertia, without gas"
 
 
@@ -233,8 +233,9 @@ class Stroke(NamedTuple):
     Attributes:
         cylinder: Number of the cylinder.
         stroke_m: Stroke.
-        top_deg: Crank angle of the top dead centre, from where the pin lies along the axis.
-        bottom_deg: Crank angle of the bottom dead centre, from half a turn later.
+        top_deg: Crank angle at top dead centre, measured from the position of the pin along the
+            axis.
+        bottom_deg: Crank angle at bottom dead centre, measured from half a turn later.
     """
 
     cylinder: int
@@ -250,7 +251,7 @@ class Counterweight(NamedTuple):
     Attributes:
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from cylinder 1's crank pin.
-        position_mm: Place along the crank.
+        position_mm: Position along the crank.
     """
 
     unbalance_kg_m: float
@@ -259,15 +260,15 @@ class Counterweight(NamedTuple):
 
 
 class Shaft(NamedTuple):
-    """A balancer shaft, as it stands at crank angle 0.
+    """A balancer shaft, at crank angle 0.
 
     Attributes:
         ratio: Speed over crank speed; negative: it turns against the crank.
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from x, in the sense in which the shaft turns.
-        at_mm: Place of its axis: x, y.
-        position_mm: Place along the crank.
-        free: Whether it may stand anywhere.
+        at_mm: Position of its axis: x, y.
+        position_mm: Position along the crank.
+        free: Whether the shaft may be anywhere.
     """
 
     ratio: int
@@ -279,15 +280,15 @@ class Shaft(NamedTuple):
 
 
 class Slider(NamedTuple):
-    """A mass that runs to and fro.
+    """A reciprocating mass.
 
     Attributes:
-        order: Times the crank speed.
+        order: Frequency over crank speed.
         unbalance_kg_m: Mass times amplitude.
         direction_deg: Direction of its path from x.
         angle_deg: Phase at crank angle 0.
-        at_mm: Place of its path: x, y.
-        position_mm: Place along the crank.
+        at_mm: Position of the middle of its path: x, y.
+        position_mm: Position along the crank.
     """
 
     order: int
@@ -299,12 +300,12 @@ class Slider(NamedTuple):
 
 
 class Devices(NamedTuple):
-    """Devices that a scheme fits, as an engine file would describe them.
+    """Devices that a scheme fits, in the terms of an engine file.
 
     Attributes:
         counterweights: Counterweights on the crankshaft.
         shafts: Balancer shafts.
-        sliders: Masses that run to and fro.
+        sliders: Reciprocating masses.
     """
 
     counterweights: tuple[Counterweight, ...]
@@ -318,7 +319,7 @@ class SizedDevices(NamedTuple):
     Attributes:
         scheme: Name of the scheme.
         step: Step of the ladder that it fits.
-        devices: The devices.
+        devices: New devices.
     """
 
     scheme: str
@@ -346,12 +347,14 @@ def describe_devices(remedy: Remedy) -> Devices:
 
 
 def _list_values(device: DeviceTable, record: Any) -> list[Any]:
-    """Return the values of a record's attributes, named as the fields of the file with units."""
+    """Return the values of a device for the attributes of a record, which are named like the keys
+    of the file, with units.
+    """
     return [find_value(device, remove_unit(key)) for key in record._fields if key != "free"]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
-    """Return a figure of a device; the unbalance in kg m.
+    """Return a figure of a device, the unbalance in kg m.
 
     Args:
         device: Table of the device.
@@ -385,7 +388,7 @@ class ShearStress(NamedTuple):
 
     Attributes:
         mean_Pa: Half of the sum of the extreme stresses.
-        amplitude_Pa: Half of their difference.
+        amplitude_Pa: Half of the difference of the extreme stresses.
     """
 
     mean_Pa: float
@@ -396,11 +399,12 @@ class Journal(NamedTuple):
     """A main journal or crank pin.
 
     Attributes:
-        place: Its name: `main 1`, `pin 1`, ...
+        place: Name: `main 1`, `pin 1`, ...
         inertia: Torque of inertia.
         position_mm: Position along the crank; left out where throws have no known positions.
         total: Torque of gas and inertia; left out without gas.
-        stress: Stress by the last torque; left out where the file gives no diameter.
+        stress: Stress by the total torque (without gas: that of inertia); left out where the file
+            gives no diameter.
     """
 
     place: str
@@ -420,12 +424,12 @@ class Masses(NamedTuple):
         reciprocating_kg: Piston, crosshead and small end.
         rotating_kg: Big end with bearing shells and oil, without the throw.
         throw_kg: Share of the throw at the pin.
-        rod_kg: Rod; left out, like all that follows from it, where the file gives no mass.
-        rod_small_end_kg: Mass that stands for the rod at the piston pin.
-        rod_big_end_kg: Mass that stands for it at the crank pin.
+        rod_kg: Rod; left out, with all figures that depend on it, where the file gives no mass.
+        rod_small_end_kg: Share of the rod's mass at the piston pin.
+        rod_big_end_kg: Share of the rod's mass at the crank pin.
         rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.
         radius_of_gyration_m: Radius of gyration of the rod.
-        couple_constant_kg_m2: H: moment of inertia that the two masses have beyond the rod's.
+        couple_constant_kg_m2: H: moment of inertia of the two masses less that of the rod.
         reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
     """
 

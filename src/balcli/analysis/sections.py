@@ -1,10 +1,6 @@
-"""Shear forces, bending moments and bearing loads along the crankshaft, in every format.
-
-Guide-force moments by order: as a table, in JSON and as rows.
-
-Strokes and dead centres of the pistons: as a table, in JSON and as rows.
-
-Why each order is balanced or is not: as sentences and as rows.
+"""Tables and rows of CSV for parts of an analysis: shear forces, bending moments and bearing loads
+along the crankshaft, guide-force moments by order, strokes and dead centres, and the reasons why
+orders are balanced.
 """
 
 from __future__ import annotations
@@ -54,10 +50,10 @@ _CUT = (
     "Main bearings half-way between throws and as far outside the end ones; the shaft counts as "
     "cut in each."
 )
-ORDERS_SHOWN = 6  # in a table, which has a column an order
+ORDERS_SHOWN = 6  # orders in a table, which has a column for each
 
 
-_LABELS = {  # by name, in the order of `InnerLoads` and `LoadsWithGas`
+_LABELS = {  # labels of loads by name, in the order of `InnerLoads` and `LoadsWithGas`
     "shear": "shear force in the crankshaft",
     "bending": "bending moment in the crankshaft",
     "bearing": "load of a main bearing",
@@ -82,7 +78,7 @@ def list_loads(inner: InnerLoads) -> list[tuple[Kind, AlongCrank]]:
 
 
 def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Text]:
-    """Yield a table of each load, a row for each place, and the largest bending moments.
+    """Yield a table of each load, with a row for each place, and the largest bending moments.
 
     Args:
         inner: Loads along the crankshaft.
@@ -95,7 +91,7 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
         title = capitalized(kind.label)
         if with_gas and kind in LOADS[:2]:
             title = title.replace("crankshaft", "crankshaft and block together")
-        if not (with_gas and kind.name == "bearing"):  # those with gas stand below
+        if not (with_gas and kind.name == "bearing"):  # the table with gas replaces it
             yield _grid(along, title, system.unit(kind), system.length, notes.get(kind.name, ""))
     moments = [along for kind, along in list_loads(inner) if kind.name.endswith("bending")]
     places = ("largest inner moment", "in the crankshaft", "in the block")[: len(moments)]
@@ -105,8 +101,8 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
 
 
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
-    """Yield the figures of every place. Places are numbered along the crank: `shear 1` has its
-    position as a figure.
+    """Yield the figures of every place. Places are numbered along the crank (`shear 1`); their
+    position is a figure, too.
 
     Args:
         inner: Loads along the crankshaft.
@@ -123,8 +119,8 @@ def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
 
 
 def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, note: str) -> Grid:
-    """Return one row a place: the peak over a revolution, and the largest of each of the first
-    orders.
+    """Return a table with a row for each place: the peak over a revolution, and the largest value
+    of each of the first orders.
     """
     unit = unit.fit(max(peak.value for peak in along.peaks))
     orders = along.phasors.orders[:ORDERS_SHOWN]
@@ -152,7 +148,7 @@ _ALONE = "of inertia alone, without gas"
 
 
 def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
-    """Return a table, a row for each order.
+    """Return a table with a row for each order.
 
     Args:
         guide: Guide-force moments.
@@ -187,7 +183,7 @@ def define_guide_moments(height_m: Array, system: System) -> str:
 
 
 def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
-    """Yield the figures of every order, first of the H-type, then of the X-type.
+    """Yield the figures of every order: H-type, then X-type.
 
     Args:
         guide: Guide-force moments.
@@ -200,7 +196,7 @@ def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
 
 
 def _heights(height_m: Array, system: System) -> str:
-    """Return the height of all cylinders if it is the same, else the lowest and the highest."""
+    """Return in words the height of all guides, or the lowest and the highest."""
     found = (float(height_m.min()), float(height_m.max()))
     if not np.isfinite(found).all():  # of a harmonic motion
         return UNKNOWN
@@ -209,7 +205,7 @@ def _heights(height_m: Array, system: System) -> str:
 
 
 def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
-    """Return a table, a row for each cylinder.
+    """Return a table with a row for each cylinder.
 
     Args:
         travel: Strokes and dead centres of the cylinders.
@@ -255,14 +251,14 @@ UNITS = (
 
 
 def lay_out_symmetry(why: Symmetry) -> Text:
-    """Return one paragraph a reason and the orders that have it; then what its units mean."""
+    """Return a paragraph for each reason and its orders, then the meaning of the units."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
     return Text("Why", (*why.sentences, *units))
 
 
 def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:
-    """Yield the reasons for each order, and the amplitudes that remain: in units of one cylinder's,
-    and in those of textbooks.
+    """Yield the reasons for each order, and the remaining amplitudes relative to one cylinder and
+    in units of textbooks.
     """
     for reason in why.reasons:
         about = 0, reason.quantity, reason.order

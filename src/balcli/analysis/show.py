@@ -1,4 +1,4 @@
-"""The analysis of one engine: the sheet that a person reads, JSON, CSV and columns."""
+"""Show the analysis of one engine: the printed sheet, CSV, and columns of a DataFrame."""
 
 from __future__ import annotations
 
@@ -51,15 +51,14 @@ from .overview import (
 Part: TypeAlias = Grid | Facts | Text
 TEXTS = frozenset(
     {"verdict", "sizing", "ladder", "textbook"}
-)  # parts that need no crank speed beside them
+)  # parts that are shown without the crank speed
 TABLES = frozenset(
     {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
-)  # without a verdict
+)  # parts that are shown without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
-    """Return the sheet of an analysis: the engine, the verdict, forces order by order, peaks,
-    sizing.
+    """Return the sheet of an analysis: engine, verdict, forces order by order, peaks and devices.
 
     Args:
         result: Analysis to show.
@@ -94,7 +93,7 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
 
 
 def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
-    """Yield the parts that only some engines have, or that were asked for."""
+    """Yield the parts that only some engines have, or that are computed only on request."""
     if result.travel is not None and whole:
         yield sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
@@ -110,16 +109,14 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
 
 
 def _import_seldom() -> ModuleType:
-    """Return the module of parts that are seldom asked for: journals and masses."""
+    """Return the module of seldom wanted parts: journals and masses."""
     from . import crank_drive
 
     return crank_drive
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """Yield all tables, or those that `--only` names, of orders that matter unless all or some were
-    asked for.
-    """
+    """Yield all tables, or those that `--only` names; by default only with orders that matter."""
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
     parts = view.parts or {*EVERY_KIND, "xy", "textbook"}
     others = ""
@@ -145,7 +142,7 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
 
 
 def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """Yield one table of force and moment, roll and peaks in a line each."""
+    """Yield a table of force and moment, and lines on roll and peaks."""
     spectra = result.spectra.with_moment_if(result.moments_known)
     vectors = spectra.only([kind.name for kind in VECTORS])
     shown = list(map(float, vectors.orders))
@@ -166,7 +163,7 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
-    """Yield the verdict; of forces alone where moments are not known, which it then says."""
+    """Yield the verdict. If moments are not known, it is only on forces and says so."""
     if not result.spectra.vectors():
         return
     spectra, known = result.spectra, result.moments_known
@@ -180,7 +177,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
-    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 alone says nothing
+    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 needs no verdict
         yield Text("Verdict", told)
 
 
@@ -196,8 +193,8 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
 
 
 def columns(result: Analysis) -> Columns:
-    """Return an order a row: sizes and directions of each kind, named as the quantities of sweeps
-    without their order.
+    """Return columns with a row for each order: sizes and directions of each kind, named like the
+    quantities of sweeps without the order.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
     values: dict[str, Array] = {"order": result.orders}
@@ -221,10 +218,13 @@ def columns(result: Analysis) -> Columns:
 def rows(
     result: Analysis, system: System, *, named: Collection[str] = ("sizing", "ladder")
 ) -> Rows:
-    """CSV: a figure a line; cylinder 0 is the whole engine, an empty order the whole curve.
+    """Return the rows of CSV, one for each figure; cylinder 0 is the whole engine, an empty order
+    means the sum of all orders.
 
     Args:
-        named: which of sizing and ladder (SI) are wanted.
+        result: Analysis to show.
+        system: System of units.
+        named: Which of sizing and ladder (SI) are included.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _all_rows(result, system, named))

@@ -1,9 +1,11 @@
-"""One engine at several speeds, and the sheet of builders of large engines.
+"""Analyze one engine at several speeds, and make the sheet of builders of large (marine) engines.
 
-For people a table a kind, a speed a row; for programs the analyses themselves. The sheet has
-external forces and moments by order, vertical and horizontal, guide-force moments and torque.
-Vertical is along x, horizontal along y. A vertical force makes the moment about the y axis that is
-also called vertical: M1V is My of order 1, M1H its Mx.
+For several speeds, people get a table for each kind with a row for each speed; programs get all
+analyses.
+
+The marine sheet has external forces and moments by order, vertical and horizontal, guide-force
+moments and torque. Vertical is along x, horizontal along y. The moment of vertical forces, which is
+about the y axis, is also called vertical: M1V is My of order 1, M1H is its Mx.
 """
 
 from __future__ import annotations
@@ -57,12 +59,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SpeedSeries:
-    """Analyses of one engine by the same orders, a speed each, as the speeds were asked for.
+    """Analyses of one engine at several speeds, for the same orders.
 
     Attributes:
-        engine: The engine.
-        analyses: Analysis at each speed.
-        every_order: Whether orders were asked for, so that none of them is left out.
+        engine: Engine.
+        analyses: Analysis at each speed, in the given order of speeds.
+        every_order: Whether orders were given; then all of them are shown.
     """
 
     format: Literal["balcli.speeds/1"] = "balcli.speeds/1"
@@ -77,7 +79,7 @@ class SpeedSeries:
 
     @property
     def lines(self) -> tuple[Line, ...]:
-        """Every figure, with a value a speed."""
+        """Every figure, with a value for each speed."""
         return list_lines(self.analyses, every_order=self.every_order)
 
 
@@ -87,15 +89,16 @@ def analyze_speeds(
     orders: Iterable[float] | None,
     analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
 ) -> SpeedSeries:
-    """Return an engine at each of these speeds.
+    """Return the analyses of an engine at these speeds.
 
     Args:
-        engine: without trailing axes.
-        orders: default: all that are shown at one of the speeds.
-        analyze_one: of an engine, with the orders asked for or None.
+        engine: Engine without trailing axes.
+        speeds_rpm: Speeds, rpm.
+        orders: Orders to show; None: all that are shown by default at one of the speeds.
+        analyze_one: Function that analyzes an engine for given orders (None: default).
 
     Raises:
-        BalcliError: whatever `analyze_one` raises.
+        BalcliError: As for `analyze_one`.
     """
     engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
     asked = None if orders is None else list(orders)
@@ -108,17 +111,17 @@ def analyze_speeds(
 
 @dataclass(frozen=True)
 class MarineOrder:
-    """Amplitudes of one order; null: not known.
+    """Amplitudes of one order; null if not known.
 
     Attributes:
-        order: Times the crank speed.
+        order: Order.
         force_v_N: External force along x.
         force_h_N: External force along y.
         moment_v_Nm: External moment of the forces along x.
         moment_h_Nm: External moment of the forces along y.
         guide_h_Nm: H-type guide-force moment.
         guide_x_Nm: X-type guide-force moment.
-        torque_Nm: Torque on the crank, of inertia, and of the gas where the engine has some.
+        torque_Nm: Torque on the crank, of inertia and, with [gas], gas.
     """
 
     order: float
@@ -157,11 +160,11 @@ class MarineSpeed:
 
 @dataclass(frozen=True)
 class CountedEngine:
-    """An engine and its cylinders.
+    """An engine and its number of cylinders.
 
     Attributes:
         name: Name of the engine.
-        cylinders: How many cylinders it has.
+        cylinders: Number of cylinders.
     """
 
     name: str
@@ -175,18 +178,18 @@ def count_cylinders(engine: Engine) -> CountedEngine:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MarineSheet:
-    """External forces and moments and guide-force moments, as builders of marine engines list
-    them.
+    """External forces and moments, guide-force moments and torque, as builders of marine engines
+    list them.
 
     Attributes:
-        engine: Engine at the first of the speeds.
-        includes: Whether the gas has a part in guide-force moments and torque.
+        engine: Engine at the first speed.
+        includes: Whether guide-force moments and torque include the gas.
         axes: Axes that are called vertical and horizontal.
-        height_m: Distance from the crankshaft to the middle of each cylinder's guide, by its
+        height_m: Distance from the crankshaft to the middle of each guide, sorted by cylinder
             number.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values that are used because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
-        lines: Amplitudes by order and figure, with a value a speed.
+        lines: Amplitudes by order and figure, with a value for each speed.
         every_order: Whether tables show negligible orders as well.
     """
 
@@ -218,14 +221,13 @@ def find_marine_sheet(
     Args:
         engine: Engine without trailing axes.
         speeds_rpm: Speeds; default: the engine's own.
-        orders: Orders; default: all that `analyze` shows of one of them at one of the speeds.
+        orders: Orders; default: all that `analyze` shows at one of the speeds.
         guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
             rod's length.
-        every_order: Whether sheets show negligible orders; they do if orders are
-            given.
+        every_order: Whether tables show negligible orders; they do if orders are given.
 
     Raises:
-        BalcliError: orders that are none or too high.
+        BalcliError: An order is invalid or too high.
     """
     torque = TORQUE if engine.gas is None else TORQUE_TOTAL
     ask = partial(
@@ -249,8 +251,8 @@ def find_marine_sheet(
 def _list_lines(
     found: Sequence[Analysis], listed: Sequence[Sequence[MarineOrder]]
 ) -> tuple[Line, ...]:
-    """Return amplitudes by order and figure. Forces and moments are negligible against one
-    cylinder's, other figures against the largest of all orders.
+    """Return amplitudes by order and figure. Forces and moments are compared with those of one
+    cylinder, other figures with the largest of all orders.
     """
     figures = np.array([[astuple(one)[1:] for one in orders] for orders in listed])
     single = np.nan_to_num(figures).max(axis=1)  # shape (speeds, figures)
@@ -291,7 +293,7 @@ def sheet(one: NamedResult[SpeedSeries], system: System) -> Sheet:
 
 
 def rows(one: NamedResult[SpeedSeries], system: System) -> Rows:
-    """Return CSV: the rows of each analysis after the engine's name and the speed.
+    """Return the rows of CSV: those of each analysis, after the engine's name and the speed.
 
     Args:
         one: Analyses with the engine's name.
@@ -314,7 +316,7 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
         higher = first.has_higher_orders
         yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
     kinds = dict.fromkeys(line.kind for line in series.lines)
-    if not (view.parts or view.whole):  # in brief
+    if not (view.parts or view.whole):  # the brief form
         roll = ROLL if first.engine.gas is None else ROLL_TOTAL
         kinds = dict.fromkeys(kind for kind in kinds if kind in (FORCE, MOMENT, roll))
     for kind in kinds:
@@ -330,8 +332,8 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
 def _kind_part(
     kind: Kind, lines: list[Line], speeds_rpm: list[float], system: System, *, whole: bool
 ) -> Grid | Text:
-    """Return one kind by speed, a column an order, and the peak; one sentence where nothing
-    matters.
+    """Return a table of a kind by speed, with a column for each order and the peak; a sentence if
+    all orders are negligible.
     """
     shown = lines if whole else find_lines_that_matter(lines)
     if not shown:
@@ -357,8 +359,8 @@ _NAMES = (
 
 
 def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
-    """Return the marine sheet: the engine, forces and moments on its frame and on its crank, and
-    the meaning of the names.
+    """Return the printed marine sheet: the engine, forces and moments on its frame and on its
+    crank, and the meaning of the names.
 
     Args:
         one: Marine sheet with the engine's name.
@@ -387,7 +389,7 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
 
 
 def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
-    """Return CSV: a line for each order of a speed, a column for each figure.
+    """Return the rows of CSV: a line for each speed and order, a column for each figure.
 
     Args:
         one: Marine sheet with the engine's name.
@@ -411,7 +413,9 @@ def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
 
 
 def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, system: System) -> Grid:
-    """Return a table at one speed: a row for each whole order up to 2 and each that matters."""
+    """Return a table for one speed, with a row for each whole order up to 2 and each that
+    matters.
+    """
     every = result.every_order
     chosen = [line for line in result.lines if line.kind in kinds]
     units, rows = [], []

@@ -1,5 +1,5 @@
-"""Two engines on one frame, geared one to one (H, U, opposed-piston): phasors added, and how the
-sum is shown.
+"""Two engines on one frame, geared one to one (H, U and opposed-piston engines): the sum of their
+phasors, and the tables that show it.
 """
 
 from __future__ import annotations
@@ -63,8 +63,8 @@ class EngineOfTwo:
     """One of two engines.
 
     Attributes:
-        size: Its name and size.
-        gas: Whether its file has gas; left out where neither has.
+        size: Name and size of the engine.
+        gas: Whether its file has gas; left out where neither file has.
     """
 
     size: Annotated[EngineSize, INLINE]
@@ -72,7 +72,7 @@ class EngineOfTwo:
 
 
 def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
-    """Return names and sizes, and which engines have gas if any has."""
+    """Return names and sizes of engines, and which of them have gas, if any has."""
     has_gas = [engine.gas is not None for engine in engines]
     sizes = map(measure_engine, engines)
     return tuple(map(EngineOfTwo, sizes, has_gas if any(has_gas) else [None] * len(has_gas)))
@@ -80,18 +80,18 @@ def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Arrangement of the second engine to the first, and the load of both.
+    """Arrangement of the second engine relative to the first, and the load of both.
 
     Attributes:
-        phase_deg: crank angle by which it leads, in its own sense of rotation.
-        at_m: place of its origin (its crank axis at its z = 0) in the first engine's axes.
-        turn_deg: how far it is turned about z, with all its banks.
-        reverse: whether its crank turns against the first: it is then built as its own mirror image
-            (y changed in sign), so that its file still counts everything in its own sense of
-            rotation.
-        load: which crank has the flywheel and the load, and so bears the whole inertia torque;
-            "both": each bears its own, and the gears carry none of it. Where the cranks turn alike
-            it makes no difference.
+        phase_deg: Crank angle by which the second engine leads, in its own sense of rotation.
+        at_m: Position of its origin (its crank axis at its z = 0) in the first engine's axes.
+        turn_deg: Angle by which it is turned about z, with all its banks.
+        reverse: Whether its crank turns against the first. It is then a mirror image of the engine
+            in its file (y with opposite sign), so that angles in the file still count in its own
+            sense of rotation.
+        load: Crank with flywheel and load, which carries the whole inertia torque; "both": each
+            crank carries its own torque, and the gears carry none of it. If both cranks turn alike,
+            the choice makes no difference.
     """
 
     phase_deg: float = 0.0
@@ -101,8 +101,8 @@ class Arrangement:
     load: str = "first"
 
     def __post_init__(self) -> None:
-        """Raise BalcliError for something infinite or too far, an unknown load, or a load that
-        makes no difference.
+        """Raise BalcliError for a value that is infinite or too large, an unknown load, or a load
+        that makes no difference.
         """
         for option, value in (("phase", self.phase_deg), ("turn", self.turn_deg)):
             if not abs(value) <= FARTHEST_DEG:
@@ -120,20 +120,21 @@ class Combined(Result):
     """Forces and moments of two engines on their common frame, about the first one's point of
     reference.
 
-    Geared one to one the kinetic energies add, so that the inertia torque, as the first crank feels
-    it, is T1 + T2, each in its own crank's sense, whichever way they turn. The torque that the load
-    takes does not act on the frame: the roll is C - (T1 + T2) with the load on the first crank, C +
-    (T1 + T2) on a second one that turns against it, C - T1 + T2 if each has a load of its own. The
-    gas torques add like these, in orders of both cycles; an engine without gas has none.
+    Geared one to one, the kinetic energies add. So the inertia torque at the first crank is T1 +
+    T2, each in the sense of its own crank, whichever way they turn. The torque that the load takes
+    does not act on the frame. With the load on the first crank, the roll is therefore C - (T1 +
+    T2). With the load on a second crank that turns against it, the roll is C + (T1 + T2). If each
+    crank has its own load, the roll is C - T1 + T2. Gas torques add in the same way, with the
+    orders of both cycles; an engine without gas has none.
 
     Attributes:
         engines: Both engines, in the given order.
-        arrangement: Where the second one stands, how it leads, and who drives the load.
+        arrangement: Position and phase of the second engine, and the crank with the load.
         state: Speed and point of reference of both.
-        spectra: Orders shown, of both together.
-        assumed: Values that are taken because an engine file leaves them out.
-        peak: Largest values over a revolution, all orders together.
-        every_order: Whether orders were given, so that none of them is left out.
+        spectra: Orders shown, sum of both engines.
+        assumed: Values that are used because an engine file leaves them out.
+        peak: Largest values over a revolution, sum of all orders.
+        every_order: Whether orders were given; then all of them are shown.
     """
 
     format: Literal["balcli.sum/1"] = "balcli.sum/1"
@@ -152,7 +153,7 @@ class Combined(Result):
 
     @property
     def moments_known(self) -> bool:
-        """Whether both engine files say where their throws stand."""
+        """Whether both engine files give the positions of their throws."""
         return all(engine.places_known for engine in self.engines)
 
     @property
@@ -164,15 +165,16 @@ class Combined(Result):
 def combine_engines(
     first: Engine, second: Engine, arrangement: Arrangement, orders: Iterable[float] | None = None
 ) -> Combined:
-    """Return both engines together, at the first one's speed and unevenness of speed; with gas
-    where one of them has some, or both.
+    """Return the sum of both engines at the (possibly uneven) speed of the first; with gas if one
+    of them has some.
 
     Args:
-        first, second: without trailing axes.
-        orders: which to show; default as in `analyze`.
+        first, second: Engines without trailing axes.
+        arrangement: Arrangement of the second engine.
+        orders: Orders to show; default: as in `analyze`.
 
     Raises:
-        BalcliError: orders that are negative or too high.
+        BalcliError: An order is negative or too high.
     """
     given = (first, second)
     asked = None if orders is None else check_orders(orders, given)
@@ -188,7 +190,7 @@ def combine_engines(
     if asked is None:
         of_gas = merge_orders(*map(list_gas_orders, (first, second)))
         visible = visible.select_orders(choose_orders(visible, of_gas))
-    # near its lock an engine has tens of thousands of orders, and all have a part in the peaks
+    # an engine close to locking has tens of thousands of orders, which all contribute to the peaks
     one, other = (replace(engine, gas=None) for engine in (first, second))
     return Combined(
         engines=given,
@@ -202,7 +204,7 @@ def combine_engines(
 
 
 def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders: Array) -> Spectra:
-    """Return all that both do, with gas where one of them has some."""
+    """Return the spectra of both engines together, with gas if one of them has some."""
     about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
     one, own = (
         compute_spectra(engine, orders, KINDS if engine.gas is None else (*KINDS, GAS.name))
@@ -212,7 +214,7 @@ def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders
 
 
 def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """Return an engine at another's speed; its unevenness follows the other's crank angle.
+    """Return an engine at the (possibly uneven) speed of another one, to which it is geared.
 
     Args:
         engine: Engine whose speed is replaced.
@@ -229,13 +231,14 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
 def place_spectra(
     own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
 ) -> Spectra:
-    """Return phasors of an engine where it stands, by the crank angle of the engine that it is
-    geared to.
+    """Return the phasors of an engine in its place, over the crank angle of the engine to which it
+    is geared.
 
     Args:
-        own: all kinds of inertia, and the gas torque if it has gas, about its own origin, by its
-            own crank angle; torques come out about z as well.
-        reference_m: point of reference of the result, in the other engine's axes.
+        own: All kinds of inertia, and the gas torque if there is gas, about the engine's own origin
+            and over its own crank angle.
+        arrangement: Arrangement of the engine.
+        reference_m: Point of reference of the result, in the other engine's axes.
     """
     n = own.orders
     places = zip(arrangement.at_m, reference_m, strict=True)
@@ -256,8 +259,8 @@ def place_spectra(
 
 
 def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
-    """In the mirror that changes the sign of y a vector becomes its conjugate, and a rotation
-    also changes its sign.
+    """Return phasors mirrored by a change of sign of y: a force becomes its conjugate; a moment or
+    torque also changes its sign.
     """
     sign = 1.0 if kind.dimension == "force" else -1.0
     ahead, against = sign * phasors.forward.conj(), sign * phasors.backward.conj()
@@ -267,7 +270,7 @@ def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
 
 
 def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
-    """Return both engines geared together; torque and roll as in `Combined`."""
+    """Return the sum of both engines, with torque and roll as derived in `Combined`."""
     parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
     parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
     parts["roll"] = parts["couple"] - taken
@@ -281,10 +284,10 @@ def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spec
 
 
 def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
-    """Return the torque about z that the first crank feels from torques on both, and the torque
-    that the load takes.
+    """Return the torque at the first crank from torques on both, and the torque that the load
+    takes, both about z.
     """
-    sense = -1.0 if arrangement.reverse else 1.0  # of the second crank
+    sense = -1.0 if arrangement.reverse else 1.0  # sense of the second crank
     felt = one + sense * other
     taken = {"first": felt, "second": sense * felt, "both": one + other}
     return felt, taken[arrangement.load]
@@ -307,22 +310,21 @@ def combine(
     Args:
         first: Engine from `load`; both run at its speed.
         second: Engine from `load`.
-        phase_deg: crank angle by which the second engine leads, in its own sense of rotation; with
-            gas in four strokes over two revolutions.
+        phase_deg: Crank angle by which the second engine leads, in its own sense of rotation; with
+            gas in a four-stroke engine up to two revolutions.
         at_m: x, y, z of its origin in the first one's axes, m.
-        turn_deg: how far it is turned about z.
-        reverse: whether its crank turns against the first one's.
+        turn_deg: Angle by which it is turned about z.
+        reverse: Whether its crank turns against the first one's.
         load: "first", "second" or "both": with `reverse`, the crank that has flywheel and load.
-        orders: which to show; default: 1, 2 and all that are not negligible.
+        orders: Orders to show; default: 1, 2 and all that are not negligible.
 
     Returns:
-        `spectra` of both together about the first one's point of reference (N, N m), as of
+        `spectra` of both together about the first one's point of reference (N, N m), as in
         `analyze`, and the largest values in `peak`.
 
     Raises:
-        BalcliError: something infinite or too far, an unknown load, or one that makes no
-            difference.
-        TypeError: an argument of another type.
+        BalcliError: A value is infinite or too large, or a load is unknown or makes no difference.
+        TypeError: An argument has a wrong type.
 
     Example:
         >>> combine(load("i4.toml"), load("i4.toml"), phase_deg=90, at_m=(0.3, 0, 0)).peak.force
@@ -345,7 +347,7 @@ _ROLL = {
 
 
 def rows(result: Combined, system: System) -> Rows:
-    """Return CSV: a figure a line, of both engines together.
+    """Return the rows of CSV: a line for each figure of both engines together.
 
     Args:
         result: Both engines together.
@@ -356,7 +358,7 @@ def rows(result: Combined, system: System) -> Rows:
 
 
 def sheet(result: Combined, system: System) -> Sheet:
-    """Return the sheet of both engines: how they stand, and their forces and moments together.
+    """Return the sheet of both engines: their arrangement, and their forces and moments together.
 
     Args:
         result: Both engines together.
@@ -374,7 +376,7 @@ def sheet(result: Combined, system: System) -> Sheet:
 
 
 def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
-    """Yield the engines, and how they stand and turn next to each other."""
+    """Yield facts on the engines and their arrangement."""
     (first, second), how = result.engines, result.arrangement
     named = {"first": first, "second": second}
     for which, engine in named.items():

@@ -1,1 +1,1 @@
-"""An `Engine` and a scheme in; the fitted devices and the engine before and after out."""
+"""Balance an `Engine` by a scheme: the fitted devices, and the engine before and after."""

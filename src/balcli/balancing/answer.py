@@ -1,5 +1,5 @@
-"""Engine -> Balance: the devices of a scheme, and the analyses without and with them; knuckle
-angles that make strokes or dead centres of articulated rods even; a remedy written into an engine
+"""Balance an engine: the devices of a scheme, and the analyses without and with them. Find knuckle
+angles that make strokes or dead centres of articulated rods even. Write a remedy into an engine
 file.
 """
 
@@ -24,6 +24,7 @@ from ..engine.build import build
 from ..engine.engine import Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
+from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
 from ..file.model import EngineFile
@@ -51,7 +52,7 @@ class PermittedUnbalance:
         grade: Permitted speed of the centre of mass, mm/s.
         mass_kg: Mass of the crankshaft.
         each_g_mm: Permitted unbalance at each counterweight, or in each plane of the remedy's
-            `needs`; all share alike.
+            `needs`; it is the same for all.
     """
 
     grade: float
@@ -64,14 +65,14 @@ class Balance(Result):
     """A remedy, and the analyses of the engine without and with it.
 
     Attributes:
-        remedy: New devices, and the reasons for them.
+        remedy: New devices and the reasons for them.
         before: Analysis of the engine without them.
-        after: Analysis with them, of the same orders.
-        practical: The workshop's figures of each device, in the order of `remedy.devices`.
+        after: Analysis with them, for the same orders.
+        practical: Figures of each device for the workshop, in the order of `remedy.devices`.
         tools: Tools of the workshop.
         speed_note: How remedy and analyses differ in speed; empty if they do not.
         permitted: Residual unbalance that a grade permits, if one was given.
-        every_order: Whether orders were given, so that none of them is left out.
+        every_order: Whether orders were given; then all of them are shown.
         ladder: Ladder of the engine; None where articulated rods are changed.
     """
 
@@ -102,19 +103,19 @@ def balance_engine(
 ) -> Balance:
     """Return the devices that a scheme fits, and the analyses without and with them.
 
-    Devices are sized for a steady speed; under uneven speed both analyses include it.
+    Devices are sized for a steady speed; both analyses include an uneven speed.
 
     Args:
-        engine: without trailing axes.
-        scheme: its name, such as "counterweights" or "factor"; `balcli balance --schemes` lists and
-            explains all schemes.
-        options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
-        orders: which to show; default: 1 and 2 and all that are not negligible before or after.
-        tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
+        engine: Engine without trailing axes.
+        scheme: Name of the scheme, such as "counterweights" or "factor"; `balcli balance --schemes`
+            lists and explains all schemes.
+        options: Options of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
+        orders: Orders to show; default: 1, 2 and all that are not negligible before or after.
+        tools: Tools of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
 
     Raises:
-        BalcliError: an unknown scheme, or options that cannot be met, with the reason.
-        TypeError: an argument of another type.
+        BalcliError: The scheme is unknown, or its options cannot be met.
+        TypeError: An argument has a wrong type.
 
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
@@ -149,15 +150,15 @@ def balance_fit(
     """Fit the devices whose unbalance is "fit" in an engine file.
 
     Args:
-        engine: The engine without them (`sizing.fit.remove_to_fit`).
-        model: The file with them.
+        engine: Engine without them (`sizing.fit.remove_to_fit`).
+        model: Engine file with them.
         targets: Quantities to cancel, of "force", "moment", "roll" and "roll_total".
         orders: Orders to show, as in `balance_engine`.
         tools: Tools of the workshop, as in `balance_engine`.
         small: Share of one cylinder's first order below which the ladder leaves a part.
 
     Raises:
-        BalcliError: An unknown target, or one that the file does not determine.
+        BalcliError: A target is unknown, or the file does not determine it.
     """
     ladder = find_ladder(engine, small)
     return _answer(engine, size_fit(engine, model, targets), orders, tools, ladder)
@@ -182,8 +183,8 @@ def _answer(
 def analyze_both(
     engine: Engine, changed: Engine, orders: Iterable[float] | None
 ) -> tuple[Analysis, Analysis]:
-    """Analyze an engine without and with a remedy by the same orders: those asked for, or 1 and 2
-    and all that are not negligible in one of them.
+    """Analyze an engine without and with a remedy for the same orders: the given ones, by default
+    1, 2 and all that are not negligible in one of both.
     """
     before, after = analyze(engine, orders), analyze(changed, orders)
     if np.array_equal(before.orders, after.orders):
@@ -204,7 +205,8 @@ def permit_unbalance(
         speed_rpm: Speed of the engine.
 
     Raises:
-        BalcliError: one without the other, figures that are not positive, or no counterweights.
+        BalcliError: Only one of grade and mass is given, one is not positive, or there are no
+            counterweights.
     """
     if grade is None and mass is None:
         return None
@@ -227,20 +229,20 @@ balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
 
 
-_STEP_DEG = 1e-3  # for the slope
+_STEP_DEG = 1e-3  # step for the slope
 _STAYS_DEG = 1e-9  # smaller turns of a pin are rounding
-_FARTHEST_DEG = 30.0  # a knuckle pin that would have to move farther is no answer
-_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # what knuckles can make even: degrees; metres
+_FARTHEST_DEG = 30.0  # largest turn of a knuckle pin
+_CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # goals, and their tolerance in degrees or metres
 
 
 @dataclass(frozen=True)
 class Knuckles:
-    """Knuckle angles that make an engine even.
+    """Knuckle angles that make dead centres or strokes of an engine even.
 
     Attributes:
-        model: the engine file with the new `articulation.knuckle_angles`.
-        angles_deg: the angle of each bank's knuckle pin.
-        before, after: strokes and dead centres of all cylinders.
+        model: Engine file with the new `articulation.knuckle_angles`.
+        angles_deg: Angle of each bank's knuckle pin.
+        before, after: Strokes and dead centres of all cylinders.
         reasons: The changes, and the banks that cannot be made even.
     """
 
@@ -253,16 +255,16 @@ class Knuckles:
 
 def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     """Turn each knuckle pin about the crank pin, at the radius of the file, until its cylinders are
-    even.
+    even with the master's.
 
-    "dead-centres": every articulated piston is at the top when the crank pin stands to its bank as
-    to the master's at the master piston's top; "strokes": every stroke is the master piston's. Both
-    at once would also need a radius for each pin. A bank of several rows is set by the first of
-    them. Banks that no angle within 30 degrees makes even keep their angle.
+    "dead-centres": at top dead centre of every piston, the crank pin has the same angle to the axis
+    of its bank. "strokes": every piston has the stroke of the master piston. (Both at once would
+    need a different radius for each pin.) In a bank with several rows, the first row counts. Banks
+    that no turn within 30 degrees makes even keep their angle.
 
     Raises:
-        BalcliError: the engine has no articulated rods, or this is no goal.
-        InputError: it cannot be built.
+        BalcliError: The engine has no articulated rods, or the goal is unknown.
+        InputError: The engine cannot be built.
     """
     if goal not in _CLOSE:
         raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
@@ -270,11 +272,13 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
+    if len(set(Parts(model).find_master_places())) > 1:
+        raise BalcliError("knuckles: one list of angles needs masters in one place of every row")
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
 
     def measure(found: Travel) -> Array:
-        """Return how far each cylinder is from its master, degrees or metres."""
+        """Return the difference of each cylinder from its master, degrees or metres."""
         values = found.top_deg if goal == "dead-centres" else found.stroke
         return np.where(hung, values - values[masters], 0.0)
 
@@ -300,10 +304,8 @@ def balance_knuckles(
     orders: Iterable[float] | None = None,
     speed_rpm: float | None = None,
 ) -> Balance:
-    """Even knuckles as a remedy, and the engine before and after, at the speed of the file or
-    another.
-
-    Raises as `even_knuckles` does.
+    """Return even knuckle angles as a remedy, with the engine before and after, at the speed of the
+    file or a given one; other arguments and errors as for `even_knuckles`.
     """
     found = even_knuckles(model, goal)
     remedy = Remedy(
@@ -329,8 +331,8 @@ def _find_range(values: Array) -> dict[str, float]:
 
 
 def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
-    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes if it
-    can: Newton's method, for all at once.
+    """Return the turn of each cylinder's knuckle pin, degrees, at which its error vanishes (if it
+    can), by Newton's method for all at once.
     """
     turn_deg = np.zeros(count)
     for _ in range(20):
@@ -353,7 +355,9 @@ def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
 def _explain(
     goal: str, hung: NDArray[np.bool_], done: NDArray[np.bool_], turn_deg: Array
 ) -> tuple[str, ...]:
-    """Return the changes in words, and the banks that cannot be made even; all arrays by banks."""
+    """Return in words the changes, and the banks that cannot be made even; arrays have an element
+    for each bank.
+    """
     result = "strokes equal to the master's"
     if goal == "dead-centres":
         result = "top dead centres as even as the master's"
@@ -373,9 +377,11 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
 
     Args:
         text: Text of the file, UTF-8.
-        file: Its name in messages.
+        remedy: Remedy.
+        file: Name of the file, for messages.
 
-    Raises BalcliError if no engine file can describe the remedy.
+    Raises:
+        BalcliError: No engine file can describe the remedy.
     """
     old = text.decode("utf-8-sig")
     if angles := remedy.knuckle_angles_deg:
@@ -398,7 +404,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
 
 
 def _fill_in(text: str, remedy: Remedy, file: str) -> str:
-    """Return the text with figures in place of each "fit"."""
+    """Return the text with fitted figures instead of each "fit"."""
     for (name, _), device in zip(list_to_fit(parse(text, file)), remedy.devices, strict=True):
         keys = {"unbalance": device.unbalance, "angle": device.angle}
         text = set_keys(text, name, keys, "fitted by balcli")
@@ -407,8 +413,8 @@ def _fill_in(text: str, remedy: Remedy, file: str) -> str:
 
 
 def _insert_devices(text: str, remedy: Remedy) -> str:
-    """Return the text with the tables at the end. A file with devices in an inline list, which
-    cannot be extended, is written anew without its comments.
+    """Return the text with the remedy's tables appended. A file with devices in an inline list,
+    which cannot be extended, is written anew without its comments.
     """
     end_of_line = "" if text.endswith("\n") or not text else "\n"
     tables = end_of_line + "".join(_write_tables(remedy))
@@ -424,7 +430,7 @@ def _insert_devices(text: str, remedy: Remedy) -> str:
 
 
 def _write_tables(remedy: Remedy) -> Iterator[str]:
-    """Yield the tables, each reason as a comment above the first of its devices."""
+    """Yield the tables of the devices; each reason is a comment above the first of its devices."""
     if remedy.devices:
         yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
     told = ""
@@ -440,7 +446,7 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 
 def _list_entries(device: DeviceTable) -> Node:
-    """Return keys and values of a device as TOML has them."""
+    """Return the keys and values of a device for TOML."""
     given = [(key, getattr(device, key)) for key in FIELDS[type(device)]]
     values = ((key, value) for key, value in given if value is not None)
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values}

@@ -1,5 +1,5 @@
-"""The bobweight card as one page for the wall of a shop: 80 columns, g and oz, every figure as
-quantity x each = sum, and below what to add or drill where.
+"""The bobweight card as a page for the wall of a shop, 80 columns wide: masses in g and oz, each as
+quantity x each = sum, then the counterweights to add and the holes to drill.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _WHERE = (
 
 
 def group_equal_pins(card: Sequence[Bobweight]) -> list[list[Bobweight]]:
-    """Return pins with the same lines together."""
+    """Return groups of pins that have the same lines."""
     groups: dict[tuple[CardLine, ...], list[Bobweight]] = {}
     for bobweight in card:
         groups.setdefault(bobweight.lines, []).append(bobweight)
@@ -43,27 +43,28 @@ def group_equal_pins(card: Sequence[Bobweight]) -> list[list[Bobweight]]:
 
 
 def name_pins(pins: Sequence[Bobweight]) -> str:
-    """Return pins by the cylinders whose rods they carry: `pins 1+5, 2+6`."""
+    """Return a name for pins, by the cylinders whose rods they carry: `pins 1+5, 2+6`."""
     names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
     return f"pin{'s' if len(pins) > 1 else ''} {names}"
 
 
 def multiply(line: CardLine) -> str:
-    """Return how the sum of a line comes about: `2 × 775`, or `775 + 780`."""
+    """Return the terms of a line's sum: `2 × 775`, or `775 + 780`."""
     if len(set(line.each_g)) == 1:
         return f"{len(line.each_g)} × {number(line.each_g[0])}"
     return " + ".join(map(number, line.each_g))
 
 
 def percent(share: float) -> str:
-    """Return a balance factor as shops write it."""
+    """Return a balance factor in percent, as shops write it."""
     return f"{number(100 * share)} %"
 
 
 def write_page(result: Balance) -> str:
-    """The page as text.
+    """Return the page as text.
 
-    Raises BalcliError for a scheme that has no card.
+    Raises:
+        BalcliError: The scheme has no card.
     """
     if not result.remedy.card:
         raise BalcliError(
@@ -93,7 +94,7 @@ def _lines(result: Balance) -> Iterator[str]:
 
 # ------------------------------------------------------------------ what to weigh
 def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
-    """One bobweight, for all pins that are alike."""
+    """Yield the lines of one bobweight, for all equal pins."""
     one = pins[0]
     yield from wrap(capitalized(name_pins(pins)), WIDTH)
     yield _line("", "quantity × each", "g", "oz")
@@ -122,7 +123,9 @@ def _weigh_pins(pins: Sequence[Bobweight]) -> Iterator[str]:
 
 # ------------------------------------------------------------------ what to do
 def _correct(result: Balance) -> Iterator[str]:
-    """Every counterweight to add, with holes and what may be left, where they were asked for."""
+    """Yield the lines of every counterweight to add, with holes and permitted residuals if
+    wanted.
+    """
     remedy = result.remedy
     weights = remedy.counterweights
     if not weights:
@@ -134,8 +137,8 @@ def _correct(result: Balance) -> Iterator[str]:
     for k, (weight, figures) in enumerate(zip(weights, result.practical, strict=True), 1):
         yield from _correct_plane(k, weight, figures, result)
     if result.tools.drill is not None:
-        size = _show_length(result.practical[0].radius_mm, 4, 3)
-        told = [f"Holes: radial, {tell_rim(result.tools, size)} inwards."]
+        sizes = dict.fromkeys(_show_length(each.radius_mm, 4, 3) for each in result.practical)
+        told = [f"Holes: radial, {tell_rim(result.tools, ', '.join(sizes))} inwards."]
         told += explain_holes(result.practical, result.tools, SI.length)
         yield from wrap(" ".join(told), WIDTH)
     if remedy.note:

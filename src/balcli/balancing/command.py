@@ -1,4 +1,6 @@
-"""The command `balance`: its options (the workshop's, grades, the card) and its output."""
+"""The command `balance`: its options, among them the workshop's tools and balance grades, and its
+output.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,7 @@ if TYPE_CHECKING:
 
 
 class BalanceFormat(StrEnum):
-    """How a balance is written: as all results, or as a bobweight card."""
+    """Format of a balance: that of all results, or a bobweight card."""
 
     TABLE = "table"
     JSON = "json"
@@ -73,7 +75,7 @@ Step = Annotated[str | None, optional("STEP", "Fit this row of the ladder: name 
 
 
 def _list_schemes(wanted: bool) -> None:
-    """Print what each scheme does and which options it takes, and end."""
+    """Print the meaning and the options of each scheme, and end the program."""
     if not wanted:
         return
     width, others = max(map(len, MEANINGS)), {KNUCKLES: ("even",), FIT: ("target",)}
@@ -120,7 +122,7 @@ Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these
 
 
 def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
-    """How to write the balance; errors as `file_names.format_of`."""
+    """Return the format of the balance; errors as for `file_names.format_of`."""
     if asked is BalanceFormat.CARD:
         return format_of(output, asked, {".txt": asked}, asked)
     plain = None if asked is None else Format(asked)
@@ -148,7 +150,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
         lengths: Texts of the options with lengths, by their names in `Tools`.
 
     Raises:
-        BalcliError: a text that is no length, or no metal.
+        BalcliError: A text is no length, or no metal.
     """
     from ..sizing.workshop import Tools
 
@@ -173,16 +175,17 @@ def parse_grade(text: str | None) -> float | None:
 
 
 def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Sequence[str]) -> None:
-    """Refuse a scheme other than fit for a file with devices to fit, and fit without them.
+    """Reject schemes other than fit for a file with devices to fit, and the scheme fit for other
+    files.
 
     Args:
         name: Name of the file.
-        scheme: Scheme as asked for.
-        options: Its options.
+        scheme: Wanted scheme.
+        options: Options of the scheme.
         open_devices: Names of the devices whose unbalance is "fit".
 
     Raises:
-        BalcliError: They do not go together.
+        BalcliError: Scheme and file do not go together.
     """
     if not open_devices:
         raise BalcliError(

@@ -1,4 +1,4 @@
-"""Further figures of a scheme: details, bobweight card, factors."""
+"""Show further figures of a scheme: details, bobweight card, balance factors."""
 
 from __future__ import annotations
 
@@ -17,17 +17,19 @@ from ..sizing.planes import measure_direction
 from .answer import Balance
 from .bobweight_page import group_equal_pins, multiply, name_pins, percent
 
-# Labels of the roll without and with new devices: of inertia, and with gas where there is some.
+# Keys of the roll without and with new devices: of inertia, and of inertia and gas.
 _ROLLS = (
     ("roll_before_Nm", "roll_left_Nm"),
     ("roll_with_gas_before_Nm", "roll_with_gas_left_Nm"),
 )
-# How well a system was solved, and the like: in JSON and CSV only.
+# Figures on the numerical solution, which appear only in JSON and CSV.
 _FOR_PROGRAMS = {"condition_number", "relative_error_bound", "axial_distance_mm", "improvement"}
 
 
 class _Figure(NamedTuple):
-    """A figure of the details with its key; group: the dict in which it stands, or empty."""
+    """A figure of the details with its key, and the key of the dict that holds it (`group`, may be
+    empty).
+    """
 
     group: str
     key: str
@@ -35,7 +37,7 @@ class _Figure(NamedTuple):
 
 
 def details_document(result: Balance) -> dict[str, object]:
-    """Return `details` of `balcli.balance/1`: records and figures that `to_document` writes."""
+    """Return the `details` of `balcli.balance/1`, which `to_document` writes."""
     remedy = result.remedy
     lists = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
     texts = {"note": remedy.note, "speed": result.speed_note}
@@ -64,7 +66,9 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
 
 
 def tell_change(result: Balance, system: System) -> str:
-    """Return what to do to a measured crankshaft; empty where none was measured."""
+    """Return in words the changes that a measured crankshaft needs; empty without a measured
+    mass.
+    """
     details, unit = result.remedy.details, system.unbalance
     if not (changes := details.get("change")):
         return ""
@@ -80,7 +84,7 @@ def tell_change(result: Balance, system: System) -> str:
 
 
 def tell_best_factors(result: Balance, system: System) -> str:
-    """Return a sentence on which factors are best, and for what; empty where none is."""
+    """Return a sentence on the best factors and what they minimise; empty if no factor is best."""
     remedy, told = result.remedy, []
     for name, one in remedy.details.get("best", {}).items():
         key, what = next(key for key in one if key != "factor"), name.replace("_", " ")
@@ -97,7 +101,7 @@ def tell_best_factors(result: Balance, system: System) -> str:
 
 
 def _list_figures(result: Balance) -> Iterator[_Figure]:
-    """Yield the figures of the details one by one; tables among them are left out."""
+    """Yield the figures of the details one by one; tables are omitted."""
     for key, value in result.remedy.details.items():
         if isinstance(value, dict) and key != "best":
             yield from (_Figure(key, name, figure) for name, figure in value.items())
@@ -108,7 +112,7 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
 
 
 def _choose_figures(result: Balance) -> list[_Figure]:
-    """Return the figures that people are shown; nan: not known."""
+    """Return the figures that are shown to people; nan for those that are not known."""
     order, about_crank = result.remedy.order, {*chain(*_ROLLS)}
     chosen = []
     for each in _list_figures(result):
@@ -120,13 +124,13 @@ def _choose_figures(result: Balance) -> list[_Figure]:
         if result.before.engine.gas is not None and each.key in _ROLLS[0]:
             each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
         if {"left", "before"}.intersection(each.key.split("_")) and order and not each.group:
-            each = each._replace(group=f"order {order}")  # others may leave more
+            each = each._replace(group=f"order {order}")  # other orders may leave more
         chosen.append(each)
     return chosen
 
 
 def _list_remarks(result: Balance) -> dict[str, str]:
-    """Return words after a figure, by its key."""
+    """Return the words that follow a figure, by its key."""
     if result.remedy.scheme != "factor":
         return {}
     one = name_one_cylinder(result.before.engine)
@@ -143,7 +147,7 @@ def _name(figure: _Figure) -> str:
 
 
 def _show(figure: _Figure, system: System) -> str:
-    """Return a figure with its unit; a dash where it is not known."""
+    """Return a figure with its unit; a dash if it is not known."""
     value, unit = figure.value, find_unit(figure.key) or find_unit(figure.group)
     if isinstance(value, str):
         return value
@@ -163,8 +167,8 @@ def _show(figure: _Figure, system: System) -> str:
 
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
-    """Yield a sentence for every order whose roll, with gas where there is some, is larger with
-    new devices than without them.
+    """Yield a sentence for every order whose roll (of inertia and, if there is any, gas) is larger
+    with new devices than without them.
     """
     remedy, (x, y, _) = result.remedy, result.before.engine.reference_m
     pivot = "the point of reference" if x or y else "the crankshaft"
@@ -183,13 +187,13 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
 
 
 def _find_growth(before: float, left: float) -> float:
-    """Return by how much the second figure is above the first; 0 where that is negligible."""
+    """Return by how much the second figure exceeds the first; 0 if that is negligible."""
     return left - before if abs(left - before) > NEGLIGIBLE * max(before, left) else 0.0
 
 
 # ------------------------------------------------------------------ tables
 def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
-    """Return the unbalance that the file has in each plane, and the missing one."""
+    """Return the table of the unbalance that each plane needs, has and lacks."""
     rows = [(need.position_mm, (need.wanted, need.present, need.missing)) for need in needs]
     unit = system.unbalance.fit(max(abs(vector) for _, vectors in rows for vector in vectors))
     at = "at, deg"
@@ -206,8 +210,8 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
 
 
 def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
-    """Return quantity x each = sum, in grams as a balancing shop's scales show, in either system;
-    equal pins stand in one column.
+    """Return the table of the card, quantity x each = sum, in grams in both systems of units, as a
+    balancing shop's scales show them. Equal pins share a column.
     """
     columns = group_equal_pins(card)
     weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)

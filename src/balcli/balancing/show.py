@@ -1,4 +1,4 @@
-"""A balance: devices, their practical figures, and free forces before and after."""
+"""Show a balance: devices, their figures for the workshop, and free forces before and after."""
 
 from __future__ import annotations
 
@@ -69,14 +69,16 @@ _TURNING_WEIGHTS = (
 
 
 def sheet(result: Balance, system: System) -> Sheet:
-    """Why and what, the workshop's figures, and both analyses side by side."""
+    """Return the printed page: devices with reasons, figures for the workshop, and both analyses
+    side by side.
+    """
     remedy, engine = result.remedy, result.before.engine
     known = result.before.moments_known
     loads = [find_crank_loads(state.engine) for state in (result.before, result.after)]
     order = "" if remedy.order is None else f", order {remedy.order}"
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.before.assumed)]
     if result.ladder is not None:
-        usual = remedy.scheme == "auto"  # what another one fits is no step
+        usual = remedy.scheme == "auto"  # other schemes do not fit a step of the ladder
         parts.append(ladder_grid(result.ladder, engine, system, tell_fitted=usual))
     if change := tell_change(result, system):
         parts.append(Text("", (change,)))
@@ -114,7 +116,7 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return words on the forces, moments and couple of orders 1 and 2 that a step leaves."""
+    """Return in words the forces, moments and couple of orders 1 and 2 that a step leaves."""
     known, left = result.after.moments_known, []
     kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
@@ -132,8 +134,8 @@ def _tell_left(result: Balance, system: System) -> str:
 
 
 def _tell_bearings(result: Balance, system: System) -> str:
-    """Return what weights at every throw would do for the main bearings where counterweights do
-    nothing else.
+    """Return in words the effect of weights at every throw on the main bearings, if counterweights
+    have no other use.
     """
     remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
     loads = {step.step: step.main_bearing_N for step in steps}
@@ -148,16 +150,16 @@ def _tell_bearings(result: Balance, system: System) -> str:
 
 
 def _tell_negligible(result: Balance, loads: Sequence[CrankLoads | None]) -> str:
-    """Return a sentence where devices balance an order that is small next to one cylinder anyhow; a
-    balance factor is of the masses at the pins, whatever they leave together.
+    """Return a sentence if the balanced order is small compared with one cylinder; not for the
+    scheme factor, which refers to the masses at the pins.
     """
     remedy, before = result.remedy, result.before
     if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
         return ""
     main = [each.main_N or 0.0 for each in loads if each is not None]
     if main and not is_small(main[0] - main[-1], SMALL * before.scales.force):
-        return ""  # the bearings are worth it
-    small = not result.every_order  # an order that was not asked for is not shown if it is small
+        return ""  # the lower bearing load is worth the devices
+    small = not result.every_order  # by default, an order that is not in the analysis is small
     if remedy.order in (orders := before.orders.tolist()):
         k, one = orders.index(remedy.order), before.of_one_cylinder
         vectors = before.spectra.vectors()
@@ -167,8 +169,8 @@ def _tell_negligible(result: Balance, loads: Sequence[CrankLoads | None]) -> str
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield the unbalance that a grade permits, if one was given: for existing counterweights with
-    the missing unbalance, for new ones with the accuracy that each needs.
+    """Yield the table of permitted unbalance if a grade was given. It is compared with the missing
+    unbalance of existing counterweights, or shown as the tolerance of new ones.
     """
     if result.permitted is None:
         return
@@ -204,7 +206,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
 
 # ------------------------------------------------------------------ before and after
 def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
-    """Return which values change by 1 % of the larger one; not those that are not known (nan).
+    """Return whether each value changes by 1 % of the larger one; False if it is not known (nan).
 
     Args:
         before, after: Values of any shape, not negative.
@@ -214,7 +216,7 @@ def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
 
 
 def _tell_unchanged(values: Iterable[tuple[Kind, float]], system: System) -> str:
-    """Return a line on values that do not change; those of 0 are left out."""
+    """Return a line on values that do not change; values of 0 are omitted."""
     told = [
         f"{name_column(kind)} of at most {size_text(size, system.unit(kind))}"
         for kind, size in values
@@ -224,7 +226,7 @@ def _tell_unchanged(values: Iterable[tuple[Kind, float]], system: System) -> str
 
 
 def _orders(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield a table of the orders and kinds that change; of orders that were asked for, all."""
+    """Yield a table of the orders and kinds that change; given orders are all listed."""
     has_gas = result.before.engine.gas is not None
     kinds = (FORCE, MOMENT, ROLL_TOTAL if has_gas else ROLL)
     states = [
@@ -232,7 +234,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     ]
     sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
     scales = dict(result.before.of_one_cylinder)
-    if has_gas:  # of which one cylinder alone has no measure
+    if has_gas:  # a single cylinder gives no scale for this kind
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
@@ -265,7 +267,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
-    """Yield the largest values over a revolution, as far as they change."""
+    """Yield a table of the largest values over a revolution that change."""
     rows, left = [], []
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
@@ -287,14 +289,14 @@ def _peaks(result: Balance, system: System) -> Iterator[Grid]:
 
 
 def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterator[Grid]:
-    """Yield the largest loads within the crankshaft before and after, as far as they change."""
+    """Yield a table of the largest loads within the crankshaft that change."""
     rows = []
     for name, kind, key, place in (
         ("largest main bearing load", FORCE, "main_N", "main_mm"),
         ("largest inner moment", MOMENT, "inner_moment_Nm", "inner_mm"),
     ):
         sizes = [size for state in states if (size := getattr(state, key, None)) is not None]
-        if len(sizes) < len(states) or not _find_changes(*sizes):  # not known, or as it was
+        if len(sizes) < len(states) or not _find_changes(*sizes):  # not known, or unchanged
             continue
         unit = system.unit(kind).fit(max(sizes))
         places = [number(system.length.of(getattr(state, place) / 1e3)) for state in states]
@@ -320,13 +322,13 @@ class BalanceDocument:
 
     Attributes:
         scheme: Name of the scheme.
-        step: Step of the ladder, of the schemes auto and step.
-        order: Order that the scheme balances; null where it is none in particular.
-        devices: The devices.
-        reasons: Why these devices.
-        practical: The workshop's figures of each device.
+        step: Step of the ladder; only for the schemes auto and step.
+        order: Order that the scheme balances; null if there is no single one.
+        devices: New devices.
+        reasons: Reasons for the devices.
+        practical: Figures of each device for the workshop.
         details: Further figures of the scheme, under names that end in the unit.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values that are used because the engine file leaves them out.
         before: Peaks and orders without the devices.
         after: Peaks and orders with the devices.
         permitted: Residual unbalance that a balance grade permits in each plane.
@@ -353,7 +355,7 @@ def _shorten(analysis: Analysis) -> PeaksAndOrders:
 
 
 def document(result: Balance) -> Node:
-    """Return `balcli.balance/1`."""
+    """Return the document `balcli.balance/1`."""
     remedy = result.remedy
     described = BalanceDocument(
         scheme=remedy.scheme,
@@ -373,8 +375,9 @@ def document(result: Balance) -> Node:
 
 
 def columns(result: Balance) -> Columns:
-    """Return a new device a row: as an engine file describes it, and the workshop's figures. What
-    is left with them is `after`, an analysis with columns of its own.
+    """Return the columns of a DataFrame with a row for each new device: its keys in an engine file,
+    and its figures for the workshop. The remaining forces are in `after`, an analysis with its own
+    columns.
     """
     units: dict[str, str] = {"device": ""}
     lines: list[Node] = []
@@ -390,8 +393,8 @@ def columns(result: Balance) -> Columns:
 
 
 def rows(result: Balance, system: System) -> Rows:
-    """Return CSV, a figure a line: those of the devices, the scheme's other figures (SI, as in
-    JSON: their names have the unit), and those of the engine without and with the devices.
+    """Return the rows of CSV, one for each figure: of the devices, of the scheme's details (as in
+    JSON: SI, with the unit in the name), and of the engine without and with the devices.
     """
     header = ("part", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _all_rows(result, system))
@@ -424,7 +427,7 @@ def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
 
 
 def _with_paths(value: object, path: str = "") -> Iterator[tuple[str, object]]:
-    """Yield members of tables and lists by their paths: `card.1.bobweight_g`."""
+    """Yield the members of tables and lists with their paths: `card.1.bobweight_g`."""
     if isinstance(value, dict):
         members: Iterable[tuple[object, object]] = value.items()
     elif isinstance(value, list):

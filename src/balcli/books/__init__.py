@@ -1,1 +1,1 @@
-"""Printed coefficient tables, recomputed and compared with their prints, with their errata."""
+"""Recompute printed coefficient tables and list their errata."""

@@ -1,10 +1,10 @@
-"""The registry of printed tables with the ranges that each takes, their errata, and the table of
-common layouts.
+"""Registry of the printed tables that balcli recomputes (`tables`), their errata, and the table of
+common engine layouts.
 
-The table of layouts has free forces and moments of the example engines in textbook units, without
-the offsets of piston pins: F_n = m_rec r omega^2 A_n is the force of order n of one cylinder's
-reciprocating mass (A_1 = 1), a the distance of neighboring throws; moments are about the middle of
-the crankshaft. `forces.symmetry` takes off all else that textbooks leave out.
+The table of layouts lists free forces and moments of the example engines. Forces are multiples of
+F_n = m_rec r omega^2 A_n (A_1 = 1), one cylinder's force of order n. Moments, about the middle of
+the crankshaft, are multiples of F_n times the distance of neighboring throws. Offsets of piston
+pins and all else that textbooks ignore are left out (`forces.symmetry`).
 """
 
 from __future__ import annotations
@@ -43,18 +43,20 @@ ORDERS = (1, 2, 4, 6)
 
 
 def tabulate_layouts(printed: Print, ranges: Ranges) -> Table:
-    """One row an engine; semi-axes (equal: a circle) of force F and moment M of each order."""
+    """Return a row for each engine: semi-axes of the ellipses of force F and moment M for each
+    order.
+    """
     ends = [f"{letter}{n}_{axis}" for n in ORDERS for letter in "FM" for axis in ("major", "minor")]
     rows = [_row(name) for name in printed.column("engine")]
     return printed.compare(("engine", "layout", "cylinders", *ends), rows, stub=3)
 
 
 def find_gaps(name: str) -> tuple[float, ...]:
-    """Return the different intervals between firings of an example engine, deg, ascending; none
-    where the file of several cylinders gives no firing order.
+    """Return the distinct intervals between firings of an example engine, deg, ascending; empty if
+    the file gives no firing order for its several cylinders.
     """
     _, engine = _load(name)
-    several = len(engine.numbers) > 1  # a single cylinder has no order
+    several = len(engine.numbers) > 1  # a single cylinder needs no firing order
     fires = map(float, engine.fires_deg.values()) if several else [0.0]
     instants = [*fires, 180.0 * engine.strokes]
     return tuple(sorted({round(b - a, 1) for a, b in pairwise(instants)}))
@@ -99,7 +101,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "layouts": tabulate_layouts,
 }
 NAMES = tuple(TABLES)
-TAKES = {  # the tables of other ranges than the printed ones, by option
+TAKES = {  # option for another range: the tables that accept it
     "lambda": (*(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)), "kvasnikov-1", "kvasnikov-2"),
     "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6"),
     "power": ("series",),
@@ -118,8 +120,8 @@ def select_tables(
         power: Highest power of the crank ratio.
 
     Raises:
-        BalcliError: There is no such table or range, the table does not take an option, or a range
-            comes without the name of a table.
+        BalcliError: There is no such table, a range cannot be read, or a range is given without the
+            name of a table that takes it.
     """
     lams = parse_crank_ratios(lam) if lam is not None else None
     angles = parse_range(angle, "--angle") if angle is not None else None
@@ -137,7 +139,9 @@ def select_tables(
 def find_errata(
     tables: Sequence[Table], category: ErratumClass | None = None
 ) -> list[tuple[str, Erratum]]:
-    """Return the errata of these tables, of one class or of all, each with its table's name."""
+    """Return the errata of these tables, each with its table's name; `category` restricts them to
+    one class.
+    """
     return [(t.name, e) for t in tables for e in t.errata if category in (None, e.category)]
 
 
@@ -145,22 +149,23 @@ def find_errata(
 def tables(
     name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
 ) -> Table:
-    """Return a printed coefficient table, recomputed, with its print.
+    """Return a printed coefficient table: recomputed figures, printed figures and errata.
 
     Args:
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
-        ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
-            table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Other crank angles than the printed ones, deg, in the same form.
+        ratios: Crank ratios (crank radius over rod length) for the columns in place of the printed
+            ones, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angles: Crank angles for the rows in place of the printed ones, deg, in the same form.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
     Returns:
-        The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
-        printed figure that is not the exact one rounded.
+        The table: `exact` cells with the headings `columns`, the `printed` texts, and `errata`: the
+        printed figures that differ from the rounded exact ones.
 
     Raises:
-        BalcliError: there is no such table, with the nearest name; a range that it does not take.
-        TypeError: the name or a range is no text, the power no whole number.
+        BalcliError: there is no such table (the message suggests the nearest name), or the table
+            does not take a range.
+        TypeError: the name or a range is not a text, or the power is not a whole number.
 
     Example:
         >>> tables("tsinghua-1-2").errata

@@ -1,4 +1,4 @@
-"""The commands `tables` and `layouts`."""
+"""The commands `balcli tables` and `balcli layouts`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..shell.values import as_bare_angles, optional
 
 
 def complete_tables(incomplete: str) -> list[str]:
-    """Return the printed tables that begin with this text."""
+    """Return the names of printed tables that begin with this text."""
     from . import answer as registry
 
     return [name for name in registry.NAMES if name.startswith(incomplete)]
@@ -34,7 +34,7 @@ Errata = Annotated[
 ]
 Kind = Annotated[
     Literal["misprint", "rounding", "approximation", "method", "error", "copy"] | None,
-    typer.Option(help="Errata of this class alone.", show_default=False),
+    typer.Option(help="List only errata of this class.", show_default=False),
 ]
 Lam = Annotated[
     str | None, optional("0.20:0.40:0.01", "Other crank ratios; or a list 0.25,1/3.", "--lambda")
@@ -59,8 +59,8 @@ def tables(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """The printed coefficient tables of five books and papers (and worked examples of three
-    textbooks), recomputed; their errata by class, with those of equations and text.
+    """Recompute the coefficient tables printed in five books and papers, and worked examples of
+    three textbooks; list their errata by class, also those of equations and text.
 
     \b
     Examples:

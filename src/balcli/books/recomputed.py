@@ -1,8 +1,8 @@
-"""Recomputed tables next to their prints, and the rule for errata: which printed figures are wrong,
-and of what class.
+"""Compare recomputed tables with their prints, and classify the printed figures that are wrong
+(errata).
 
-Each print is a CSV file of the package, headed by its source. A table can have other rows and
-columns than its print: ranges such as `0.20:0.40:0.01` and `0.24,0.28,1/3`.
+Each print is a CSV file of the package whose first lines name source and title. The user may
+replace the rows and columns of a print by ranges such as `0.20:0.40:0.01` or `0.24,0.28,1/3`.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Cell: TypeAlias = float | str | None
 Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
-STATEMENT = "statement"  # the column of errata that are no figures
+STATEMENT = "statement"  # column of errata that are equations or sentences
 CLASSES: dict[ErratumClass, str] = {
     "misprint": "the print contradicts its own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",
@@ -40,8 +40,8 @@ CLASSES: dict[ErratumClass, str] = {
 
 
 class Explanation(NamedTuple):
-    """Figures as the author may have computed them, in the places of the exact ones; None where the
-    explanation has no figure.
+    """Figures as the author may have computed them, in the same cells as the exact ones; None in
+    cells that it does not explain.
     """
 
     kind: str
@@ -50,19 +50,19 @@ class Explanation(NamedTuple):
 
 
 def name_class(category: ErratumClass) -> ErratumClass:
-    """Return the class of an erratum, whose key in JSON is a keyword of Python."""
+    """Return the class of an erratum (its key in JSON, `class`, is a keyword of Python)."""
     return category
 
 
 class Erratum(NamedTuple):
-    """A printed figure that is not the exact one rounded, or a statement that is wrong.
+    """A printed figure that differs from the rounded exact one, or a wrong statement.
 
     Attributes:
         row: Number of the row in its table, from 0.
         column: Heading of the column.
         printed: Text in the source.
         exact: Right value or statement.
-        kind: How the print came about, or how the right form of a statement is known.
+        kind: Cause of the erratum; for a statement, how its right form is known.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.
     """
@@ -77,13 +77,13 @@ class Erratum(NamedTuple):
 
 
 def name_rows(exact: tuple[Row, ...]) -> tuple[Row, ...]:
-    """Return the cells of a table, which a result calls `rows` in JSON alone."""
+    """Return the exact cells of a table (their key in JSON is `rows`)."""
     return exact
 
 
 @dataclass(frozen=True, repr=False)
 class Table(Result):
-    """A printed table, recomputed: rows as they should be and as printed, of one shape.
+    """A recomputed table: exact and printed rows of the same shape.
 
     Attributes:
         name: Name of the table.
@@ -92,9 +92,9 @@ class Table(Result):
         columns: Names of the columns.
         exact: Exact cells of every row.
         printed: Printed texts of every row; null: not printed.
-        errata: Printed cells that are not the exact ones rounded, or the wrong statements.
-        stub: How many leading columns name a row.
-        digits: Decimals of the figures that are shown; None: as printed.
+        errata: Printed cells that differ from the rounded exact ones, or wrong statements.
+        stub: Number of leading columns that name a row.
+        digits: Decimals of shown figures; None: as many as printed.
     """
 
     format: Literal["balcli.table/1"] = field(default="balcli.table/1", kw_only=True)
@@ -115,7 +115,7 @@ class Table(Result):
 
 
 def parse_decimal(text: str) -> Decimal | None:
-    """Return the printed decimal with its digits (`.4312`, `+1.0`, `-0.5`); None for others."""
+    """Return a printed decimal (`.4312`, `+1.0`, `-0.5`) with its digits; None for other texts."""
     try:
         value = Decimal(text.strip().replace("−", "-"))
     except InvalidOperation:
@@ -133,12 +133,12 @@ def parse_number(cell: Cell) -> Fraction | None:
 
 
 def round_like(value: float, like: Decimal, rounding: str = ROUND_HALF_UP) -> Decimal:
-    """Return the value with the decimals of a printed figure, halves rounded away from zero."""
+    """Return the value rounded to the decimals of a printed figure, with halves away from zero."""
     return Decimal(repr(float(value))).quantize(like, rounding)
 
 
 def deviates(value: Cell, text: str) -> bool:
-    """Return whether a printed figure is not the exact value rounded; words never deviate."""
+    """Return whether a printed figure differs from the rounded exact value; words never do."""
     printed = parse_decimal(text)
     if printed is not None and isinstance(value, (int, float)):
         return round_like(value, printed) != printed
@@ -149,8 +149,8 @@ def deviates(value: Cell, text: str) -> bool:
 
 
 def _derive(value: float, printed: Decimal) -> str | None:
-    """Return how a value leads to the printed figure: "", ", truncated", ", digits transposed";
-    None: it does not.
+    """Return how a value becomes the printed figure: "" (rounded), ", truncated" or ", digits
+    transposed"; None if it does not.
     """
     rounded = round_like(value, printed)
     if rounded == printed:
@@ -165,8 +165,8 @@ def _derive(value: float, printed: Decimal) -> str | None:
 def _explain(
     value: Cell, text: str, supposed: Iterable[tuple[Explanation, Cell]]
 ) -> tuple[ErratumClass, str]:
-    """Return the class and kind of an erratum: of the first explanation whose figure leads to it,
-    or by what its digits show.
+    """Return the class and kind of an erratum: those of the first explanation whose figure leads to
+    the print; otherwise its digits decide.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
@@ -177,14 +177,14 @@ def _explain(
         if (found := _derive(other, printed)) is not None:
             whose = "author's approximation: " if category == "approximation" else ""
             return category, whose + kind + found
-    unit = Decimal(f"1e{printed.as_tuple().exponent}")  # of the last digit
+    unit = Decimal(f"1e{printed.as_tuple().exponent}")  # one unit of the last digit
     near = abs(round_like(value, printed) - printed) <= unit
     category, kind = ("rounding", "last digit") if near else ("misprint", "misprint")
     return category, kind + (_derive(value, printed) or "")
 
 
 class Print(NamedTuple):
-    """A table as printed; cells that are not printed are None."""
+    """A table as printed; None marks cells without print."""
 
     name: str
     title: str
@@ -193,7 +193,7 @@ class Print(NamedTuple):
     rows: tuple[Words, ...]
 
     def column(self, heading: str) -> tuple[str, ...]:
-        """Return the texts of a column; empty where nothing is printed."""
+        """Return the texts of a column; cells without print are empty."""
         return tuple(row[self.columns.index(heading)] or "" for row in self.rows)
 
     def headings(self) -> tuple[str, ...]:
@@ -201,8 +201,8 @@ class Print(NamedTuple):
         return tuple(c for c in self.columns if parse_number(c) is not None)
 
     def align_cells(self, stub: Sequence[str], columns: Sequence[str]) -> list[Words]:
-        """Return the printed cells of these rows (found by the first column) and columns; numbers
-        are the same however they are written. Cells that are not printed are None.
+        """Return the printed cells for these rows (by their first cell) and columns. Different
+        texts of the same number match. None marks cells without print.
         """
         rows = {identify(row[0] or ""): row for row in self.rows}
         numbers = {identify(c): j for j, c in enumerate(self.columns)}
@@ -219,14 +219,15 @@ class Print(NamedTuple):
         explanations: Sequence[Explanation] = (),
         stub: int = 1,
     ) -> Table:
-        """Return the recomputed rows next to the print.
+        """Return the table of recomputed rows, with the printed ones and the errata.
 
         Args:
             columns: Names of the columns.
             rows: Recomputed rows.
-            printed: Printed texts of the rows; None: row by row, further columns have no print.
-            explanations: Explanations of errata.
-            stub: How many leading columns name a row.
+            printed: Printed texts of the rows; None: the rows of this print, without print in
+                further columns.
+            explanations: Possible explanations of errata.
+            stub: Number of leading columns that name a row.
         """
         if printed is None:
             printed = [words + (None,) * (len(columns) - len(words)) for words in self.rows]
@@ -245,12 +246,12 @@ class Print(NamedTuple):
     def compare_answers(
         self, answers: Sequence[float], others: Sequence[tuple[ErratumClass, str, int, float]]
     ) -> Table:
-        """Return the exact answers of worked examples, which stand at the ends of the rows.
+        """Return the table of worked examples; the answers are the last cells of the rows.
 
         Args:
             answers: Exact answers.
-            others: What authors took instead: class and kind of the erratum, the number of the
-                answer (from 0), their value.
+            others: Values that authors computed instead, each with the class and kind of erratum
+                and the index of the answer: (class, kind, index, value).
         """
         rows = [(*words[:-1], one) for words, one in zip(self.rows, answers, strict=True)]
         blank: Row = (None,) * len(self.columns)
@@ -263,8 +264,8 @@ class Print(NamedTuple):
 
 
 def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
-    """Return the equations and sentences that are wrong: exact is the right form, every row an
-    erratum. The tests compute both forms of each.
+    """Return the table of wrong equations and sentences. Every row is an erratum whose `exact` is
+    the right form. The tests compute both forms of each.
     """
     rows = [tuple(map(str, row)) for row in printed.rows]
     cells = [(source, place, *others) for source, place, _, *others in rows]
@@ -278,7 +279,7 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
 
 
 def load_print(name: str) -> Print:
-    """Return the print of a table: `# source:` and `# title:` lines, headings, rows."""
+    """Read the print of a table: lines `# source:` and `# title:`, then headings and rows."""
     lines = files(__package__).joinpath("data", f"{name}.csv").read_text("utf-8").splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
@@ -287,23 +288,23 @@ def load_print(name: str) -> Print:
 
 
 def identify(text: str) -> object:
-    """Return what identifies a row or column: its number (0.3 is 0.30), or its text."""
+    """Return the key of a row or column: its number, so that 0.3 equals 0.30, or its text."""
     number = parse_number(text)
     return text if number is None else number
 
 
 def as_numbers(texts: Iterable[str]) -> Array:
-    """Return the numbers that texts are; nan for a text that is none."""
+    """Return the texts as numbers; nan for a text that is not a number."""
     return np.array([np.nan if (n := parse_number(text)) is None else float(n) for text in texts])
 
 
 def as_cells(values: Iterable[float]) -> list[Cell]:
-    """Return numbers of any kind as plain floats; minus zero as zero."""
+    """Return numbers as plain floats, with -0.0 replaced by 0.0."""
     return [float(v) + 0.0 for v in values]
 
 
 def head_rows(stub: Iterable[Cell], body: Iterable[Iterable[float]]) -> tuple[Row, ...]:
-    """Return rows of numbers, each headed by its cell of the stub."""
+    """Return rows of numbers, each preceded by its cell of the stub."""
     return tuple((head, *as_cells(line)) for head, line in zip(stub, body, strict=True))
 
 
@@ -311,12 +312,12 @@ _PLAIN = re.compile(r"\s*[-+.\d/]{1,30}(e-?\d{1,2})?\s*", re.IGNORECASE)
 
 
 class Ranges(NamedTuple):
-    """Other columns and rows; None: as printed.
+    """Columns and rows in place of the printed ones; None: as printed.
 
     Attributes:
-        lam: columns: crank radius over rod length, as headings.
-        angle: rows: crank angles in degrees, as headings.
-        power: the highest power of lambda.
+        lam: Columns: headings that are crank radius over rod length.
+        angle: Rows: headings that are crank angles in degrees.
+        power: Highest power of lambda.
     """
 
     lam: tuple[str, ...] | None = None
@@ -325,7 +326,7 @@ class Ranges(NamedTuple):
 
 
 def parse_range(text: str, option: str) -> tuple[str, ...]:
-    """Return the numbers of a range as they would be printed; START:STOP:STEP includes both ends.
+    """Return the numbers of a range as texts; START:STOP:STEP includes both ends.
 
     Raises:
         BalcliError: The text is neither a range nor a list of numbers, or too long.
@@ -339,10 +340,10 @@ def parse_range(text: str, option: str) -> tuple[str, ...]:
 
 
 def parse_crank_ratios(text: str) -> tuple[str, ...]:
-    """Return a range of lambda = crank radius / rod length.
+    """Return the numbers of a range of lambda (crank radius over rod length) as texts.
 
     Raises:
-        BalcliError: as of `parse_range`, or a mechanism of the range cannot turn.
+        BalcliError: the range is wrong (see `parse_range`), or a mechanism in it cannot turn.
     """
     found = parse_range(text, "--lambda")
     bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)
@@ -355,7 +356,7 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
 
 
 def _read(text: str) -> Fraction:
-    """Return a number that can be an angle or a ratio."""
+    """Return the number in a text; raise ValueError if it is unsuitable for an angle or ratio."""
     value = parse_number(text) if _PLAIN.fullmatch(text) else None
     if value is None or abs(value) > LARGEST_TABLE_VALUE:
         raise ValueError(text)
@@ -373,6 +374,6 @@ def _expand(start: str, stop: str | None = None, step: str = "1") -> list[str]:
 
 
 def _heading(value: Fraction) -> str:
-    """Return 0.24 for 6/25; a fraction that ends in no decimal stays one."""
+    """Return a number as text: 6/25 as 0.24, but 1/3, which has no finite decimal, as 1/3."""
     decimal = Decimal(value.numerator) / value.denominator
     return f"{decimal.normalize():f}" if Fraction(decimal) == value else str(value)

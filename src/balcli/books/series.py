@@ -1,9 +1,9 @@
-"""Exact coefficients in powers of lambda, compared with those that the five sources print.
+"""Exact coefficients of power series in lambda, compared with those printed in the five sources.
 
-Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II.
+The module also recomputes Tables I and II of Kvasnikov, Determination of the unbalance of piston
+engines, Tomsk 1920: A_n of the piston's acceleration and D_k of the rod's angular acceleration. One
+or two terms of the series explain their errata.
 
-A_n of the piston's and D_k of the rod's acceleration. The errata are recomputed from one and two
-terms of the series.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Generator: TypeAlias = Callable[[int, int], series.Series]
 POWER = 12
 COLUMNS = ("function", "order", "power", "coefficient", "source", "equation")
 
-GENERATED: dict[str, Generator] = {  # listed up to the power asked for
+GENERATED: dict[str, Generator] = {  # listed up to the requested power
     "displacement x/r from TDC": series.displacement,
     "velocity v/(r w)": series.velocity,
     "acceleration A_n (r w^2)": series.piston,
@@ -30,7 +30,7 @@ GENERATED: dict[str, Generator] = {  # listed up to the power asked for
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
-PRINTED: dict[str, Generator] = {  # other forms, where a source has them
+PRINTED: dict[str, Generator] = {  # other forms, listed if a source prints them
     "displacement (from shaft)/r": series.from_shaft,
     "acceleration (l w^2)": lambda n, power: {
         p: n * n * c for p, c in series.cos_beta(n, power).items()
@@ -44,8 +44,8 @@ PRINTED: dict[str, Generator] = {  # other forms, where a source has them
 
 
 def tabulate_series(printed: Print, ranges: Ranges) -> Table:
-    """Return one row a coefficient, repeated for every source that prints it; unprinted ones have a
-    row without a source.
+    """Return a row for each coefficient and each source that prints it; coefficients that no source
+    prints have one row without a source.
     """
     power = POWER if ranges.power is None else ranges.power
     shown = [words for words in printed.rows if int(words[2] or 0) <= power]
@@ -60,7 +60,9 @@ def tabulate_series(printed: Print, ranges: Ranges) -> Table:
 
 
 def _list_rows(shown: list[Words], power: int) -> Iterator[tuple[Row, Words]]:
-    """Yield coefficients next to their prints, then those up to the power that no source prints."""
+    """Yield the printed coefficients with their prints, then the coefficients up to the power that
+    no source prints.
+    """
     for words in shown:
         function, order, exponent, _, source, equation = words
         n, p = int(order or 0), int(exponent or 0)
@@ -79,12 +81,12 @@ Terms: TypeAlias = Callable[[int, int], series.Series]
 
 
 def tabulate_piston(printed: Print, ranges: Ranges) -> Table:
-    """Table I: A_n."""
+    """Return Table I: coefficients A_n."""
     return _tabulate(printed, ranges, closed_form.piston, series.piston)
 
 
 def tabulate_rod(printed: Print, ranges: Ranges) -> Table:
-    """Table II: D_k."""
+    """Return Table II: coefficients D_k."""
     return _tabulate(printed, ranges, closed_form.rod, series.rod)
 
 

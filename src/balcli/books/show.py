@@ -1,8 +1,7 @@
-"""Printed tables as sheets, JSON and CSV.
+"""Show recomputed tables, their errata, the list of tables, and the table of common layouts.
 
-A table is laid out like its print, each figure rounded to the printed or requested number of
-digits. Deviating prints follow the figure: `.4313 ≠ .4312`. JSON and CSV have full precision. The
-module also shows all errata, the list of tables, and the table of common layouts.
+A table is laid out like its print, with each figure rounded to the printed or requested decimals. A
+deviating print follows its figure: `.4313 ≠ .4312`. JSON and CSV have full precision.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from .recomputed import (
 
 
 def sheet(table: Table, _system: System) -> Sheet:
-    """Return source, the table as printed, and how many figures deviate."""
+    """Return the source, the table laid out as printed, and the number of deviating figures."""
     facts, title = Facts((("source", table.source),)), f"{table.name}: {table.title}"
     if STATEMENT in table.columns:
         return Sheet(title, (facts, *map(_lay_out_statement, table.errata), _explain(table.errata)))
@@ -50,7 +49,7 @@ def sheet(table: Table, _system: System) -> Sheet:
 
 
 def rows(table: Table, _system: System) -> Rows:
-    """Return the exact figures as CSV, with as many decimals as the table asks for."""
+    """Return the exact figures as CSV, with the requested decimals."""
 
     def cell(value: Cell) -> Cell:
         rounded = table.digits is not None and isinstance(value, float)
@@ -60,7 +59,7 @@ def rows(table: Table, _system: System) -> Rows:
 
 
 def count_deviations(table: Table) -> str:
-    """Return a sentence on how many of the printed figures are not the exact ones rounded."""
+    """Return a sentence on how many printed figures differ from the rounded exact ones."""
     printed = sum(_is_figure(text) for row in table.printed for text in row[table.stub :])
     wrong = f"{len(table.errata)} of {printed} printed figures deviate (exact ≠ printed)"
     return wrong if printed else "no printed source"
@@ -72,7 +71,7 @@ def _is_figure(cell: Cell) -> bool:
 
 
 def _shown(table: Table, i: int, j: int) -> str:
-    """Return a cell as the print would have it, followed by the print where that deviates."""
+    """Return a cell in the form of the print, followed by the print if it deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
     like = text or next((row[j] for row in table.printed if row[j]), None)
     as_whole = (like or "").lstrip("+-").isdigit()  # such as an angle
@@ -86,8 +85,8 @@ def _shown(table: Table, i: int, j: int) -> str:
 
 
 def _round_as_printed(value: float, text: str) -> str:
-    """Return a value as the printed text has it: its decimals, its sign, and whether a 0 stands
-    before the point.
+    """Return a value in the form of the printed text: its decimals, its plus sign, and whether a 0
+    precedes the point.
     """
     like = parse_decimal(text)
     if like is None:
@@ -128,7 +127,7 @@ def _lay_out_statement(e: Erratum) -> Text:
 
 
 def _explain(errata: Sequence[Erratum]) -> Grid:
-    """Return the classes of these errata, with their numbers and meanings."""
+    """Return the classes of these errata, with their counts and meanings."""
     counts = Counter(e.category for e in errata)
     rows = tuple((name, str(counts[name]), text) for name, text in CLASSES.items() if counts[name])
     figures = sum(e.column != STATEMENT for e in errata)
@@ -137,12 +136,12 @@ def _explain(errata: Sequence[Erratum]) -> Grid:
 
 
 def describe_errata(errata: Errata) -> list[Node]:
-    """Return one list, each erratum with its table's name."""
+    """Return the errata as a list for JSON, each with its table's name."""
     return [{"name": table, **to_document(e)} for table, e in errata]
 
 
 def list_errata(errata: Errata, _system: System) -> Rows:
-    """Return an erratum a line, for CSV."""
+    """Return CSV with one erratum in each line."""
     columns = ("table", *_SHOWN_OF_ERRATUM, "kind", "class")
     lines = [(t, e.label, e.column, e.printed, _exact(e), e.kind, e.category) for t, e in errata]
     return Rows(columns, lines)
@@ -156,7 +155,7 @@ ERRATA = Renderer(sheet=lay_out_errata, document=describe_errata, rows=list_erra
 
 
 def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
-    """Return one row a table, their sources, and further commands."""
+    """Return a list of the tables with their errata, and a list of sources."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = sum(len(t.errata) for t in tables)
     note = f"{errata} errata; --errata lists them, tables NAME a table"
@@ -167,7 +166,7 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
 
 
 def describe_list(tables: Sequence[Table]) -> list[Node]:
-    """Return one list, an entry a table."""
+    """Return a list for JSON with an entry for each table."""
     return [
         {"name": t.name, "title": t.title, "source": t.source, "errata": len(t.errata)}
         for t in tables
@@ -175,7 +174,7 @@ def describe_list(tables: Sequence[Table]) -> list[Node]:
 
 
 def list_tables(tables: Sequence[Table], _system: System) -> Rows:
-    """Return a table a line, for CSV."""
+    """Return CSV with one table in each line."""
     entries = describe_list(tables)
     return Rows([*entries[0]], [[*entry.values()] for entry in entries])
 
@@ -192,13 +191,13 @@ _NOTE = (
 
 
 def lay_out_layouts(table: Table, _system: System) -> Sheet:
-    """Force and moment of orders 1 and 2, and how evenly each engine fires."""
+    """Return force and moment of orders 1 and 2, and the firing intervals of each engine."""
     places = [table.columns.index(f"{name}_major") for name in _SHOWN]
 
     def cells(row: Row) -> tuple[str, ...]:
         name, title, *_ = map(str, row)
         multiples = (number(float(row[k] or 0.0)) for k in places)
-        gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # 90/150: it fires unevenly
+        gaps = "/".join(f"{gap:g}" for gap in find_gaps(name))  # such as 90/150 for uneven firing
         return title.partition(" (")[0], *multiples, gaps or UNKNOWN
 
     rows = tuple(map(cells, table.exact))

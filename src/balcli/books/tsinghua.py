@@ -1,4 +1,4 @@
-"""Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990: Tables 1-1 to 1-6."""
+"""Recompute Tables 1-1 to 1-6 of Lu Jiqing, Meng Sizong, Automobile Engine Design, 1990."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ByAngle: TypeAlias = Callable[[Array, Array], Array]  # rad, lambda
 
 
 def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r from the dimensions given."""
+    """Return Table 1-1: lambda = r/l, mean piston speed S n/30 and xi = e/r of given engines."""
 
     heads = ("r_mm", "l_mm", "e_mm", "stroke_mm", "rated_speed_rpm")
     lines = np.array([as_numbers(printed.column(head)) for head in heads]).T.tolist()
@@ -44,25 +44,25 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
 
 
 def tabulate_travel(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-2: x/r."""
+    """Return Table 1-2: piston displacement x/r."""
     return _tabulate_by_angle(printed, ranges, sc.displacement)
 
 
 def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-3: v/(r omega); the sign columns say its sign at the crank angles of the left and
-    right margins.
+    """Return Table 1-3: piston velocity v/(r omega). The sign columns are its signs at the crank
+    angles of the left and right margins.
     """
     return _tabulate_by_angle(printed, ranges, sc.velocity)
 
 
 def tabulate_acceleration(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-6: j/(r omega^2)."""
+    """Return Table 1-6: piston acceleration j/(r omega^2)."""
     return _tabulate_by_angle(printed, ranges, sc.acceleration)
 
 
 def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-4: where and how large the greatest velocity is, by the two-term formula as printed,
-    then exactly.
+    """Return Table 1-4: angle and size of the greatest velocity, by the printed two-term formula
+    and exactly.
     """
     headings = ranges.lam or printed.headings()
     lam = as_numbers(headings)
@@ -76,15 +76,16 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
 
 
 def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
-    """Table 1-5: ranges in use, which nothing computes."""
+    """Return Table 1-5: usual ranges, which cannot be recomputed."""
     return printed.compare(printed.columns, [tuple(map(_given, words)) for words in printed.rows])
 
 
 def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
-    """One row a crank angle, one column a lambda, margins as the print has them.
+    """Return a row for each crank angle and a column for each lambda, with the margins of the
+    print.
 
     Raises:
-        BalcliError: they are too many.
+        BalcliError: the table has too many cells.
     """
     headings = ranges.lam or printed.headings()
     stub = ranges.angle or printed.column("alpha_deg")
@@ -107,7 +108,9 @@ def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tab
 
 
 def _extreme(lam: Array, psi: Array, value: Array) -> Array:
-    """The seven lines of Table 1-4, angles in degrees; the mean piston speed is (2/pi) r omega."""
+    """Return the seven lines of Table 1-4, with angles in degrees; the mean piston speed is (2/pi)
+    r omega.
+    """
     alpha = np.degrees(psi)
     beta = np.degrees(np.arctan2(*sc.rod_angle(psi, lam)))
     both = alpha + beta
@@ -115,6 +118,6 @@ def _extreme(lam: Array, psi: Array, value: Array) -> Array:
 
 
 def _given(text: str | None) -> Cell:
-    """Return a figure that is an input as a number; words as they are."""
+    """Return a given figure as a number, and words unchanged."""
     value = parse_number(text)
     return text if value is None else float(value)

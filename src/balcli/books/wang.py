@@ -1,9 +1,11 @@
-"""Wang Yongding, Methods of balancing single-cylinder engines: Table 1.
+"""Recompute Table 1 of Wang Yongding, Methods of balancing single-cylinder engines.
 
-A counterweight k m_j r, alpha ahead of the point opposite the crank, leaves, of orders 1 and 2, P =
-J (cos th + lam cos 2 th - k e^{i(th + alpha)}). The print searched k in steps of 0.1, alpha of 5
-and theta of 1 degree, the last over half a revolution only. The best alpha is 0: the greatest |P|
-is convex in k e^{i alpha}, and a change of sign of alpha only mirrors the curve.
+A counterweight k m_j r stands at an angle alpha ahead of the point opposite the crank. The
+remaining force of orders 1 and 2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}), and the
+table lists the counterweight with the smallest largest |P|. The author searched k in steps of 0.1,
+alpha in steps of 5 degrees and theta in steps of 1 degree, but theta only over half a revolution.
+The best alpha is 0: the greatest |P| is convex in k e^{i alpha}, and changing the sign of alpha
+only mirrors the curve.
 """
 
 from __future__ import annotations
@@ -21,8 +23,8 @@ FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
-    """Return the true optimum, the printed search, and the force that the printed choice leaves
-    over the whole revolution.
+    """Return the true optimum, the author's search, and the largest force over the whole revolution
+    with the printed choice.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     lams, k0, alpha0 = (
@@ -39,22 +41,22 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
 
 
 def _true(lam: float) -> Row:
-    """Smallest peak, k, alpha, and where one of its three equal maxima lies: at theta = 0, along
-    the cylinder.
+    """Return the smallest peak, its k and alpha, and the direction and crank angle of one of its
+    three equal maxima: 0, along the cylinder.
 
-    There P = 1 + lam - k, falling with k; the two others, symmetric to the cylinder, rise. The best
-    k makes them equal.
+    At theta = 0, P = 1 + lam - k falls with k. The two other maxima, symmetric to the cylinder,
+    rise with k. The best k makes all three equal.
     """
     k = find_least(lambda k: max(_stationary(lam, k))[0], 0.0, 1.0, 80)
     return (1 + lam - k, k, 0.0, 0.0, 0.0)
 
 
 def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
-    """(|P|/J, theta in degrees) where |P| is stationary: the roots z = e^{i theta} of the
-    derivative of P conj(P).
+    """Return (|P|/J, theta in degrees) at the angles where |P| is stationary. They are the roots z
+    = e^{i theta} of the derivative of P conj(P).
     """
-    p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])  # of z^-2 ... z^2
-    square = np.convolve(p, np.conj(p[::-1]))  # of z^-4 ... z^4
+    p = np.array([lam / 2, 0.5, 0, 0.5 - weight, lam / 2])  # coefficients of z^-2 ... z^2
+    square = np.convolve(p, np.conj(p[::-1]))  # coefficients of z^-4 ... z^4
     z = np.roots((np.arange(-4, 5) * square)[::-1])
     z = z[np.abs(np.abs(z) - 1) < 1e-6]
     z /= np.abs(z)
@@ -63,7 +65,7 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """The printed search: P, k, alpha, direction phi of the force (undirected) and theta."""
+    """Return the result of the author's search: P, k, alpha, line phi of the force, and theta."""
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     th = np.radians(theta)
     weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))

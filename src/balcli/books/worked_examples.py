@@ -1,10 +1,9 @@
-"""Worked examples of crank torque and flywheels in textbooks: the exact answers, and the authors'
-answers with their reasons.
+"""Recompute worked examples of textbooks on crank torque, flywheels and balancing: exact answers,
+and values that explain the authors' answers.
 
-Liang Shoupan, Engine Dynamics, 1948: the worked examples, in inches, pounds and seconds.
-
-An engine of 4 in stroke with a rod of 7 in turns at 4000 rpm; the rod weighs 2.75 lb, its center of
-gravity is 2 in from the crank pin; the piston with pin and rings weighs 1 lb.
+The examples of Liang Shoupan, Engine Dynamics, 1948, are in inches, pounds and seconds: an engine
+with a stroke of 4 in and a rod of 7 in turns at 4000 rpm. The rod weighs 2.75 lb, and its center of
+gravity is 2 in from the crank pin. The piston with pin and rings weighs 1 lb.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ from .recomputed import ErratumClass, Print, Ranges, Table, as_numbers, load_pri
 
 
 def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
-    """Return the exact answers with the printed ones.
+    """Return exact and printed answers on torque: Bevan 12.3, Khurmi 16.12, Uicker 18.1.
 
-    Uicker 18.1 prints the torque of table 18-1 every 10 degrees of a cycle, integrates by Simpson's
-    rule, and asks for the inertia with a fluctuation of 0.025 at 4600 rpm.
+    Uicker 18.1 gives the torque (table 18-1) at every 10 degrees of a cycle, integrates it by
+    Simpson's rule, and computes the inertia for a fluctuation of 0.025 at 4600 rpm.
     """
     torque = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
     uicker = polyline(np.radians(np.arange(0, 721, 10)), [*torque, torque[0]])
@@ -46,19 +45,21 @@ def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
 
 # ------------------------------------------------------------------ Bevan 12.3
 def _bevan(*, two_terms: bool = False) -> float:
-    """Steam engine: bore 9 in, stroke 24 in, rod 60 in, piston rod 2 in, 160 and 32 psi, at 40
-    degrees.
+    """Return the torque, lbf ft, of a steam engine at 40 degrees: bore 9 in, stroke 24 in, rod 60
+    in, piston rod 2 in, pressures 160 and 32 psi.
     """
     force = 160 * np.pi / 4 * 9**2 - 32 * np.pi / 4 * (9**2 - 2**2)  # lbf
     psi, lam = np.radians(40.0), 12 / 60
     exact = float(slidercrank.velocity(psi, lam, 0.0))
     rate = np.sin(psi) + lam / 2 * np.sin(2 * psi) if two_terms else exact
-    return float(force * rate)  # at a crank of 1 ft
+    return float(force * rate)  # the crank radius is 1 ft
 
 
 # ------------------------------------------------------------------ Khurmi 16.12
 def _khurmi() -> tuple[float, float]:
-    """Torque 5000 + 600 sin 2t against 5000 + 500 sin t, a wheel of 500 kg on 0.4 m."""
+    """Return the fluctuation of energy and the largest acceleration of a flywheel (500 kg, radius
+    of gyration 0.4 m) under a torque of 5000 + 600 sin 2t and a load of 5000 + 500 sin t.
+    """
     net = resolved(_khurmi_net, [0.0, 2 * np.pi])
     lowest, highest = net.extremes()
     return surplus(net).energy, max(highest.value, -lowest.value) / (500 * 0.4**2)
@@ -69,7 +70,7 @@ def _khurmi_net(angle: Array) -> Array:
 
 
 def _khurmi_zero_side() -> float:
-    """The largest value of the excess before it first changes its sign."""
+    """Return the acceleration by the largest excess torque before it first changes its sign."""
     first = resolved(_khurmi_net, [0.0, np.arccos(5 / 12)])
     return first.extremes()[1].value / (500 * 0.4**2)
 
@@ -81,12 +82,12 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 
 
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
-    """Return the exact answers with the printed ones, in the order of the book.
+    """Return exact and printed answers of Liang, in the order of the book.
 
-    Section 1-3: reciprocating weight (rod weighed at its ends), its greatest acceleration and
-    inertia force. Section 1-4 as of `_second`. Section 2-1: rotating weight (throw, big end),
-    reciprocating weight (piston, small end), and the weight at 3.5 in for the first and half of the
-    second at a crank of 3 in.
+    Section 1-3: reciprocating weight (with the rod's share by its center of gravity), greatest
+    acceleration and inertia force. Section 1-4: see `_second`. Section 2-1: rotating weight (throw
+    and big end), reciprocating weight (piston and small end), and the weight at 3.5 in that
+    balances the former and half of the latter at a crank of 3 in.
     """
     mass, rotating, reciprocating = 1 + 2.75 * 2 / 7, 1.0 + 3.0, 6.0 + 2.0
     force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
@@ -107,16 +108,16 @@ def _acceleration(omega: float = OMEGA) -> float:
 
 
 def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
-    """Return the answers of section 1-4, the rod's outline a triangle: hk, q^2, their difference,
-    peak of beta''/p, residual couple in ft lb (all at 90 degrees).
+    """Return the answers of section 1-4 for a rod with a triangular outline: hk, q^2, their
+    difference, the peak of beta''/p, and the residual couple in ft lb, both at 90 degrees.
     """
-    lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18  # of the length squared
+    lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18  # over the length squared
     peak = -float(rod_acceleration(np.pi / 2, lam)) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)
 
 
 def _round(value: float) -> float:
-    """Return three significant digits, as slide rules give them."""
+    """Return the value with three significant digits, as on a slide rule."""
     unit = 10.0 ** (floor(log10(abs(value))) - 2)
     return floor(value / unit + 0.5) * unit

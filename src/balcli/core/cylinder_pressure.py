@@ -1,13 +1,15 @@
-"""Gas on a piston: from the pressure over a cycle to torque, work and harmonics.
+"""Torque, work and harmonics of the gas in a cylinder, from its pressure over the cycle.
 
 Angles are cycle angles in radians: 0 at the cylinder's own firing dead centre, a period of 4 pi
-(four-stroke) or 2 pi (two-stroke). The dead centres are those of the mechanism: an offset or an
-articulated one does not reach them at crank angles 0 and 180 degrees. With x the travel of the
-piston from its upper dead centre, the gas does the work P dx, so that its torque is `P dx/dc`
-whatever the mechanism (virtual work); of the piston pin's path s (docs/theory.md), x' = -s'.
+(four-stroke) or 2 pi (two-stroke). A mechanism with an offset or an articulated rod does not reach
+its dead centres at crank angles 0 and 180 degrees.
 
-Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`);
-builders' tables give harmonics of the torque itself, without a pressure.
+With c the cycle angle, x the piston's travel from its upper dead centre, and P the gas force,
+virtual work gives the torque `P dx/dc` for every mechanism; x' = -s', s being the position of the
+piston pin (docs/theory.md).
+
+Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`). Builders'
+tables give only harmonics of the torque, without a pressure.
 """
 
 from __future__ import annotations
@@ -25,11 +27,11 @@ from .mechanisms.linkage import Articulated, Rotary
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
 
-_SAME = 1e-8  # rad; a highest pressure so near to a corner is at the corner
+_SAME = 1e-8  # rad; a highest pressure this close to a breakpoint is at the breakpoint
 
 
 class GasError(ValueError):
-    """A cycle that cannot be computed, in a full sentence; `field` names the value to blame."""
+    """A cycle cannot be computed; `field` names the value at fault, `message` says why."""
 
     def __init__(self, field: str, message: str) -> None:
         self.field = field
@@ -39,7 +41,7 @@ class GasError(ValueError):
 # ---------------------------------------------------------------- the piston
 @dataclass(frozen=True, eq=False)
 class GasPiston:
-    """The mechanism of one cylinder, as the gas in it knows it.
+    """Bore and kinematics of one cylinder.
 
     Attributes:
         area: Area of the bore, m2.
@@ -47,9 +49,9 @@ class GasPiston:
         top: Crank angle of the mechanism (0: pin along the axis) at its upper dead centre, rad.
         bottom: Cycle angle of the lower dead centre, rad, in (0, 2 pi).
         radius: Crank radius, m.
-        lam, eps: Crank radius and offset over rod length; with a linkage arrays of the cylinder
-            and of its master.
-        linkage: Linkage of these two; None where the rod is on the crank pin.
+        lam, eps: Crank radius and offset over rod length; with a linkage, arrays with the values of
+            the cylinder and of its master cylinder.
+        linkage: Linkage of these two cylinders; None if the rod is on the crank pin.
     """
 
     area: float
@@ -97,8 +99,8 @@ class GasPiston:
         return self.clearance(compression_ratio) + self.area * travel
 
     def angle_of(self, travel: float, *, upward: bool = False) -> float:
-        """Return the cycle angle in [0, 2 pi] at which the piston has moved so far (m) down, or is
-        so far down on its way up.
+        """Return the cycle angle in [0, 2 pi] at which the piston is `travel` (m) below its upper
+        dead centre, on its way down or (`upward`) on its way up.
         """
         low, high = (self.bottom, 2 * np.pi) if upward else (0.0, self.bottom)
         for _ in range(7):
@@ -113,10 +115,10 @@ def pistons(cylinders: Cylinders, area: ArrayLike) -> list[GasPiston]:
     """Return the piston of every cylinder.
 
     Args:
-        cylinders: Without trailing axes.
-        area: Area of the bores, m2, one or one each.
+        cylinders: Cylinders of one engine, without trailing axes.
+        area: Area of the bores, m2: one value, or one for each cylinder.
     """
-    # What moves the pistons along their axes; in rotary engines it is the same.
+    # In a rotary engine, the pistons move along their axes as in a stationary one.
     kind = cylinders.linkage.hung if isinstance(cylinders.linkage, Rotary) else cylinders.linkage
     linkage = kind if isinstance(kind, Articulated) else None
     c, found = replace(cylinders, linkage=linkage), []
@@ -146,9 +148,10 @@ class GasTorque:
 
     Attributes:
         piston: The cylinder's mechanism.
-        breaks: Cycle angles between which all is smooth, rad; the last a period after the first.
-        curve: Torque at cycle angles, N m.
-        pressure: Absolute pressure at cycle angles, Pa; None where only the torque is known.
+        breaks: Cycle angles between which torque and pressure are smooth, rad; the last is one
+            period after the first.
+        curve: Torque over the cycle angle, N m.
+        pressure: Absolute pressure over the cycle angle, Pa; None if only the torque is known.
         crankcase: Pressure under the piston, Pa.
     """
 
@@ -159,7 +162,7 @@ class GasTorque:
     crankcase: float = 1e5
 
     def force_under(self, pressure: Array) -> Array:
-        """Return the gas force on the piston, N, towards the crankshaft, under pressures in the
+        """Return the gas force on the piston towards the crankshaft, N, for pressures in the
         cylinder (Pa).
         """
         return self.piston.area * (pressure - self.crankcase)
@@ -175,8 +178,9 @@ class GasTorque:
         return self.work / self.piston.swept
 
     def harmonics(self, halves: ArrayLike) -> Complex:
-        """Return coefficients t_h, N m, of `Re sum t_h e^{i h c/2}` for whole numbers h, shape
-        (orders,): h is twice the order, t_0 the mean torque. A two-stroke engine has even h alone.
+        """Return the coefficients t_h, N m, of the torque `Re sum t_h e^{i h c/2}`, shape
+        (orders,). The whole number h is twice the order; t_0 is the mean torque. In a two-stroke
+        engine, t_h is 0 for odd h.
         """
         half_orders = np.asarray(halves)
         every = round(4 * np.pi / self.curve.period)
@@ -187,7 +191,7 @@ class GasTorque:
 def press(
     piston: GasPiston, pressure: PiecewiseCurve, breaks: Array, crankcase: float = 1e5
 ) -> GasTorque:
-    """Return the torque that a pressure over the cycle makes.
+    """Return the torque of a pressure over the cycle.
 
     Args:
         piston: Piston on which it acts.
@@ -218,9 +222,9 @@ def crank_torque(
     """Return the torque of several cylinders over one cycle, N m, at crank angles in [0, period].
 
     Args:
-        cylinders: Each with the crank angle (rad) of its firing dead centre and its share, by which
-            its gas torque is multiplied.
-        period: After which all of it repeats itself, rad; None: after a cycle.
+        cylinders: Gas torque of each cylinder, crank angle (rad) of its firing dead centre, and the
+            factor of its torque (0 for a misfire).
+        period: Angle after which the sum repeats itself, rad; None: one cycle.
     """
     span = cylinders[0][0].curve.period if period is None else period
 

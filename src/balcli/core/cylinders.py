@@ -1,7 +1,7 @@
-"""Moving parts of an engine: its cylinders, one row each, and its balancing devices. SI units.
+"""Moving parts of an engine in SI units: its cylinders, one row each, and its balancing devices.
 
-Stroke and dead centres of every piston; those of articulated ones differ from the crank's throw
-and angle.
+`find_travel` computes stroke and dead centres of every piston. With an articulated rod, the stroke
+is not twice the crank radius, and dead centres are not at crank angles 0 and 180 degrees.
 """
 
 from __future__ import annotations
@@ -103,42 +103,41 @@ class Cylinders:
     def find_distinct_harmonics(
         self, orders: ArrayLike, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Return harmonics of the mechanisms that differ, and which of them each cylinder has.
+        """Return the harmonics of all different mechanisms, and the row of each cylinder in them.
 
         Args:
-            orders: whole, shape (orders,).
-            wanted: names of series (`closed_form.SERIES`).
+            orders: Whole orders, shape (orders,).
+            wanted: Names of series (`closed_form.SERIES`).
         """
         kind = self.linkage or harmonics
         return kind.find_distinct_harmonics(orders, self.lam, self.eps, wanted)
 
     def find_highest_order(self) -> int:
-        """Return the order beyond which no moving part exceeds rounding errors."""
+        """Return the order beyond which the harmonics of all mechanisms are below rounding."""
         return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
 
     def count_all_samples(self) -> tuple[int, int]:
-        """Return how many mechanisms differ, and about how many samples of a revolution they take
-        together where they are sampled.
+        """Return the number of different mechanisms, and about how many samples of a revolution
+        they need together (if they are sampled).
         """
         return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
 
 
 class DeviceKind(IntEnum):
-    """Kind of a device. Devices are summed in this order, as in an engine file."""
+    """Kind of a device. Devices are summed in the order of the kinds."""
 
     COUNTERWEIGHT = 0
     SHAFT = 1
     SLIDER = 2
-    OTHER = 3  # which no engine file can describe
+    OTHER = 3  # a device that no engine file can describe
 
 
 class Device(NamedTuple):
-    """Counterweight, balancer shaft or slider: mass x radius that turns at an order of the crank.
-
-    Figures are numbers, or arrays of variants.
+    """Counterweight, balancer shaft or slider: mass x radius that turns at a multiple of the crank
+    speed. Values are numbers, or arrays of variants.
 
     Attributes:
-        order: Turns for each turn of the crank.
+        order: Turns per turn of the crank.
         forward, backward: Mass x radius that turns with the crank, and against it, kg m.
         place: Position x + iy of its axis, m.
         z: Position along the crank, m.
@@ -159,11 +158,11 @@ _STEPS = 720
 
 
 class Travel(NamedTuple):
-    """One value a cylinder, shape (cylinders, *trailing)."""
+    """Stroke and dead centres of each cylinder, each of shape (cylinders, *trailing)."""
 
     stroke: Array  # m
-    top_deg: Array  # each cylinder's own crank angle (0: pin along the axis) at top dead centre
-    bottom_deg: Array  # the same at the lower dead centre, less 180
+    top_deg: Array  # crank angle at the upper dead centre, 0: pin along the cylinder's axis
+    bottom_deg: Array  # crank angle at the lower dead centre, less 180
 
 
 def find_travel(c: Cylinders) -> Travel:
@@ -194,7 +193,7 @@ def find_travel(c: Cylinders) -> Travel:
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:
-    """Return zeros, by Newton's method, of the pistons' velocity near these angles (rad)."""
+    """Return the zeros of the pistons' velocities near these angles (rad), by Newton's method."""
     for _ in range(6):
         motion = linkage.motion(psi[..., None], c.lam, c.eps)
         psi = psi - (motion.velocity / motion.acceleration)[..., 0]

@@ -1,5 +1,5 @@
-"""Peaks of functions of one number, where one call for many places costs little more than one for a
-few; and where such a function is least.
+"""Maxima and minima of functions of one variable. The search for maxima suits functions for which
+one call with many places costs little more than a call with few.
 """
 
 from __future__ import annotations
@@ -12,24 +12,26 @@ import numpy as np
 
 from .vibration import Indices, Real
 
-_PARTS = 8  # of an interval, before the two beside each peak are the next interval
+_PARTS = 8  # of an interval; the two parts next to a peak are the next interval
 _ROUNDS = 4
 
 
 def find_highest(
     judge: Callable[[Real, Indices], Real], places: Real, heights: Real, level: Real, near: float
 ) -> tuple[Real, Real]:
-    """Return place and height of each function's maximum, also between places, (functions,).
+    """Return place and height of the maximum of each function, shape (functions,), between the
+    given places as well.
 
-    Every interval between neighbouring places that may contain the maximum is searched: its higher
-    end is near the level, and no farther below it than the function changes nearby.
+    An interval between neighbouring places is searched if it may contain the maximum: its higher
+    end is at least `near * level`, and no farther below the level than the function changes from
+    place to place there.
 
     Args:
-        judge: as of `find_peaks_between`.
-        places: (places,), rising.
-        heights: (places, functions) there.
-        level: (functions,), above which alone a height matters.
-        near: share of the level that a peak may exceed its neighbouring places by.
+        judge: The functions, as in `find_peaks_between`.
+        places: Rising places, shape (places,).
+        heights: Values of the functions there, shape (places, functions).
+        level: Lowest height that matters, shape (functions,).
+        near: Share of the level that the higher end of a searched interval must reach.
     """
     best, highest = places[heights.argmax(axis=0)], heights.max(axis=0)
     ends = np.maximum(heights[1:], heights[:-1])
@@ -46,19 +48,19 @@ def find_highest(
 def find_peaks_between(
     judge: Callable[[Real, Indices], Real], low: Real, high: Real, which: Indices
 ) -> tuple[Real, Real]:
-    """Return places and heights (intervals,) of a peak in each of several intervals, in which
-    several functions are searched. The highest of each function is good to 1e-8 where it is
-    round and its interval no wider than the peak; intervals that do not have it are given up.
+    """Return place and height of a peak of a function in each of several intervals, shape
+    (intervals,). The highest peak of each function is accurate to 1e-8 if it is smooth and its
+    interval no wider than the peak. The search ends early in intervals that do not contain it.
 
-    Every peak that shows at an eighth of its interval and may be the highest is enclosed ever
-    closer; the last place is the vertex of a parabola. A narrower peak between two of these places
-    is missed.
+    Each interval is cut into eighths. Every peak among these places that may be the highest is
+    enclosed in a smaller interval, which is cut again; the last place is the vertex of a parabola.
+    A peak that is narrower than an eighth may be missed.
 
     Args:
-        judge: Function of places (places, some), each column in an interval, and of the numbers of
-            their functions (some,), to the values there.
+        judge: Returns the values of some functions. Its arguments are places, shape (places, some),
+            and the index of the function of each column, shape (some,).
         low, high: Ends of the intervals, shape (intervals,).
-        which: Number of the function of each interval, shape (intervals,).
+        which: Index of the function of each interval, shape (intervals,).
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
     best, highest = low.copy(), np.full(len(low), -np.inf)
@@ -75,7 +77,7 @@ def find_peaks_between(
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
-        may = 2 * here - around.min(axis=0) >= of_function[which[going]]  # rise as it fell
+        may = 2 * here - around.min(axis=0) >= of_function[which[going]]  # it may rise as it fell
         going, place, step, top = (each[may] for each in (going, place, step, top))
         low, high, around = place - step, place + step, around[:, may]
     before, middle, after = around
@@ -88,27 +90,29 @@ def find_peaks_between(
 
 
 def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real) -> None:
-    """Put the places and heights of some intervals, a few of each, into best and highest
-    (intervals,) where they are higher.
+    """Raise `best` and `highest`, shape (intervals,), to the places and heights in the intervals
+    `going` that are higher. An interval may occur several times.
     """
-    rising = np.argsort(height, kind="stable")  # the highest last, on every processor
+    rising = np.argsort(height, kind="stable")  # the highest is written last
     higher = rising[height[rising] > highest[going[rising]]]
     best[going[higher]], highest[going[higher]] = place[higher], height[higher]
 
 
 Judged = TypeVar("Judged", float, tuple[float, float])
-ROUNDS = 20  # to 1e-4 of the distance between two neighbours
+ROUNDS = 20  # of golden section: they narrow an interval to 1e-4 of its width
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 def find_least(
     judge: Callable[[float], Judged], low: float, high: float, rounds: int = ROUNDS
 ) -> float:
-    """Return where a function with one valley between two places is least, by golden section.
+    """Return the place of the minimum of a function with one valley between two places, by golden
+    section.
 
     Args:
-        judge: its value at a place; a tuple is judged by its first part, then by the next.
-        rounds: each leaves 0.618 of the distance.
+        judge: The function; tuples are compared by their first value, then by the next.
+        low, high: The two places.
+        rounds: Steps, each of which narrows the interval to 0.618 of its width.
     """
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_left, at_right = judge(left), judge(right)

@@ -1,19 +1,20 @@
-"""Computed cycles: Otto, Diesel, dual (limited pressure), Wiebe.
+"""Cylinder pressure of computed cycles: Otto, Diesel, dual (limited pressure), Wiebe.
 
-Four-stroke: expansion from the firing dead centre to `exhaust_opens`, the exhaust pressure to the
-gas-exchange dead centre, the intake pressure to `intake_closes`, compression `p V^nc`, and the
-burn. Two-stroke: expansion, from `exhaust_opens` the intake (scavenge) pressure until the piston
-stands there again on its way up, compression.
+A four-stroke cycle has five parts: expansion from the firing dead centre to `exhaust_opens`,
+exhaust pressure to the gas-exchange dead centre, intake pressure to `intake_closes`, compression `p
+V^nc`, and the burn. In a two-stroke cycle, the intake (scavenge) pressure lasts from
+`exhaust_opens` until the rising piston passes the same position.
 
-Heat Q acts by `d(p V^n) = (n - 1) V^(n-1) dQ`, n the index of expansion. So `p V^n` after the burn
-follows from the heat alone, and the pressure under way is a quadrature: nothing is stepped in time.
-The one unknown of a cycle is its heat. Burn and expansion together do the work `X Q - [p V]/(n -
-1)`, the released heat less what the gas gains; with the polytrope of compression and constant
-pressures while the valves are open, imep is known in closed form.
+Heat Q raises the pressure by `d(p V^n) = (n - 1) V^(n-1) dQ`, n being the index of expansion. So `p
+V^n` after the burn follows directly from the heat, and the pressure during the burn is an integral:
+no time steps are needed. The one unknown of a cycle is its heat. Burn and expansion together do the
+work `X Q - [p V]/(n - 1)`: the released heat (share X) less the energy that the gas gains.
+Compression is a polytrope, and pressures are constant while the valves are open, so imep has a
+closed form.
 
 Sources: the ideal cycles are those of every textbook (Heywood, Internal Combustion Engine
-Fundamentals, 1988, 5.4); Wiebe's law is `x = 1 - exp(-6.908 xi^(m+1))` (1956), by which 99.9 % of
-the heat are released within the duration.
+Fundamentals, 1988, 5.4); Wiebe's law is `x = 1 - exp(-6.908 xi^(m+1))` (1956): 99.9 % of the heat
+is released within the duration, xi being the elapsed share of it.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from .piecewise import Function, PiecewiseCurve, find_zero, join, resolved
 
 _BURNT = 6.908  # -ln 0.001
 
-# What each kind of cycle can be asked to have.
+# Figures that each kind of cycle can be made to reach.
 GOALS = {
     "otto": ("imep", "heat", "max_pressure"),
     "diesel": ("imep", "heat", "cut_off"),
@@ -45,12 +46,13 @@ class Process:
     """Figures of a cycle without its heat: absolute pressures in Pa, cycle angles in deg.
 
     Attributes:
-        cycle: How it burns: "otto", all heat at the dead centre; "diesel", at the constant pressure
+        cycle: Law of the burn: "otto", all at the dead centre; "diesel", at the constant pressure
             that compression reaches; "dual", at the dead centre up to `max_pressure`, then at that
             pressure; "wiebe", by Wiebe's law.
-        exhaust_opens, intake_closes: None: at the lower dead centre. In a two-stroke cycle the
-            ports close where the exhaust opened.
-        burn_start, burn_duration, burn_shape: Of Wiebe's law; the shape is its exponent m >= 0.
+        exhaust_opens, intake_closes: Angles of the valves; None: the lower dead centre. In a
+            two-stroke cycle the ports close at the piston position at which they opened.
+        burn_start, burn_duration, burn_shape: Parameters of Wiebe's law; the shape is its exponent
+            m >= 0.
         max_pressure: Pressure of a dual cycle.
     """
 
@@ -70,8 +72,8 @@ class Process:
 
 
 class Goal(NamedTuple):
-    """Figure that a cycle must reach: `imep` or `max_pressure` in Pa, `heat` supplied a cycle in J,
-    or `cut_off`, the ratio of the volumes at the end and at the start of constant pressure.
+    """Figure that a cycle must reach: `imep` or `max_pressure` (Pa), `heat` supplied per cycle (J),
+    or `cut_off`, the volume at the end of constant pressure over that at its start.
     """
 
     name: Literal["imep", "heat", "max_pressure", "cut_off"]
@@ -139,8 +141,8 @@ def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
 
 
 def _find_valves(piston: GasPiston, process: Process) -> tuple[float, float]:
-    """Return the cycle angles (rad) at which the exhaust opens, and at which, before the firing
-    dead centre, compression begins.
+    """Return the cycle angles (rad) at which the exhaust opens and at which compression begins; the
+    latter is negative, before the firing dead centre.
     """
     opens_deg, closes_deg = process.exhaust_opens, process.intake_closes
     opens = piston.bottom if opens_deg is None else math.radians(opens_deg)
@@ -165,7 +167,7 @@ class _Cycle:
         self.closed, self.charge, self.opened = self.find_volume(places).tolist()
         self.pressure = p.intake * (self.closed / self.charge) ** p.compression_index
         self.constant = self.pressure * self.charge**self.index  # p V^n of the charge
-        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat, J; share of it
+        self.least, self.most, self.released = 0.0, math.inf, 1.0  # heat, J, and released share
         self.grown = self.charge ** (self.index - 1)  # integral of V^(n-1) dx
         self.limit = self.pressure if p.cycle == "diesel" else None
         if p.cycle == "dual":
@@ -173,7 +175,7 @@ class _Cycle:
             self._refuse_beyond("max_pressure", self.limit, self.pressure, math.inf)
         if self.limit is not None:
             self.least = (self.limit - self.pressure) * self.charge / (self.index - 1)
-            self.share = self.index / (self.index - 1) * self.limit  # J that widen it by 1 m3
+            self.share = self.index / (self.index - 1) * self.limit  # J per added m3
             self.most = self.least + self.share * (self.opened - self.charge)
         if p.cycle == "wiebe":
             self.end = self.start + math.radians(p.burn_duration)
@@ -193,7 +195,9 @@ class _Cycle:
         return self.constant + (self.index - 1) * self.grown * heat
 
     def list_burning(self, heat: float) -> list[tuple[float, Function]]:
-        """Return the laws of pressure from the charge to the end of the burn, as `list_laws`."""
+        """Return the pressure laws from the start to the end of the burn, in the form of
+        `list_laws`.
+        """
         if self.limit is not None:
             travel = (self._find_last(heat) - self.charge) / self.piston.area
             return [(self.piston.angle_of(travel), _hold(self.limit))]
@@ -220,8 +224,9 @@ class _Cycle:
         return (self.index - 1) * self._find_burnt(angle) * power * rate
 
     def _grow(self, angle: Array) -> Array:
-        """Return the integral of V^(n-1) dx from the start on. By parts it is `x V^(n-1) - (n-1)
-        integral of x V^(n-2) dV`: x is smoother than its rate, whatever the exponent.
+        """Return the integral of V^(n-1) dx from the start of the burn, x being the burnt share. It
+        is integrated by parts, `x V^(n-1) - (n-1) integral of x V^(n-2) dV`, because x is always
+        smoother than its derivative.
         """
         at = np.clip(angle, self.start, self.end)
         power = self.find_volume(at) ** (self.index - 1)
@@ -229,8 +234,8 @@ class _Cycle:
 
     # ------------------------------------------------------------ the whole cycle
     def list_laws(self, heat: float) -> list[tuple[float, Function]]:
-        """Return the laws of pressure (Pa at cycle angles, rad) from the begin of compression on,
-        each with the angle where it ends; some may have no length.
+        """Return the pressure laws (Pa over cycle angles in rad) from the start of compression on,
+        each after the angle at which it ends. Some may have length 0.
         """
         p, period = self.process, self.process.strokes * math.pi
         closed = p.intake * self.closed**p.compression_index
@@ -259,11 +264,11 @@ class _Cycle:
         return work / self.piston.swept
 
     def find_goal(self, name: str, heat: float) -> float:
-        """Return the figure that a goal names, for the cycle with this heat.
+        """Return the value that the cycle with this heat has for a goal.
 
         Args:
-            name: `heat` (J), `imep`, `max_pressure` (Pa) or `cut_off`.
-            heat: Heat supplied a cycle, J.
+            name: Name of the goal: `heat` (J), `imep`, `max_pressure` (Pa) or `cut_off`.
+            heat: Heat supplied per cycle, J.
         """
         if name == "heat":
             return heat
@@ -285,7 +290,7 @@ class _Cycle:
             highest = self.find_goal(name, self.most)
         guess = min(self.constant * self.charge ** (1 - self.index), self.most - self.least)
         if name == "imep" and self.find_imep(self.least + guess) <= lowest:
-            highest = lowest  # where all heat goes into expansion
+            highest = lowest  # all heat goes into expansion
         self._refuse_beyond(name, value, lowest, highest)
         if value in (lowest, highest):
             return self.least if value == lowest else self.most
@@ -294,7 +299,7 @@ class _Cycle:
         )
 
     def _refuse_beyond(self, name: str, value: float, lowest: float, highest: float) -> None:
-        """Raise GasError if a value is not between the least and the most that the cycle has."""
+        """Raise GasError if a value is outside the range that the cycle can reach."""
         size, unit = (1e5, " bar") if name in ("imep", "max_pressure") else (1.0, "")
         told = f"is {value / size:g}{unit}: this cycle has"
         if value < lowest:

@@ -1,19 +1,19 @@
-"""Complex unknowns in convex regions: least squares, and the smallest largest residual.
+"""Fit unknowns to readings: by least squares (`solve`), or within convex regions of the complex
+plane by least squares or by the smallest largest residual (`minimise`).
 
-Least squares within regions: `x = P(x - slope / L)` holds at the optimum and nowhere else, P being
-the projection on the regions. Newton's method solves this equation; where its step is worse than
-the projected gradient, that is taken.
+`solve` uses singular values (Golub and Van Loan, Matrix Computations, 4th ed., 5.5). Where the
+unknowns are not determined, it returns the smallest solution. The solution is refined on its own
+residual, so that whatever can cancel does so to rounding.
 
-The largest residual by Lawson's iteration (Lawson, Contributions to the theory of linear least
-maximum approximation, thesis, UCLA 1961): least squares with the shares g as weights, every share
-then multiplied by its residual. For any shares with sum 1 the least `sum g |r|^2` is a lower bound
-of the largest `|r|^2`, so every round proves how near the optimum it is.
+Least squares within regions: `x = P(x - slope / L)` holds only at the optimum; P is the projection
+on the regions, L the steepest curvature. Newton's method solves this equation. If its step is worse
+than the projected gradient step, the latter is used.
 
-Weighted linear least squares of a few unknowns, real or complex, to a few roundings.
-
-By singular values (Golub and Van Loan, Matrix Computations, 4th ed., 5.5): where the unknowns are
-not determined, the smallest of all solutions is taken. The solution is then refined on its own
-residual, so that what can be cancelled is cancelled to rounding.
+The largest residual is minimised by Lawson's iteration (Lawson, Contributions to the theory of
+linear least maximum approximation, thesis, UCLA 1961): solve least squares with the shares g as
+weights, then multiply every share by its residual, and repeat. For any shares with sum 1, the least
+`sum g |r|^2` is a lower bound of the largest `|r|^2`, so every round bounds its distance from the
+optimum.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from .phasors import Array, Complex
 Number = TypeVar("Number", np.float64, np.complex128)
 
 _LOST = 1e-14  # singular values below this share of the largest are rounding errors
-_DEPENDENT = 1e-12  # the same of columns of size 1: what they cannot tell apart
+_DEPENDENT = 1e-12  # such a share for columns of size 1: smaller ones mean dependent columns
 _REFINEMENTS = 2
 _TAKES_PART = 1e-6  # a smaller share of a column in a combination is a rounding error
 
@@ -38,12 +38,13 @@ class Solution(NamedTuple, Generic[Number]):
     """The unknowns that fit the readings best.
 
     Attributes:
-        x: shape (unknowns,).
+        x: The unknowns, shape (unknowns,).
         residual: `target - matrix @ x`, shape (readings,).
-        left: norm of the weighted residual over that of the weighted target (0 if both are 0).
-        condition: largest over smallest singular value of the weighted matrix; infinite where
-            the smallest is a rounding error.
-        rank: of the weighted matrix; if less than the number of unknowns, other x fit as well.
+        left: Norm of the weighted residual over that of the weighted target (0 if both are 0).
+        condition: Largest over smallest singular value of the weighted matrix; infinite if the
+            smallest is a rounding error.
+        rank: Rank of the weighted matrix; if it is below the number of unknowns, other x fit
+            equally well.
     """
 
     x: NDArray[Number]
@@ -62,14 +63,16 @@ def solve(
     """Return the smallest x for which `matrix @ x` is nearest to the target.
 
     Args:
-        matrix: what one unit of each unknown does to each reading, shape (readings, unknowns).
-            Units should make columns similar in size: one of 1e-14 of another counts as zeros.
-        target: shape (readings,).
-        weights: factors of the rows, shape (readings,): the sum of `|weight * residual|^2` becomes
-            least. All 1 if not given.
+        matrix: Effect of one unit of each unknown on each reading, shape (readings, unknowns).
+            Choose units that make columns similar in size: a column of 1e-14 of another counts as
+            zeros.
+        target: Readings to fit, shape (readings,).
+        weights: Weights of the readings, shape (readings,); None: 1. The sum of `|weight *
+            residual|^2` is minimised.
         lost: Singular values below this share of the largest count as zeros.
 
-    Raises numpy's LinAlgError for figures that are not finite.
+    Raises:
+        LinAlgError: A value is not finite.
     """
     scale = np.ones(len(target)) if weights is None else weights
     u, s, vh = np.linalg.svd(scale[:, None] * matrix, full_matrices=False)
@@ -86,29 +89,29 @@ def solve(
 
 
 def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
-    """Return the unknowns that the readings cannot tell apart: columns that are combinations of
-    others.
+    """Return the indices of unknowns that the readings cannot tell apart: their columns are
+    combinations of other columns.
 
-    Columns count by their direction, whatever their size. A column of zeros is found as well. Empty
-    where every unknown is determined.
+    Only the directions of columns matter, not their sizes. A column of zeros is returned as well.
+    The list is empty if every unknown is determined.
 
     Args:
-        matrix: shape (readings, unknowns).
+        matrix: Effect of each unknown on each reading, shape (readings, unknowns).
     """
     sizes = np.linalg.norm(matrix, axis=0)
     directions = matrix / np.where(sizes > 0, sizes, 1.0)
     _, s, vh = np.linalg.svd(directions)
     rank = np.count_nonzero(s > _DEPENDENT * s[0])
-    combinations = np.abs(vh[rank:])  # of columns, each of which gives nothing
+    combinations = np.abs(vh[rank:])  # combinations of columns that are 0
     taking_part = np.any(combinations > _TAKES_PART, axis=0)
     return [int(k) for k in np.flatnonzero(taking_part)]
 
 
 _ROUNDS = 1000  # of Lawson's iteration
-_GAP = 1e-8  # share of the largest residual by which the bound may be less
-_REVIVED = 1e-9  # share of the largest residual that a reading counts for even if its own is 0
+_GAP = 1e-8  # the iteration ends when the bound is within this share of the largest residual
+_REVIVED = 1e-9  # share of the largest residual that keeps a reading with residual 0 in play
 _STEPS = 500  # of Newton's method or the projected gradient; 5 are usual
-_SETTLED = 1e-15  # share of the size of x
+_SETTLED = 1e-15  # a step below this share of x ends the iteration
 _VANISHES = 1e-13  # share of the target below which a residual is rounding
 _NO_POINTS = np.zeros(0, dtype=complex)
 
@@ -117,11 +120,11 @@ class Region(NamedTuple):
     """A convex region of the complex plane: a disc, or a polygon or wedge with edges around it.
 
     Attributes:
-        centre, radius: of the disc; without edges the region is a disc.
-        starts: where every edge starts.
-        ways: directions of the edges (size 1); the region lies to their left.
-        lengths: lengths of the edges; infinite, or minus infinity for an edge that comes from there
-            and ends at its start.
+        centre, radius: Centre and radius of the disc; a region without edges is a disc.
+        starts: Start of every edge.
+        ways: Directions of the edges (size 1); the region lies on their left.
+        lengths: Lengths of the edges. Plus infinity: the edge has no end; minus infinity: it comes
+            from infinity and ends at its start.
     """
 
     centre: complex = 0j
@@ -131,7 +134,7 @@ class Region(NamedTuple):
     lengths: Array = np.zeros(0)
 
     def find_depth(self, x: complex) -> float:
-        """Return how far a point of the region is from its edge; negative outside."""
+        """Return the distance of a point from the edge of the region; negative outside."""
         if len(self.starts):
             return float((np.conj(self.ways) * (x - self.starts)).imag.min())
         return float(self.radius - abs(x - self.centre))
@@ -156,9 +159,9 @@ class Smallest(NamedTuple):
     """Unknowns that make residuals small.
 
     Attributes:
-        x: shape (unknowns,).
+        x: The unknowns, shape (unknowns,).
         residual: `target - matrix @ x`, without weights, shape (readings,).
-        bound: no x within the regions has a smaller largest weighted residual than this; None for
+        bound: Lower bound of the largest weighted residual for all x within the regions; None for
             least squares.
     """
 
@@ -175,21 +178,22 @@ def minimise(
     *,
     largest: bool = False,
 ) -> Smallest:
-    """Find the x within the regions with the smallest `weight * |target - matrix @ x|`.
+    """Return the x within the regions that makes `weight * |target - matrix @ x|` smallest.
 
     Args:
-        matrix: shape (readings, unknowns), its columns independent.
-        target: shape (readings,).
-        weights: positive factors of the readings, shape (readings,).
-        regions: one for every unknown; none: anywhere.
-        largest: make the largest small; otherwise the sum of squares.
+        matrix: Effect of each unknown on each reading, shape (readings, unknowns); its columns are
+            independent.
+        target: Readings to fit, shape (readings,).
+        weights: Positive weights of the readings, shape (readings,).
+        regions: Region of every unknown; empty: unknowns may lie anywhere.
+        largest: Whether to minimise the largest weighted residual, not the sum of squares.
     """
     columns, goal = weights[:, None] * matrix, weights * target
     sizes = np.linalg.norm(columns, axis=0)
     shares = np.full(len(goal), 1 / len(goal))
     x = best = np.zeros_like(matrix[0])
     bound, least = 0.0, np.inf
-    for _ in range(_ROUNDS if largest else 1):  # the first with equal shares: least squares
+    for _ in range(_ROUNDS if largest else 1):  # the first round has equal shares: least squares
         root = np.sqrt(shares)
         weighted = root[:, None] * columns / sizes
         x, settled = _solve_within(weighted, root * goal, sizes, regions, x)
@@ -211,8 +215,8 @@ def minimise(
 def _solve_within(
     matrix: Complex, target: Complex, sizes: Array, regions: Sequence[Region], x: Complex
 ) -> tuple[Complex, bool]:
-    """Return the least squares solution with `x / sizes` in the regions, found from x, and whether
-    it is exact.
+    """Return the least squares solution with `x / sizes` in the regions, and whether the iteration
+    from x has converged.
     """
     free = solve(matrix, target).x
     if (_project(regions, sizes, free)[0] == free).all():
@@ -235,7 +239,9 @@ def _solve_within(
 
 
 def _project(regions: Sequence[Region], sizes: Array, y: Complex) -> tuple[Complex, Array]:
-    """Return the nearest y with `y / sizes` in the regions, and its derivative in real numbers."""
+    """Return the point nearest to y with `point / sizes` in the regions, and its derivative by y (a
+    real matrix).
+    """
     points, change = y.copy(), np.eye(2 * len(y))
     for k, region in enumerate(regions):
         inner = y[k] / sizes[k]
@@ -245,6 +251,6 @@ def _project(regions: Sequence[Region], sizes: Array, y: Complex) -> tuple[Compl
 
 
 def _project_on(direction: complex) -> Array:
-    """Return the projection on a line through 0, in real numbers."""
+    """Return the real (2, 2) matrix of the projection on a line through 0."""
     parts = np.array([direction.real, direction.imag])
     return np.outer(parts, parts)

@@ -1,8 +1,9 @@
-"""Cylinders and balancing devices -> free forces and moments by order, at a steady crank speed.
+"""Free forces and moments of cylinders and balancing devices, order by order, at a steady crank
+speed.
 
-What one cylinder does in its own frame is a few functions of masses and harmonics; `Phases` turn
-and sum it; `Loads` adds the devices. Arrays: order first, cylinder next, then any trailing axes.
-SI units.
+A few functions of masses and harmonics give the loads of one cylinder in its own frame; `Phases`
+turn and sum them over the cylinders; `Loads` adds the devices. The formulas are derived in
+docs/theory.md. Arrays have the orders first, cylinders next, then any trailing axes. SI units.
 """
 
 from __future__ import annotations
@@ -22,14 +23,15 @@ from .phasors import Array, Complex, Figure, Phasors, put_together
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """Free forces and moments at a steady crank speed, each computed when it is asked for.
+    """Free forces and moments at a steady crank speed, each computed when it is first used.
 
     Attributes:
-        cylinders, devices: what moves.
+        cylinders, devices: Moving parts.
         place, z: x + iy and z of the point of reference, m.
-        phases: of the cylinders for the orders wanted; `SeparatePhases` leave them unsummed.
-        harmonics: of the cylinders' mechanisms for these orders.
-        square: of the crank speed, rad2/s2.
+        phases: Phases of the cylinders for the wanted orders. `SeparatePhases` give the loads of
+            each cylinder instead of their sums.
+        harmonics: Harmonics of the cylinders' mechanisms for these orders.
+        square: Square of the crank speed, rad2/s2.
     """
 
     cylinders: Cylinders
@@ -47,7 +49,7 @@ class Loads:
 
     @property
     def moment(self) -> Phasors:
-        """N m as `M_x + i M_y = i sum (z - z_ref) F`."""
+        """Free moment by order, N m, as `M_x + i M_y = i sum (z - z_ref) F`."""
         z = self.cylinders.z
         total = self.phases.add_vectors(self._pulls, z - self.z, np.abs(z) + abs(self.z))
         for device, force in zip(self.devices, self._of_devices, strict=True):
@@ -56,8 +58,9 @@ class Loads:
 
     @property
     def couple(self) -> Phasors:
-        """Free transverse couple about z, N m: `H (-beta'')` of each rod, that of each piston's
-        force on its offset, `-m_rec e (-s'')`, that of a linkage's masses, and the forces' arms.
+        """Free transverse couple about z, N m. It is the sum of `H (-beta'')` of each rod and of
+        each piston's force times its offset, `-m_rec e (-s'')`. The couples of a linkage's masses
+        are added, and the moments of forces that act away from the point of reference.
         """
         c, harmonics, square, series = self.cylinders, self.harmonics, self.square, []
         if np.count_nonzero(c.couple):
@@ -77,14 +80,14 @@ class Loads:
 
     @property
     def torque(self) -> Phasors:
-        """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the square of the speed."""
+        """Inertia torque on the crank, N m: `-1/2 dI/dtheta` times the squared speed."""
         inertia, n = self._inertia, self.phases.n
         rate: Complex = np.asarray(-0.5j * n, np.complex128)
         return self.phases.add_scalars(Series(rate * inertia.c, 0.5 * n * inertia.noise))
 
     @property
     def mean_inertia(self) -> Array:
-        """Mean over a revolution of I (needs order 0) times the square of the speed, N m."""
+        """Mean of I over a revolution times the squared speed, N m; needs order 0."""
         c = self.cylinders
         changing = self._inertia.c[self.phases.orders == 0].real[0]
         mean = changing + c.rotating * c.radius**2 * self.square
@@ -92,22 +95,22 @@ class Loads:
 
     @property
     def mean_momentum(self) -> Array:
-        """Mean moment of momentum of the cylinders about z (needs order 0) times the speed, N m:
-        that of rotating masses and rods, and of masses on curves.
+        """Mean moment of momentum of the cylinders about z times the speed, N m; needs order 0. It
+        includes rotating masses, rods of rotary engines, and the masses of a linkage.
         """
         c = self.cylinders
         mean = c.rotating * c.radius**2 * self.square
         if c.linkage is not None:
-            mean = mean - c.linkage.turning * c.couple * self.square  # rods of turning cylinders
+            mean = mean - c.linkage.turning * c.couple * self.square  # rods of a rotary engine
             on_curves = c.linkage.mass * c.radius**2 * self.square
             mean = mean + on_curves * self.harmonics["swirl"].c[0].real
         return self.phases.add_figures(mean[None])[0]
 
     @cached_property
     def _pulls(self) -> Series:
-        """Force of each cylinder in its own frame, N, as `Phases.add_vectors` takes it: `m_rec
-        r (-s'') + m_rot r e^{i psi}` times the square of the speed, and that of a linkage's masses
-        on their curves.
+        """Force of each cylinder in its own frame, N, in the form that `Phases.add_vectors` needs:
+        `m_rec r (-s'') + m_rot r e^{i psi}` times the squared speed, plus the force of a linkage's
+        masses.
         """
         c, phases, square = self.cylinders, self.phases, self.square
         along = Series(np.zeros_like(phases.n))
@@ -139,8 +142,9 @@ def find_device_force(device: Device, n: Array, square: Figure) -> Phasors:
     """Return the force of a device, N.
 
     Args:
-        n: orders as a column, shape (orders, *1).
-        square: of the crank speed, rad2/s2.
+        device: Counterweight, shaft or slider.
+        n: Orders as a column, shape (orders, *1).
+        square: Square of the crank speed, rad2/s2.
     """
     size = (n == device.order) * (device.order**2 * square)
     forward, backward = size * device.forward, size * device.backward
@@ -158,12 +162,12 @@ _SERIES = {
 
 
 def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bool) -> set[str]:
-    """Return the names of the series of mechanisms (`closed_form.SERIES`) that these loads of the
-    cylinders are made of.
+    """Return the names of the series of mechanisms (`closed_form.SERIES`) that these loads need.
 
     Args:
-        parts: force, moment, couple or torque.
-        uneven: whether the mean moment of momentum is asked for.
+        cylinders: Cylinders of the engine.
+        parts: Names of loads: force, moment, couple or torque.
+        uneven: Whether the crank speed is uneven, which needs the mean moment of momentum.
     """
     c = cylinders
     needed: set[str] = set().union(*(_SERIES[name] for name in parts))
@@ -175,13 +179,13 @@ def find_needed_series(cylinders: Cylinders, parts: Iterable[str], *, uneven: bo
 
 
 def _has_pistons(c: Cylinders) -> bool:
-    """Whether masses move along cylinders' axes, and not all of them on curves."""
+    """Return whether masses move along cylinder axes; those of a linkage move on other curves."""
     return c.linkage is None or bool(np.count_nonzero(c.reciprocating))
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
-    """Return the varying part of each cylinder's moment of inertia about the crank times the square
-    of the speed, N m: `m_rec s'^2 - H beta'^2`, and that of a linkage's masses.
+    """Return the part of each cylinder's moment of inertia about the crank that varies, times the
+    squared speed, N m: `m_rec s'^2 - H beta'^2`, plus the part of a linkage's masses.
 
     Args:
         cylinders: Cylinders of the engine.
@@ -201,13 +205,13 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 
 # ------------------------------------------------------------------ loads along a shaft
 def share_by_lever(places: Array, planes: Array) -> Array:
-    """Return the share of each load that each plane takes, shape (planes, loads): the two planes on
-    either side of it share it, loads beyond the outermost plane hang on the last two (with shares
-    below 0 and above 1); a single plane takes all of each.
+    """Return the share of each load that each plane carries, by the lever rule, shape (planes,
+    loads). The two planes next to a load share it. A load beyond the outermost plane is shared by
+    the last two, with shares below 0 and above 1. A single plane carries every load.
 
     Args:
-        places: of the loads, m, shape (loads,).
-        planes: m, shape (planes,), ascending, none twice.
+        places: Positions of the loads, m, shape (loads,).
+        planes: Positions of the planes, m, shape (planes,), ascending, all different.
     """
     if len(planes) == 1:
         return np.ones((1, len(places)))

@@ -4,9 +4,10 @@ A curve is `x(t) = Re sum over orders of c_n e^{i n t}`, t the crank angle in ra
 such curve for each of its components. Orders are multiples of 1/2, so that a cycle is 4 pi. Arrays
 have the orders first, then any axes of curves, then the components of vectors.
 
-A trigonometric polynomial of degree h that swings by R about its middle is above `R cos(h d)` at a
-distance d from its top (M. Riesz). With 16 samples for each period of the highest order, those next
-to the highest peak are among the highest, and Newton's method climbs the curve from there.
+A trigonometric polynomial of degree h that swings by R about its middle exceeds `R cos(h d)` at a
+distance d from its maximum (M. Riesz). With 16 samples per period of the highest order, the samples
+next to the highest peak are therefore among the highest samples. Newton's method climbs the curve
+from those.
 """
 
 from __future__ import annotations
@@ -21,12 +22,12 @@ from .vibration import Complex, Real
 
 _SMALLEST = 1e10 * float(np.finfo(float).tiny)  # below it, a division overflows
 _TURN = 2 * np.pi  # rad
-_SAMPLES = 16  # for each period of the highest order
+_SAMPLES = 16  # per period of the highest order
 _AT_ONCE = 1 << 19  # samples, or terms of curves, which bounds the memory
-_ROUNDS = 40  # Newton's method needs 3 or 4 where a peak is round, more where it is flat
-_SETTLED = 1e-16  # gain, as a share of the sum of all amplitudes, that ends the climb
-_SHORT = 1e-6  # share of the distance of two samples: within it a curve is a parabola
-_ZERO = 1e-12  # rad; an angle so near to a whole turn is 0
+_ROUNDS = 40  # of Newton's method: 3 or 4 suffice for a round peak, a flat one needs more
+_SETTLED = 1e-16  # the climb ends at a smaller gain, as a share of the sum of all amplitudes
+_SHORT = 1e-6  # share of the distance of two samples; within it, a curve is taken as a parabola
+_ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
 
@@ -34,9 +35,9 @@ class Peak(NamedTuple):
     """Largest absolute value of a curve over a revolution (over two if it has half orders).
 
     Attributes:
-        value: in the unit of the curve.
-        theta: first crank angle at which it is reached, rad.
-        every: angle after which the curve repeats its size, rad; 0: the size is constant.
+        value: Largest absolute value, in the unit of the curve.
+        theta: First crank angle at which it is reached, rad.
+        every: Angle after which the curve repeats its size, rad; 0: the size is constant.
     """
 
     value: float
@@ -45,8 +46,8 @@ class Peak(NamedTuple):
 
 
 class CyclePeak(NamedTuple):
-    """Largest values of curves over a cycle, and the first crank angles at which they are reached,
-    rad in [0, 4 pi); each of shape (*curves).
+    """Largest values of curves over a cycle, and the first crank angles (rad, in [0, 4 pi)) at
+    which they are reached, each of shape (*curves).
     """
 
     value: Real
@@ -61,18 +62,18 @@ class Swing(NamedTuple):
 
     @property
     def half(self) -> Real:
-        """Half of peak to peak, shape (*curves)."""
+        """Half the peak-to-peak value, shape (*curves)."""
         return (self.highest.value - self.lowest.value) / 2
 
 
 # ------------------------------------------------------------------ curves by their phasors
 def find_peak(curve: Phasors) -> Peak:
-    """Return the largest |F| over a revolution of phasors without trailing axes."""
+    """Return the largest |F| of phasors over a revolution; they must have no trailing axes."""
     if not np.any(curve.vectors):
         return Peak(0.0, 0.0)
     value, theta = find_longest(curve.orders, _list_components(curve))
-    # F is a sum of vectors that turn m times a revolution (m < 0: backward), and |F| depends on the
-    # differences of their turns.
+    # F is a sum of vectors that turn m times per revolution (m < 0: backward); |F| depends only on
+    # differences of their angles.
     ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
     halves = np.rint(2 * np.concatenate([ahead, -against])).astype(int)
     times = int(np.gcd.reduce(halves - halves[0]))
@@ -80,13 +81,14 @@ def find_peak(curve: Phasors) -> Peak:
 
 
 def find_largest(curves: Phasors) -> Array:
-    """Return the largest |F| over a cycle of phasors (orders, *trailing), shape (*trailing)."""
+    """Return the largest |F| over a cycle, shape (*trailing)."""
     return np.asarray(find_longest(curves.orders, _list_components(curves)).value, float)
 
 
 def find_near_peaks(curve: Phasors) -> Real:
-    """Return the angles (rad, ascending) of all tops of |F| within some 2 % of the highest over a
-    revolution, for phasors of whole orders without trailing axes; several may be the same top.
+    """Return the angles (rad, ascending) of all maxima of |F| over a revolution that are within
+    some 2 % of the highest. A maximum may occur twice. The phasors must have whole orders and no
+    trailing axes.
     """
     parts = _list_components(curve).T[None]
     scaled = parts / np.abs(parts).sum()
@@ -94,14 +96,16 @@ def find_near_peaks(curve: Phasors) -> Real:
 
 
 def _list_components(curves: Phasors) -> Complex:
-    """Return `Re(c e^{i n theta})` along x and y, shape (orders, *trailing, 2)."""
+    """Return the coefficients c of the components `Re(c e^{i n theta})` along x and y, shape
+    (orders, *trailing, 2).
+    """
     ahead, astern = curves.forward, np.conj(curves.backward)
     return np.stack([ahead + astern, -1j * (ahead - astern)], axis=-1)
 
 
 # ------------------------------------------------------------------ curves by their harmonics
 def find_swing(orders: ArrayLike, phasors: Complex) -> Swing:
-    """Return the highest and lowest values over the cycle.
+    """Return the highest and lowest values of curves over the cycle.
 
     Args:
         orders: Multiples of 1/2, shape (orders,).
@@ -144,14 +148,16 @@ def largest_of_ellipse(phasors: Complex) -> Real:
 
 
 def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real, Real]:
-    """Return the highest values, or lengths, and their first angles, shape (*curves)."""
+    """Return the highest values (or, `squared`, lengths) and their first angles, shape
+    (*curves).
+    """
     halves = 2 * np.asarray(orders, float)
     there = np.any(phasors != 0, axis=tuple(range(1, phasors.ndim)))
     there |= not np.any(there)
     harmonics = np.rint(halves).astype(np.int64)
     if np.any(harmonics != halves) or np.any(harmonics < 0) or len(set(halves)) < len(halves):
         raise ValueError("orders have to be different multiples of 1/2, none below 0")
-    common = max(int(np.gcd.reduce(harmonics[there])), 1)  # makes the cycle as short as can be
+    common = max(int(np.gcd.reduce(harmonics[there])), 1)  # shortens the cycle as far as possible
     harmonics = harmonics[there] // common
     shape, components = phasors.shape[1:-1], phasors.shape[-1]
     parts = phasors[there].reshape(len(harmonics), -1, components).transpose(1, 2, 0)
@@ -175,13 +181,15 @@ def _search(orders: ArrayLike, phasors: Complex, *, squared: bool) -> tuple[Real
 def _find_tops(
     harmonics: NDArray[np.int64], parts: Complex, squared: bool
 ) -> tuple[NDArray[np.intp], Real, Real, Real]:
-    """Return the tops that may be the highest of their curves: numbers of the curves, ascending,
-    values, and angles in [0, 2 pi), each of shape (tops,); and the values at 0, shape (curves,).
+    """Return the maxima that may be the highest of their curves, and the value of each curve at 0.
+    Maxima are given by the indices of their curves (ascending), values, and angles in [0, 2 pi),
+    each of shape (tops,); values at 0 have shape (curves,).
 
     Args:
-        harmonics: whole numbers, shape (orders,).
-        parts: phasors of which the sum of all sizes is 1, shape (curves, components, orders).
-        squared: whether the square of the length is wanted, or the value of the one component.
+        harmonics: Whole numbers, shape (orders,).
+        parts: Phasors of the components, scaled so that the sum of their sizes is 1 for each curve,
+            shape (curves, components, orders).
+        squared: Whether the squared length is wanted, not the value of a single component.
     """
     highest = int(harmonics.max(initial=1))
     spectrum = np.zeros((*parts.shape[:-1], highest + 1), complex)
@@ -195,7 +203,7 @@ def _find_tops(
     here[np.arange(len(parts)), samples.argmax(axis=1)] = True
     curve, at = np.nonzero(here)
     step = _TURN / samples.shape[1]
-    most = max(_AT_ONCE // parts[0].size, 1)  # tops at once
+    most = max(_AT_ONCE // parts[0].size, 1)  # maxima that are refined at once
     climbed = [
         _climb(harmonics, parts[curve[k : k + most]], squared, step * at[k : k + most], step)
         for k in range(0, len(curve), most)
@@ -208,8 +216,8 @@ def _find_tops(
 def _climb(
     harmonics: NDArray[np.int64], parts: Complex, squared: bool, start: Real, step: float
 ) -> tuple[Real, Real]:
-    """Return the values and angles of the tops next to these angles, one for each curve, by
-    Newton's method in steps of at most `step`; arguments as for `_find_tops`.
+    """Return values and angles of the maxima next to the angles `start`, by Newton's method in
+    steps of at most `step`. `parts` has a row for each angle; see `_find_tops` for the others.
     """
     value, angle, moving = np.empty(len(start)), start.copy(), np.arange(len(start))
     rates = np.vander(harmonics.astype(complex), 3, increasing=True)

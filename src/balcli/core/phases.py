@@ -1,4 +1,5 @@
-"""Where the cylinders' vectors point, order by order, and their sums: geometry alone.
+"""Phases of the cylinders' vectors, order by order, and sums over the cylinders. Only the geometry
+of the engine enters.
 
 Cylinder i of bank b has its pin at `pin_i` (degrees after cylinder 1's pin) and its axis at
 `axis_b`. A local harmonic `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force
@@ -7,11 +8,9 @@ along the axis gives
     forward_n  = 1/2 sum_b e^{i (axis_b - n (axis_b - axis_1))} S_b
     backward_n = 1/2 sum_b e^{i (axis_b + n (axis_b - axis_1))} conj(S_b)
 
-with `S_b` the sum over its cylinders of `c_i e^{i n pin_i}`. So each bank is summed once, and what
-variants have in common is not computed again. Arrays: order first, cylinder (or bank) next, then
-any trailing axes; an axis along which nothing varies has length 1.
-
-Speeds of rotation.
+where `S_b` is the sum of `c_i e^{i n pin_i}` over the bank's cylinders. So each bank is summed
+once, and terms that do not vary between variants are computed once. Arrays: order first, cylinder
+(or bank) next, then any trailing axes; an axis along which nothing varies has length 1.
 """
 
 from __future__ import annotations
@@ -28,8 +27,8 @@ from .mechanisms.harmonics import narrow
 from .phasors import EPS, Array, Complex, Phasors, unit
 
 TURN = 360  # deg
-SUM = 8 * EPS  # rounding error of a sum, per term and size of the terms
-ANGLE = np.pi * EPS  # of an angle in the file (half an ulp of 360 deg), which order n multiplies
+SUM = 8 * EPS  # rounding error of a sum, per term, relative to the terms
+ANGLE = np.pi * EPS  # rounding of an angle in the file (half an ulp of 360 deg); times n
 _ALL = slice(None)
 
 
@@ -37,10 +36,11 @@ class Phases:
     """The phases of an engine's cylinders for some orders, and sums over the cylinders.
 
     Attributes:
-        orders: shape (orders,).
-        n: the orders as a column before cylinders and trailing axes.
-        count: number of cylinders.
-        rounding: bound of the error of a sum over cylinders relative to its terms, shape as `n`.
+        orders: The orders, shape (orders,).
+        n: The orders as a column, shape (orders, 1, *1), to broadcast with cylinders.
+        count: Number of cylinders.
+        rounding: Bound of the error of a sum over cylinders, relative to its terms, in the shape of
+            `n`.
     """
 
     def __init__(self, cylinders: Cylinders, orders: Array) -> None:
@@ -58,8 +58,8 @@ class Phases:
             self._part_variants(pin)
 
     def _part_variants(self, pin: Array) -> None:
-        """Phases of pins that vary apart from those that do not: a sweep of one throw leaves the
-        others where they are. Those on one throw are computed once.
+        """Separate pins that vary between variants from pins that do not: a sweep of one throw does
+        not move the others. Pins that move alike are computed once.
         """
         rows = [narrow(row) for row in pin]
         stays = np.array([row.size == 1 for row in rows]).reshape(-1, *(1,) * (pin.ndim - 1))
@@ -74,32 +74,34 @@ class Phases:
     def add_vectors(
         self, vectors: Series, arms: Array | None = None, sizes: Array | None = None
     ) -> Phasors:
-        """Sum of the cylinders' vectors, or of these (real) multiples of them.
+        """Return the sum of the cylinders' vectors, each times its (real) arm if there are arms.
 
         Args:
-            vectors: A rotating vector of each cylinder in its own frame, x along its axis, shape
-                (2, orders, cylinders or 1, *trailing): forward ones, then the conjugates of
-                backward ones, with the rounding error of either; a single one stands for all
-                cylinders.
-            arms: shape (cylinders, *trailing).
-            sizes: bounds of the arms that their rounding errors grow with, same shape.
+            vectors: Rotating vectors of each cylinder in its own frame (x along its axis), shape
+                (2, orders, cylinders or 1, *trailing): forward vectors, then the conjugates of
+                backward ones, and the rounding error of each. A single one holds for all cylinders.
+            arms: Factors of the vectors, shape (cylinders, *trailing); None: 1.
+            sizes: Factors of the rounding errors, in the same shape: the sizes of the terms from
+                which the arms are computed.
         """
         sums = self._add(self._planar, vectors.c, arms)
         np.conjugate(sums[1], out=sums[1])
         return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Sum of the scalars about z, each bank's turned by `e^{i n (axis_1 - axis)}`."""
+        """Return the sum of the cylinders' scalars, each bank's turned by `e^{i n (axis_1 -
+        axis)}`.
+        """
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
         (total,) = self._add(unit(-self._turn[None]), series.c[None], None)
         return Phasors.from_scalar(self.orders, total, noise)
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
-        """Sum over the cylinders of `values * sizes`, shape (orders, *trailing).
+        """Return the sum of `values * sizes` over the cylinders, shape (orders, *trailing).
 
         Args:
-            values: shape (orders, cylinders or 1, *trailing).
-            sizes: shape (cylinders, *trailing); 1 if not given.
+            values: Values, shape (orders, cylinders or 1, *trailing).
+            sizes: Factors, shape (cylinders, *trailing); None: 1.
         """
         if values.shape[1] > 1:
             return np.add.reduce(values if sizes is None else values * sizes, axis=1)
@@ -110,8 +112,9 @@ class Phases:
         pin}`.
 
         Args:
-            turns: shape (sides, orders, banks, *trailing).
-            sides: the vectors, shape (sides, orders, cylinders or 1, *trailing).
+            turns: Turn of each bank, shape (sides, orders, banks, *trailing).
+            sides: Vectors, forward and backward, shape (sides, orders, cylinders or 1, *trailing).
+            arms: Factors of the vectors; None: 1.
 
         Returns: shape (sides, orders, *trailing).
         """
@@ -124,8 +127,8 @@ class Phases:
         return np.concatenate(own)
 
     def _add_turned(self, turns: Complex, factors: Array | Complex | None) -> Complex:
-        """Return the turned sum of factors of shape (1 or orders, cylinders, *trailing); None: all
-        are 1.
+        """Return the turned sum of the phases times factors, shape (1 or orders, cylinders,
+        *trailing); None: all are 1.
         """
         of_banks = self._of_banks if factors is None else self._sum_banks(factors * self._still)
         total: Complex = np.add.reduce(turns * of_banks, axis=2)
@@ -137,12 +140,12 @@ class Phases:
 
     @cached_property
     def _of_banks(self) -> Complex:
-        """Sums over each bank's cylinders of the phases that do not vary."""
+        """Sum of the phases that do not vary, over the cylinders of each bank."""
         return self._sum_banks(self._still)
 
     def _sum_banks(self, each: Complex) -> Complex:
-        """Return sums over each bank's cylinders, shape (orders, cylinders, *trailing) -> (orders,
-        banks, *trailing).
+        """Return sums over the cylinders of each bank, shape (orders, banks, *trailing), of an
+        array of shape (orders, cylinders, *trailing).
         """
         return np.add.reduceat(each, self._starts, axis=1)
 
@@ -160,13 +163,12 @@ class Phases:
 
 
 class SeparatePhases(Phases):
-    """Phases that are not summed: terms of each cylinder, shape (orders, cylinders).
-
-    For engines without trailing axes.
+    """Phases whose "sums" return the terms of each cylinder, shape (orders, cylinders). The engine
+    must have no trailing axes.
     """
 
     def add_figures(self, values: Array, sizes: Array | None = None) -> Array:
-        """Return the terms of this sum, one for each cylinder.
+        """Return the terms of the sum, one for each cylinder.
 
         Args:
             values: Figures of the cylinders.
@@ -175,7 +177,7 @@ class SeparatePhases(Phases):
         return values * (self._ones if sizes is None else sizes)
 
     def _add(self, turns: Complex, sides: Array | Complex, arms: Array | None) -> Complex:
-        """Return the terms of this sum, shape (sides, orders, cylinders)."""
+        """Return the terms of the sum, shape (sides, orders, cylinders)."""
         counts = np.diff([*self._starts, self.count])
         arms = self._ones if arms is None else arms
         return np.asarray(np.repeat(turns, counts, axis=2) * (arms * sides * self._still))

@@ -1,9 +1,9 @@
-"""One representation for everything that shakes: each order is two rotating vectors.
+"""Periodic forces, moments and scalars by order: each order is two rotating vectors.
 
-`F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`, planar vectors being
-complex numbers x + iy. A scalar (couple, torque, roll) is the special case `backward =
-conj(forward)`. Order 0 holds its mean in `forward`. Figures by order have the orders first, then
-any trailing axes (crank angles, variants of a sweep).
+`F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`. Vectors in the plane
+are complex numbers x + iy. A scalar (couple, torque, roll) is the special case `backward =
+conj(forward)`. The mean (order 0) is kept in `forward`. Arrays have the orders first, then any
+trailing axes (crank angles, variants of a sweep).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-# Arrays without axes: numpy is quicker with them than with Python's numbers.
+# Arrays without axes, with which numpy is quicker than with Python's numbers.
 _STEP = np.array(15.0)  # degrees
 _STEPS_A_TURN = np.array(24)
 _RADIANS_A_DEGREE = np.array(np.pi / 180)
@@ -39,11 +39,11 @@ _UNITS = np.array([complex(_cosine(k), _cosine(k - 6)) for k in range(24)])
 
 
 def unit(degrees: ArrayLike) -> Complex:
-    """Return e^{i x} for x in degrees, any shape, within 2 ulp; exact at multiples of 30 and 45
-    degrees, however many turns.
+    """Return e^{i x} for x in degrees, any shape, within 2 ulp. It is exact at multiples of 30 and
+    45 degrees, after any number of turns.
 
-    The nearest multiple of 15 degrees is taken from a table (the remainder is exact in floating
-    point), then turned by the remainder.
+    The value at the nearest multiple of 15 degrees comes from a table, and is turned by the
+    remainder, which floating point computes exactly.
     """
     x = np.asarray(degrees, float)
     steps = np.rint(x / _STEP)
@@ -56,7 +56,7 @@ def unit(degrees: ArrayLike) -> Complex:
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
-    """Return real + i imaginary; two arrays put into one are quicker than a sum of complex arrays.
+    """Return real + i imaginary. This is quicker than a sum of complex arrays.
 
     Args:
         real: Real part, any shape.
@@ -68,7 +68,7 @@ def compose(real: Array, imaginary: Array) -> Complex:
 
 
 def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex:
-    """Return both vectors as one array, shape (2, *that to which they broadcast).
+    """Return both vectors as one array, shape (2, *their common shape).
 
     Args:
         forward: Vectors that turn with the crank.
@@ -80,14 +80,14 @@ def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
-    """Return directions wrapped to (-turn/2, turn/2], in their shape, nan for nan.
+    """Return directions wrapped to (-turn/2, turn/2], in the shape of `degrees`; nan stays nan.
 
     Args:
         degrees: Directions, deg, any shape.
         turn: 180 for lines, 360 for vectors.
     """
     found = turn / 2 - np.remainder(turn / 2 - np.asarray(degrees, float), turn)
-    # The remainder of what is barely negative rounds to a whole turn.
+    # The remainder of a barely negative number rounds to a whole turn.
     return np.where(found <= -turn / 2, turn / 2, found)
 
 
@@ -96,10 +96,10 @@ class Phasors:
     """Rotating vectors by order, and the rounding error that they may carry.
 
     Attributes:
-        orders: shape (orders,), not negative, any real numbers.
-        vectors: shape (2, orders, *trailing); those with the crank, then those against it.
-        noise: bound of the rounding error of either, shape (orders, *trailing) (or one that
-            broadcasts to it).
+        orders: Orders, real numbers from 0 on, shape (orders,).
+        vectors: Vectors that turn with the crank, then vectors that turn against it, shape (2,
+            orders, *trailing).
+        noise: Bound of the rounding error of each vector; it broadcasts to (orders, *trailing).
     """
 
     orders: Array
@@ -121,8 +121,8 @@ class Phasors:
 
     @classmethod
     def from_scalar(cls, orders: Array, coefficients: Complex, noise: Array) -> Phasors:
-        """Return the phasors of the scalar `Re sum c_n e^{i n theta}`; a mean (order 0) is its own
-        conjugate and stands in `forward` alone.
+        """Return the phasors of the scalar `Re sum c_n e^{i n theta}`. A mean (order 0) is kept in
+        `forward`; its `backward` is 0.
 
         Args:
             orders: Orders, shape (orders,).
@@ -138,12 +138,12 @@ class Phasors:
 
     @property
     def forward(self) -> Complex:
-        """Vectors with the crank, shape (orders, *trailing)."""
+        """Vectors that turn with the crank, shape (orders, *trailing)."""
         return self.vectors[0]
 
     @property
     def backward(self) -> Complex:
-        """Vectors against the crank, shape (orders, *trailing)."""
+        """Vectors that turn against the crank, shape (orders, *trailing)."""
         return self.vectors[1]
 
     def __add__(self, other: Phasors) -> Phasors:
@@ -153,7 +153,7 @@ class Phasors:
         return Phasors(self.orders, self.vectors - other.vectors, self.noise + other.noise)
 
     def __rmul__(self, factor: complex | Figure | Complex) -> Phasors:
-        """Return the phasors scaled, or scaled and turned where the factor is complex."""
+        """Return the phasors scaled and, by a complex factor, turned."""
         size: Any = abs(factor)  # quicker than np.abs for a plain number
         return Phasors(self.orders, factor * self.vectors, size * self.noise)
 
@@ -188,7 +188,7 @@ class Phasors:
 
     @cached_property
     def _sizes(self) -> Array:
-        """|forward| and |backward|, shape as of the vectors."""
+        """Sizes of the forward and backward vectors, shape (2, orders, *trailing)."""
         return np.abs(self.vectors)
 
     # -------------------------------------------------------------- what a reader asks of an order
@@ -211,10 +211,12 @@ class Phasors:
 
     @property
     def axis_deg(self) -> Array:
-        """Major axis from x, deg in (-90, 90]; nan for a circle, a balanced order and a mean."""
+        """Angle of the major axis from x, deg in (-90, 90]; nan for a circle, a balanced order or a
+        mean.
+        """
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)
-        # Rounding shall not turn an axis end for end.
+        # Rounding must not flip an axis from 90 to -90 degrees.
         turned = np.where(turned < 1e-9 - 90, 90.0, turned)
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
@@ -235,15 +237,15 @@ class Phasors:
         return Phasors(self.orders, unit(degrees) * self.vectors, noise)
 
     def _project(self, turn: complex) -> Complex:
-        """Return components along the axis that this factor turns onto x."""
+        """Return the components along the axis that this factor turns onto x."""
         ahead, against = turn * self.forward, turn * self.backward
         mean = _column(self.orders, ahead) == 0
         c = np.where(mean, ahead.real, ahead + np.conj(against))
         return np.where(np.abs(c) <= 2 * self.noise, 0, c)
 
     def values(self, theta: ArrayLike) -> Complex:
-        """Return the curve at crank angles (radians): the sum over all orders, shape of theta, for
-        phasors without trailing axes.
+        """Return the sum over all orders at crank angles (rad), in the shape of `theta`. The
+        phasors must have no trailing axes.
         """
         angles = np.asarray(theta, float)
         turning = np.exp(1j * np.multiply.outer(angles, self.orders))
@@ -252,7 +254,7 @@ class Phasors:
 
 
 def join_orders(parts: Sequence[Phasors]) -> Phasors:
-    """Return one run of orders from several, in their order."""
+    """Return the orders of several phasors, one after the other, as one."""
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
     return Phasors(
         np.concatenate([p.orders for p in parts]),
@@ -262,5 +264,5 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:
-    """Return orders shaped to stand before the trailing axes of `like`."""
+    """Return the orders as a column that broadcasts with `like`."""
     return orders.reshape(-1, *(1,) * (like.ndim - 1))

@@ -1,10 +1,9 @@
 """Functions of an angle that are smooth between breakpoints: pressures, torques, energies, speeds.
 
-Between two breakpoints such a function is cut into panels, and on every panel it is a short
-Legendre series, found from its values at the Gauss-Legendre nodes. Panels are halved until the last
-terms are small, so that nobody has to know beforehand how sharp a function is. Mean, harmonics,
-integral and extremes then follow from the series, and no sample is ever taken across a corner or a
-jump.
+Between two breakpoints the function is cut into panels. On each panel it is a short Legendre
+series, found from its values at the Gauss-Legendre nodes. Panels are halved until the last terms
+are small, so functions may be as sharp as they like. Mean, harmonics, integral and extremes follow
+from the series; no sample is taken across a corner or a jump.
 """
 
 from __future__ import annotations
@@ -21,21 +20,21 @@ from numpy.typing import ArrayLike, NDArray
 
 from .phasors import Array, Complex
 
-Function: TypeAlias = Callable[[Array], Array]  # value at angles (rad), of their shape
+Function: TypeAlias = Callable[[Array], Array]  # values at angles (rad), in the shape of the angles
 
-gauss = lru_cache(legendre.leggauss)  # nodes (rising) and weights of the quadrature on [-1, 1]
+gauss = lru_cache(legendre.leggauss)  # rising nodes and weights of the quadrature on [-1, 1]
 
-_WIDEST = 0.5  # rad, of a panel before any is halved
+_WIDEST = 0.5  # rad, largest width of a panel before halving
 _TERMS = 16
-_RESOLVED = 1e-12  # last terms of a series, relative to the largest value of the function
+_RESOLVED = 1e-12  # limit of the last terms of a series, relative to the function's largest value
 _HALVINGS = 48
-_EVERYWHERE = 16  # times as many panels: what these do not show is rounding error
-_REACH = 16.0  # rad, of the waves on a panel that this many nodes integrate
+_EVERYWHERE = 16  # halving ends at so many times the initial panels: the rest is rounding error
+_REACH = 16.0  # rad, length of the waves on a panel that _NODES nodes integrate
 _NODES = 32
-_SAME = 1e-11  # rad; an angle so near to a breakpoint is the breakpoint
+_SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
 _NO_SIGN = 1e-9  # values below this share of the largest have no sign
-_ROUNDING = 1e-14  # a smaller share of the largest value, or of what is added up, is 0
+_ROUNDING = 1e-14  # a smaller share of the largest value, or of the terms of a sum, is 0
 _TIE = 1e-11  # extremes that differ by a smaller share of the range are equal
 
 
@@ -60,7 +59,7 @@ class PiecewiseCurve:
     """A periodic function, a polynomial on each panel.
 
     Attributes:
-        breaks: Rising angles between which the panels lie, rad, shape (panels + 1,); the last is a
+        breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
         series: Legendre coefficients on each panel, shape (terms, panels).
     """
@@ -86,7 +85,9 @@ class PiecewiseCurve:
         return self.integral / self.period
 
     def at(self, angle: ArrayLike) -> Array:
-        """Return values at any angles (rad), of their shape; at a jump the value after it."""
+        """Return values at any angles (rad), in the shape of the angles; at a jump, the value after
+        it.
+        """
         start = self.breaks[0]
         turned = np.remainder(np.asarray(angle, float) + _SAME - start, self.period)
         return self.within(start + turned - _SAME)
@@ -100,13 +101,13 @@ class PiecewiseCurve:
         return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
 
     def repeated(self, times: int) -> PiecewiseCurve:
-        """Return the same curve over a period so many times as long."""
+        """Return the same curve with several periods as one."""
         parts = [PiecewiseCurve(self.breaks + k * self.period, self.series) for k in range(times)]
         return join(parts)
 
     def harmonics(self, wanted: ArrayLike) -> Complex:
-        """Return coefficients c_k of `Re sum c_k e^{2 pi i k angle/period}` for the wanted whole
-        numbers k >= 0, of their shape (harmonics,); c_0 is the mean.
+        """Return the coefficients c_k of `Re sum c_k e^{2 pi i k angle/period}` for the wanted
+        whole numbers k >= 0, shape (harmonics,); c_0 is the mean.
         """
         numbers = np.asarray(wanted, int)
         unit, top = 2 * np.pi / self.period, int(numbers.max(initial=0))
@@ -116,13 +117,14 @@ class PiecewiseCurve:
         def turn(harmonics: NDArray[np.intp]) -> Complex:
             return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
 
-        # e^(-i k angle) of k = high * stride + low is a product: few waves of each make all
+        # with k = high * stride + low, e^(-i k angle) is a product of two factors: few waves have
+        # to be computed
         stride = math.isqrt(top) + 1
         every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
     def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
-        """Return the integral of the curve less a constant, from the first breakpoint on; it is
+        """Return the integral, from the first breakpoint on, of the curve less a constant. It is
         periodic if the constant is the mean.
         """
         half = np.diff(self.breaks) / 2
@@ -134,13 +136,13 @@ class PiecewiseCurve:
         return PiecewiseCurve(self.breaks, series)
 
     def extremes(self) -> tuple[Extreme, Extreme]:
-        """Return the lowest and the highest value, each at the first of its angles; at a jump both
-        sides count. A value that is rounding error next to the larger one is 0.
+        """Return the lowest and the highest value, each at the first angle that has it. At a jump
+        both sides count. A value that is only rounding error of the larger one is 0.
         """
         return self._find_top(-1), self._find_top(1)
 
     def reversals(self) -> int:
-        """Return how often the sign changes in a period; a value within 1e-9 of the largest has no
+        """Return how often the sign changes in a period; values below 1e-9 of the largest have no
         sign.
         """
         value = self._sample()[1].T.reshape(-1)
@@ -148,15 +150,15 @@ class PiecewiseCurve:
         return int(np.count_nonzero(signs != np.roll(signs, 1)))
 
     def _sample(self) -> tuple[Array, Array]:
-        """Return both ends and the nodes of a panel, shape (points,), and the values there on every
-        panel, shape (points, panels).
+        """Return points of a panel (both ends and the nodes), shape (points,), and the values there
+        on every panel, shape (points, panels).
         """
         points = np.concatenate([[-1.0], gauss(max(len(self.series), 2))[0], [1.0]])
         return points, legendre.legvander(points, len(self.series) - 1) @ self.series
 
     def _find_top(self, sign: int) -> Extreme:
-        """Return the lowest (sign -1) or highest (1) value: from the best point of every panel
-        Newton's method follows the series.
+        """Return the lowest (sign -1) or highest (sign 1) value, by Newton's method from the best
+        point of every panel.
         """
         points, values = self._sample()
         tie, noise = _TIE * float(np.ptp(values)), _ROUNDING * np.abs(values).max()
@@ -176,7 +178,7 @@ class PiecewiseCurve:
 
 
 def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
-    """Return curves that follow each other as one."""
+    """Return one curve of several that follow each other."""
     breaks = [curve.breaks[:-1] for curve in curves]
     series = np.concatenate([curve.series for curve in curves], axis=1)
     return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
@@ -186,11 +188,11 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
-    value, or until there are so many panels that they show rounding errors alone.
+    value, or until there are so many panels that only rounding errors remain.
 
     Args:
-        function: Values at angles strictly between breakpoints, of the shape of the angles.
-        breaks: Rising, rad; the last a period after the first.
+        function: Returns values at angles strictly between breakpoints, in the shape of the angles.
+        breaks: Rising breakpoints, rad; the last is one period after the first.
     """
     edges = cut(np.asarray(breaks, float), _WIDEST)
     low, high = edges[:-1], edges[1:]
@@ -215,8 +217,8 @@ def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
 
 
 def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
-    """Return straight lines between points; two points at one angle are a jump. The last point
-    closes the period, and if it differs from the first, there is a jump.
+    """Return straight lines between points; two points at the same angle are a jump. The last point
+    ends the period; if its value is not that of the first, there is a jump as well.
 
     Args:
         angle: Rising angles, rad, shape (points,).
@@ -231,7 +233,7 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
 
 # ---------------------------------------------------------------- breakpoints
 def quadrature(breaks: Array, nodes: int = _TERMS) -> tuple[Array, Array]:
-    """Return angles within panels, rad, and their weights in a mean over the period, each of shape
+    """Return angles within panels (rad) and their weights in a mean over the period, each of shape
     (nodes, panels).
 
     Args:
@@ -247,7 +249,7 @@ def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
     """Return the breakpoints in [0, period] of a sum of functions, rad.
 
     Args:
-        parts: Breakpoints of each function and the angle by which it is shifted to the right, rad.
+        parts: Breakpoints of each function, and the angle by which they are shifted, rad.
         period: Length of one period, rad.
     """
     inside = [np.remainder(breaks + shift, period) for breaks, shift in parts]
@@ -258,7 +260,7 @@ def merged_breaks(parts: list[tuple[Array, float]], period: float) -> Array:
 
 
 def cut(breaks: Array, widest: float) -> Array:
-    """Return breakpoints with wide pieces cut into equal panels.
+    """Return breakpoints, with pieces that are too wide cut into equal panels.
 
     Args:
         breaks: Breakpoints, rad, shape (breaks,).
@@ -270,21 +272,21 @@ def cut(breaks: Array, widest: float) -> Array:
 
 
 def _find_middles(breaks: Array) -> tuple[Array, Array]:
-    """Return middle and half width of every panel."""
+    """Return the middle and half the width of every panel."""
     return (breaks[1:] + breaks[:-1]) / 2, np.diff(breaks) / 2
 
 
 # ---------------------------------------------------------------- zeros
 _ROUNDS = 100
-_ENOUGH = 1e-13  # relative, where a secant has arrived
+_ENOUGH = 1e-13  # relative step of the secant that ends the search
 
 
 def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) -> float:
-    """Return where a rising function of a positive number is 0, by false position.
+    """Return the zero of a rising function of a positive number, by false position.
 
     Args:
         rising: The function; where it becomes infinite, the result is below the jump.
-        guess: A positive number to begin with.
+        guess: Positive number to start with.
         at_zero: Value of the function at 0, negative.
     """
     low, below, high = 0.0, at_zero, guess

@@ -1,11 +1,11 @@
 """Records: a figure of a result is declared once, as an attribute of a record.
 
 A record is a frozen dataclass, or a NamedTuple, which is quicker to import. A result is a tree of
-records. JSON and its schema derive from their attributes; the CSV of a chapter lists the figures of
-its document, or has rows of its own, and a DataFrame has the rows of CSV unless a renderer makes
-columns (`show.result`). The name of an attribute is its key in JSON and its path in CSV
-(`worst.speed_rpm`), the ending of the name is its unit, the annotation is its type, the line in
-`Attributes:` of the docstring is its description in the JSON Schema.
+records. JSON and its schema derive from the attributes. CSV lists the figures of the JSON document,
+unless a chapter has rows of its own; a DataFrame has the same rows, unless a renderer makes columns
+(`show.result`). The name of an attribute is its key in JSON and its path in CSV
+(`worst.speed_rpm`); the end of the name is its unit. The annotation is its type. Its line in the
+docstring's `Attributes:` is its description in the JSON Schema.
 
     to_document(record)       the JSON object
     list_figures(document)    the numbers and words outside lists, for the lines of CSV
@@ -13,14 +13,14 @@ columns (`show.result`). The name of an attribute is its key in JSON and its pat
 
 Rules:
 
-* An attribute with the default None is optional: where it is None, its key is left out.
+* An attribute with the default None is optional: if it is None, its key is omitted.
 * A real number that is not finite becomes null; a negative zero becomes 0.
 * A complex number, which has to be finite, becomes a list of its real and imaginary part; CSV
-  leaves lists out.
+  omits lists.
 * Marks in `Annotated`: `Polar` writes a complex number as magnitude and angle, `Reached` a peak as
-  its value and its crank angle, `WrittenAs` a value as the record that a function makes of it,
-  `Axes(2)` is an array of two axes (no mark: one), `INLINE` lifts the keys of a record, a dict or
-  a `Polar` into the parent object, `HIDDEN` keeps an attribute for Python alone.
+  its value and its crank angle, `WrittenAs` a value as the record that a function makes of it.
+  `Axes(2)` declares an array of two axes (without the mark: one). `INLINE` lifts the keys of a
+  record, a dict or a `Polar` into the parent object. `HIDDEN` keeps an attribute out of documents.
 
 Example::
 
@@ -50,7 +50,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 Node = dict[str, Any]  # an object of JSON
 
-# Units by the ending of a name; an ending stands before any shorter one that it contains.
+# Units by the ending of a name; an ending precedes every shorter one that it contains.
 UNITS = {
     "Nms_per_rad": "N·m·s/rad",
     "Nm_per_rad": "N·m/rad",
@@ -70,7 +70,7 @@ _IN_CSV = str.maketrans("·²³", " 23")  # units in plain characters
 
 
 class Polar(NamedTuple):
-    """Mark of a complex number: the keys of its magnitude and of its angle.
+    """Mark of a complex number that is written as magnitude and angle, under these keys.
 
     The angle is in degrees, 0 <= angle < 360, and null where the magnitude is 0.
     """
@@ -87,7 +87,8 @@ class Polar(NamedTuple):
 
 
 class Reached(NamedTuple):
-    """Mark of a peak (`core.peaks.Peak`): the keys of its value and of its first crank angle.
+    """Mark of a peak (`core.peaks.Peak`) that is written as its value and first crank angle, under
+    these keys.
 
     The angle is in degrees, and null where the value is 0.
     """
@@ -102,12 +103,12 @@ class Reached(NamedTuple):
 
 
 class WrittenAs(NamedTuple):
-    """Mark of a value that is written as the record, or list of records, that a function makes of
-    it; the schema describes the function's return type.
+    """Mark of a value that a function turns into a record, or list of records, for documents. The
+    schema describes the function's return type.
     """
 
     make: Callable[..., object]
-    key: str = ""  # in JSON; empty: the name of the attribute
+    key: str = ""  # key in JSON; empty: the name of the attribute
 
 
 class Axes(NamedTuple):
@@ -139,7 +140,7 @@ class _Attribute(NamedTuple):
 
 @cache
 def _list_attributes(record: type) -> tuple[_Attribute, ...]:
-    """Return the attributes that documents show, in their order."""
+    """Return the attributes that documents show, in the order of declaration."""
     hints = get_type_hints(record, include_extras=True)
     found = ((*each, hints[each[0]], _find_marks(hints[each[0]])) for each in _list_names(record))
     return tuple(_read_marks(*each) for each in found if HIDDEN not in each[3])
@@ -160,7 +161,7 @@ def _read_marks(name: str, optional: bool, kind: object, marks: tuple[object, ..
 
 
 def _find_marks(annotation: object) -> tuple[object, ...]:
-    """Return what `Annotated` adds to a type and to the types within it."""
+    """Return the marks that `Annotated` adds to a type and to the types within it."""
     inner = (mark for part in get_args(annotation) for mark in _find_marks(part))
     return (*getattr(annotation, "__metadata__", ()), *inner)
 
@@ -184,13 +185,13 @@ def to_document(record: Any) -> Node:
 
 
 def write_each(value: Any, split: Polar | Reached | None = None) -> Any:
-    """Return a number, word, record, or list or dict of these, as JSON has it.
+    """Return a number, word or record, or a list or dict of these, in its JSON form.
 
     Args:
         value: Value to write.
-        split: Mark that splits one value into several keys; None: none.
+        split: Mark that splits one value into several keys; None if there is no such mark.
     """
-    if hasattr(value, "tolist"):  # an array or number of numpy, which is not imported here
+    if hasattr(value, "tolist"):  # an array or number of numpy (not imported here)
         value = value.tolist()
     if isinstance(value, float):
         return value + 0.0 if math.isfinite(value) else None
@@ -217,11 +218,11 @@ class Figure(NamedTuple):
 
 
 def list_figures(document: Node, without: Collection[str] = (), path: str = "") -> Iterator[Figure]:
-    """Yield one figure for every number and word of a document; lists of numbers are left out.
+    """Yield one figure for every number and word of a document; lists of numbers are omitted.
 
     Args:
-        document: As of `to_document`, or an object in it.
-        without: Keys to leave out, such as those that stand in columns of their own.
+        document: Result of `to_document`, or an object in it.
+        without: Keys to omit, such as keys that have columns of their own.
         path: Beginning of all names.
     """
     for key, value in document.items():
@@ -242,7 +243,7 @@ def list_series(document: Node, place: int) -> Iterator[Figure]:
 
     Args:
         document: JSON object with lists of numbers.
-        place: Place in each list, from 0.
+        place: Index in each list, from 0.
     """
     for key, value in document.items():
         if isinstance(value, list) and value and not isinstance(value[0], (dict, list)):
@@ -250,12 +251,12 @@ def list_series(document: Node, place: int) -> Iterator[Figure]:
 
 
 def find_unit(key: str) -> str:
-    """Return the unit that a key ends in; empty if it ends in none."""
+    """Return the unit with which a key ends; empty if there is none."""
     return next((UNITS[end] for end in UNITS if key == end or key.endswith(f"_{end}")), "")
 
 
 def remove_unit(key: str) -> str:
-    """Return a key without the unit at its end: `inertia` of `inertia_kg_m2`."""
+    """Return a key without its final unit: `inertia` for `inertia_kg_m2`."""
     return next((key.removesuffix(f"_{end}") for end in UNITS if key.endswith(f"_{end}")), key)
 
 
@@ -321,7 +322,7 @@ def _describe(kind: object, each: _Attribute, definitions: Node) -> Node:
     if isinstance(kind, type) and (is_dataclass(kind) or hasattr(kind, "_fields")):
         name = kind.__name__
         if name not in definitions:
-            definitions[name] = {}  # stands there while its attributes are described
+            definitions[name] = {}  # placeholder while its attributes are described
             definitions[name] = _describe_class(kind, definitions)
         return {"$ref": f"#/$defs/{name}"}
     if kind is Any:

@@ -1,17 +1,17 @@
-"""Uneven crank speed: `omega = mean (1 + sum of lines)`; momentum is multiplied by it before it is
-differentiated.
+"""Uneven crank speed: its effect on inertia forces and torques, and the speed of a shaft under a
+varying torque.
 
-With W = omega/mean and momentum `mean W G`, the force is `-mean^2 W (W G)'`, the couple the same of
-the moment of momentum, and the inertia torque `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I
-omega omega')`, docs/theory.md). In Fourier coefficients all of these are short convolutions, so
-that every order stays as exact as at steady speed. Orders are whole, or multiples of 1/2 for a
-speed that repeats itself after two revolutions.
+Forces: the speed is given as `omega = mean W`, W being 1 plus a few harmonics ("lines"). With
+momentum `mean W G`, the force is `-mean^2 W (W G)'`; the couple follows in the same way from the
+moment of momentum. The inertia torque is `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega
+omega')`, docs/theory.md). For Fourier coefficients these products are short convolutions, so every
+order is as exact as at steady speed. Orders are whole, or multiples of 1/2 if the speed repeats
+itself after two revolutions.
 
-Speed of a shaft under a varying torque, without a differential equation.
-
-Energy: `1/2 I omega^2` grows by the work W of the torque above the load. So `omega^2 = (C + 2 W)/I`
-at every angle, I the inertia with all that moves, and C follows from the mean speed over the angle
-(as `speed_ripple` counts it). Angles of the shaft in radians; a period may be any number of turns.
+Speed under a torque: the energy `1/2 I omega^2` grows by the work E of the torque above the load.
+So `omega^2 = (C + 2 E)/I` at every angle, without a differential equation. I includes all moving
+parts, and C follows from the mean speed over the angle. Angles of the shaft are in radians; a
+period may have any number of turns.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 
 Number = TypeVar("Number", np.float64, np.complex128)
-_FELT = 1e-13  # share of an order over the angle below which an order of the time does not feel it
+_FELT = 1e-13  # a smaller share of an order over the angle does not count in an order of the time
 
 
 class RippleLine(NamedTuple):
-    """One line of an uneven speed: `mean amplitude cos(order theta - angle)`."""
+    """One harmonic of an uneven speed: `mean amplitude cos(order theta - angle)`."""
 
     order: float
     amplitude: Figure
@@ -41,16 +41,16 @@ class RippleLine(NamedTuple):
 
 
 def find_step(orders: Iterable[float]) -> float:
-    """Return 1, or 1/2 where an order is half a whole number."""
+    """Return the step of orders: 1, or 1/2 if an order is no whole number."""
     return 0.5 if any(order % 1 for order in orders) else 1.0
 
 
 def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
-    """Return the coefficients of W for both signs of the order, shape (2 k + 1, *trailing): k steps
-    below 0 to k steps above it. All orders are whole steps.
+    """Return the Fourier coefficients of W, from k steps of the order below 0 to k steps above it,
+    shape (2 k + 1, *trailing).
 
     Args:
-        lines: Orders of the uneven speed.
+        lines: Harmonics of the uneven speed; their orders are multiples of the step.
         step: 1, or 1/2 if some orders are halves.
     """
     halves = [
@@ -67,8 +67,8 @@ def find_speed(lines: Iterable[RippleLine], step: float = 1.0) -> Complex:
 
 
 def find_slowest(lines: Sequence[RippleLine]) -> Peak:
-    """Return the least W over a cycle and the first crank angle (rad) at which it is reached, for
-    lines without trailing axes.
+    """Return the least W over a cycle, and the first crank angle (rad) at which it is reached. The
+    lines must have no trailing axes.
     """
     step = find_step(order for order, _, _ in lines)
     w = find_speed(lines, step)
@@ -78,14 +78,14 @@ def find_slowest(lines: Sequence[RippleLine]) -> Peak:
 
 
 class Timetable(NamedTuple):
-    """When uneven speed passes the crank angles of a cycle, and how long each takes.
+    """Times at which a crank of uneven speed passes equally spaced angles of a cycle.
 
     Attributes:
-        clock: Angle of a steady crank with the same number of turns when the crank passes equally
-            spaced angles of the cycle, from 0 on, rad, up to a constant, shape (samples,).
-        stay: Time that each angle takes, over its mean, shape (samples,).
+        clock: Time at each angle, as the angle (rad) that a steady crank of the same mean speed in
+            time has then, up to a constant, shape (samples,).
+        stay: Time per angle, relative to its mean, shape (samples,).
         step: Step of the orders: 1 for a cycle of one turn, 1/2 for one of two.
-        turns: Revolutions per time, over those at the mean speed over the angle.
+        turns: Mean speed over the time, relative to the mean speed over the angle.
     """
 
     clock: Array
@@ -98,8 +98,9 @@ def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
     """Return the timetable of a speed W.
 
     Args:
-        w: (2 k + 1,) from `find_speed` with this step, without trailing axes.
-        samples: of a cycle of 1 / step turns; many more than 2 k.
+        w: Coefficients from `find_speed` with this step, shape (2 k + 1,).
+        step: Step of the orders, 1 or 1/2.
+        samples: Number of samples of a cycle of 1 / step turns, many more than 2 k.
     """
     reach, k = len(w) // 2, np.fft.fftfreq(samples, 1 / samples)
     speed = np.zeros(samples, complex)
@@ -115,12 +116,11 @@ def find_timetable(w: Complex, step: float, samples: int) -> Timetable:
 
 
 def find_reach(timetable: Timetable, order: float) -> float:
-    """Return the highest order over the crank angle (or a lower one) that contributes more than
-    _FELT to this order of the time.
+    """Return the highest order over the crank angle that contributes to an order over the time.
 
     Args:
-        timetable: Time by crank angle.
-        order: Order of the time.
+        timetable: Times of the crank angles.
+        order: Order over the time.
     """
     wave = timetable.stay * np.exp(1j * order * timetable.clock)
     felt = np.flatnonzero(np.abs(np.fft.fft(wave, norm="forward")) > _FELT)
@@ -128,12 +128,12 @@ def find_reach(timetable: Timetable, order: float) -> float:
 
 
 def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Return curves over the crank angle by orders of the time: cycles for each mean revolution of
-    the crank.
+    """Return the orders over the time (cycles per mean revolution) of curves over the crank angle.
 
     Args:
-        curves: without trailing axes, each of all orders that count.
-        orders: (orders,) wanted, whole steps.
+        curves: Curves without trailing axes, with all orders that contribute.
+        timetable: Times of the crank angles.
+        orders: Wanted orders over the time, multiples of the step, shape (orders,).
     """
     series = np.zeros((len(curves), len(timetable.clock)), complex)
     for own, curve in zip(series, curves, strict=True):
@@ -154,16 +154,16 @@ def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array
 def apply_to_force(
     steady: Phasors, w: Complex, mean: Figure = 0.0, *, rate_last: bool = False
 ) -> Phasors:
-    """Return the force, moment or couple under W.
+    """Return the force, moment or couple at the uneven speed W.
 
     Args:
-        steady: Force at a steady speed, for the orders 0, 1 .. n (or 0, 1/2 .. n) without a gap.
+        steady: Force at a steady speed, for all orders 0, 1 .. n (or 0, 1/2 .. n).
         w: Coefficients from `find_speed` with the same step, up to order k.
-        mean: Mean momentum (for the couple: mean moment of momentum), which has no effect at a
-            steady speed.
+        mean: Mean momentum, or for the couple mean moment of momentum; at a steady speed it has no
+            effect.
         rate_last: Whether W multiplies twice before the derivative, as for a torque.
 
-    Returns: the force for the same orders, correct up to n - 2k.
+    Returns: The force for the same orders, correct up to order n - 2k.
     """
 
     def shake(momentum: Complex, w: Complex, rate: Complex) -> Complex:
@@ -180,29 +180,29 @@ def apply_to_force(
     shape = (2 * n + 1, *np.broadcast_shapes(forces.shape[1:], np.shape(mean)))
     momentum = np.broadcast_to(1j * forces / divisor, shape).copy()  # force = -i n momentum
     momentum[n] = mean
-    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # as the noise tells them
+    sizes = np.broadcast_to(noise / EPS / np.abs(divisor), shape).copy()  # from the noise
     sizes[n] = np.maximum(sizes[n], np.abs(mean))
     result = shake(momentum, w, np.asarray(1j * order, np.complex128))
     magnitudes = (np.asarray(v, np.complex128) for v in (sizes, np.abs(w), np.abs(order)))
     error = EPS * np.abs(shake(*magnitudes))
     backward = np.where(order[n:] > 0, result[n::-1], 0)
-    # The bound of -n is that of n.
+    # The bound of the error of order -n is that of order n.
     return Phasors.of(steady.orders, result[n:], backward, error[n:])
 
 
 def apply_to_torque(steady: Phasors, w: Complex, mean: Figure) -> Phasors:
-    """Return the inertia torque under W, as `apply_to_force` does for a force.
+    """Return the inertia torque at the uneven speed W.
 
     Args:
         steady: Torque at the mean speed, N m.
-        w: Coefficients of `find_speed`.
+        w: Coefficients from `find_speed`.
         mean: Mean inertia times the square of the mean speed, N m.
     """
     return apply_to_force(steady, w, mean / 2, rate_last=True)
 
 
 def _convolved(series: Complex, w: Complex) -> Complex:
-    """Sum over k of w_k series_(n-k), cut to the orders of `series`; `w` is short."""
+    """Return the convolution, sum over k of w_k series_(n-k), cut to the orders of `series`."""
     reach = len(w) // 2
     ends = np.zeros((reach, *series.shape[1:]), complex)
     padded = np.concatenate([ends, series, ends])
@@ -216,12 +216,14 @@ def _convolved(series: Complex, w: Complex) -> Complex:
 
 
 def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[Number]:
-    """Return rows -N .. N from those of the orders 0 .. N of both sides."""
+    """Return the rows of the orders -N .. N from those of 0 .. N in both directions."""
     return np.concatenate([backward[:0:-1], forward])
 
 
 class StallError(ValueError):
-    """The shaft cannot have the mean speed: at `angle` (rad) it would have to stand still."""
+    """The shaft cannot have the mean speed, because it would stop at `angle` (rad); `least` is the
+    least mean speed that it can have, rad/s.
+    """
 
     def __init__(self, angle: float, least: float) -> None:
         self.angle, self.least = angle, least
@@ -232,13 +234,13 @@ class StallError(ValueError):
 
 
 class Surplus(NamedTuple):
-    """Surplus energy of a torque.
+    """Surplus energy of a torque over a constant load.
 
     Attributes:
-        energy: The largest energy that the torque yields above the load without a break, J.
-        start, end: Angles of the lowest and of the highest speed at constant inertia, rad, in a
-            period from 0; each the first.
-        work: Work of a whole period, J.
+        energy: Largest rise of the running integral of torque above load, J.
+        start, end: First angles of the lowest and the highest speed at constant inertia, rad, in
+            [0, period).
+        work: Work of the torque over a period, J.
     """
 
     energy: float
@@ -252,8 +254,8 @@ class SpeedVariation(NamedTuple):
 
     Attributes:
         fluctuation: (highest - lowest speed)/mean speed.
-        lowest, highest: Angle (rad) and speed (rad/s).
-        speed: The whole curve, rad/s.
+        lowest, highest: Lowest and highest speed, rad/s, and their angles, rad.
+        speed: Speed over the angle, rad/s.
     """
 
     fluctuation: float
@@ -263,8 +265,8 @@ class SpeedVariation(NamedTuple):
 
 
 def surplus(torque: PiecewiseCurve) -> Surplus:
-    """Return the surplus energy of a torque (N m), from the extremes of its running integral; the
-    load takes what remains of the mean, evenly.
+    """Return the surplus energy of a torque (N m) over a constant load equal to its mean, from the
+    extremes of the running integral.
     """
     lowest, highest = energy(torque).extremes()
     start, end = (angle % torque.period for angle in (lowest.angle, highest.angle))
@@ -272,12 +274,15 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
 
 
 def energy(torque: PiecewiseCurve) -> PiecewiseCurve:
-    """Return the work of the torque (N m) above its mean from the first breakpoint on, J."""
+    """Return the running integral of the torque (N m) above its mean, from the first breakpoint on,
+    J.
+    """
     return torque.antiderivative(torque.mean)
 
 
 def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: float) -> float:
-    """Return the coefficient of fluctuation of the textbooks, surplus/(I omega^2), for small ones.
+    """Return the textbooks' coefficient of fluctuation, surplus/(I omega^2), which holds if it is
+    small.
 
     Args:
         surplus_energy: Largest surplus of energy over a cycle, J.
@@ -290,23 +295,23 @@ def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: fl
 def speed_variation(
     torque: PiecewiseCurve, inertia: float | Function, mean_speed: float
 ) -> SpeedVariation:
-    """Return the speed under a torque (N m), of which the load takes the mean evenly.
+    """Return the speed under a torque (N m) and a constant load equal to its mean.
 
     Args:
-        torque: Torque of the gas (and of an uneven load, with the sign changed), without the torque
-            of inertia, which the inertia stands for.
-        inertia: Moment of inertia, kg m2, a constant or at angles (rad).
+        torque: Gas torque, less any varying part of the load. It does not include the inertia
+            torque, which follows from `inertia`.
+        inertia: Moment of inertia, kg m2: a constant, or a function of the angle (rad).
         mean_speed: Mean over the angle, rad/s.
 
     Raises:
-        StallError: There is no such motion.
+        StallError: The shaft would stop.
     """
     parts, done, wanted = _as_function(inertia), energy(torque), mean_speed**2
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
 
     def find_speed(above: float) -> PiecewiseCurve:
-        """Return the speed with `C + 2 W = above` at the angle where W is smallest."""
+        """Return the speed if `C + 2 E` is `above` at the angle of the least E."""
 
         def omega(angle: Array) -> Array:
             square = (above + 2 * (done.at(angle) - slowest.value)) / parts(angle)
@@ -321,7 +326,7 @@ def speed_variation(
     above = find_zero(lambda c: find_speed(c).mean ** 2 - wanted, guess, stalled - wanted)
     speed = find_speed(above)
     low, high = speed.extremes()
-    # the difference of both speeds, without cancellation where the inertia is constant
+    # the difference of the squared speeds, without cancellation if the inertia is constant
     angles = np.array([high.angle, low.angle])
     (w, w0), (i, i0) = done.at(angles) - slowest.value, parts(angles)
     squares = float((2 * (w * i0 - w0 * i) + above * (i0 - i)) / (i * i0))
@@ -331,12 +336,12 @@ def speed_variation(
 def needed_inertia(
     torque: PiecewiseCurve, mean_speed: float, fluctuation: float, moving: float | Function = 0.0
 ) -> float:
-    """Return the constant inertia (kg m2) that keeps the exact fluctuation, together with the
-    inertia of moving parts; it is negative where these alone do better. Where the shaft would stall
-    before it fluctuates so much, return the least inertia with which it does not stall.
+    """Return the constant inertia (kg m2) that, together with moving parts, gives exactly the
+    wanted fluctuation. It is negative if the moving parts alone give less. If the shaft would stall
+    before it fluctuates so much, return the least inertia without a stall.
 
-    It is found between no inertia and a stall by false position, in the inverse of the mean
-    inertia, to which the fluctuation is nearly proportional.
+    It is found by false position in the inverse of the mean inertia, to which the fluctuation is
+    nearly proportional.
 
     Args:
         torque: Torque on the shaft over the cycle, N m.

@@ -1,5 +1,5 @@
-"""Depth of a radial hole that removes a given unbalance, or adds it with a slug of heavier metal;
-and the permitted residual unbalance by ISO 21940-11.
+"""Depth of a radial hole that removes a given unbalance, or adds it if a slug of heavier metal
+fills the hole; and the permitted residual unbalance by ISO 21940-11.
 """
 
 from __future__ import annotations
@@ -7,29 +7,31 @@ from __future__ import annotations
 import math
 
 STEEL = 7850.0  # kg/m3, plain carbon steel
-# kg/m3, of slugs: heavy alloy of 90 % tungsten (ASTM B777, class 1), which shops also know as
-# Mallory metal; and lead
+# Density of slugs, kg/m3: heavy alloy of 90 % tungsten (ASTM B777, class 1), also called Mallory
+# metal in workshops; and lead
 SLUGS = {"tungsten": 17000.0, "mallory": 17000.0, "lead": 11340.0}
 
 
 def find_drill_depth(unbalance: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Return the depth of a radial hole from the rim (radius, m) inwards that removes this
-    unbalance; nan if none is deep enough.
+    """Return the depth (m) of a radial hole from the rim inwards that removes this unbalance; nan
+    if no depth suffices.
 
-    `m r = density pi d^2/4 (rim h - h^2/2)`, the hole ending at the axis at the latest.
+    The unbalance of a hole of depth h is `m r = density pi d^2/4 (rim h - h^2/2)`; the hole ends at
+    the axis at the latest.
 
     Args:
         unbalance: Unbalance to remove, kg m.
+        rim: Radius of the rim, m.
         drill: Diameter of the drill, m.
-        density: Density of the rotor, or that of a slug less that of the steel it replaces, kg/m3.
+        density: Density of the rotor, or of a slug less that of the steel that it replaces, kg/m3.
     """
-    unbalance_per_square = density * math.pi / 4 * drill**2  # kg m of a depth of 1 m at 1 m
+    unbalance_per_square = density * math.pi / 4 * drill**2  # kg m, for a depth and radius of 1 m
     share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2
     return rim * 2 * share / (1 + math.sqrt(1 - 2 * share)) if share <= 0.5 else math.nan
 
 
 def find_drilled_unbalance(depth: float, rim: float, drill: float, density: float = STEEL) -> float:
-    """Return the unbalance (kg m) that a radial hole from the rim inwards removes: the inverse of
+    """Return the unbalance (kg m) that a radial hole from the rim inwards removes, the inverse of
     `find_drill_depth`.
 
     Args:

@@ -1,9 +1,9 @@
-"""Forces in a plane over a cycle, smooth between common breakpoints: their orders and largest
-values.
+"""Orders and largest values of forces in a plane over a cycle, which are smooth between common
+breakpoints.
 
-All are sampled at the Gauss-Legendre nodes of panels on which each is a short series
-(`core.piecewise`); sums and levers of forces are sums of samples, so that the forces themselves are
-computed once.
+All forces are sampled at the Gauss-Legendre nodes of the same panels, on which each is a short
+series (`core.piecewise`). A sum of forces is then a sum of samples, so that each force is computed
+only once.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from .peaks import Peak
 from .phasors import Array, Complex
 from .piecewise import PiecewiseCurve, cut, gauss, quadrature, resolved, values_to_series
 
-Vectors: TypeAlias = Callable[[Array], Complex]  # at angles, shape (vectors, angles)
+Vectors: TypeAlias = Callable[[Array], Complex]  # values at angles, shape (vectors, angles)
 
-_TERMS = 16  # of a series, as many as `quadrature` has nodes
-_TURN_ON_PANEL = 4.0  # rad; e^{in angle} that turns no farther on a panel needs no more terms
+_TERMS = 16  # of a series: as many as `quadrature` has nodes
+_TURN_ON_PANEL = 4.0  # rad; if e^{in angle} turns no farther on a panel, these terms suffice
 _AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
 
 
@@ -32,23 +32,26 @@ class Panels:
     """Panels of a cycle on which all forces are short series.
 
     Attributes:
-        breaks: rising, rad; the last a period after the first.
+        breaks: Rising breakpoints, rad; the last is one period after the first.
     """
 
     breaks: Array
 
     @cached_property
     def angles(self) -> Array:
-        """Angles of the samples, rad, shape (samples,): node by node, each on every panel."""
+        """Angles of the samples, rad, shape (samples,): the first node of every panel, the second,
+        ...
+        """
         return quadrature(self.breaks)[0].reshape(-1)
 
     def find_orders(self, samples: Complex, orders: Array) -> tuple[Complex, Complex]:
-        """Return vectors that turn with the crank, and against it, each of shape (orders, forces).
+        """Return the vectors that turn with the crank and those that turn against it, each of shape
+        (orders, forces).
 
         Args:
-            samples: of forces, shape (forces, samples).
-            orders: shape (orders,), none higher than the panels were made for; those that the
-                period does not have are 0.
+            samples: Samples of the forces, shape (forces, samples).
+            orders: Orders, shape (orders,), up to the highest for which the panels were made. For
+                orders that the period does not have, the vectors are 0.
         """
         weighed = (samples * quadrature(self.breaks)[1].reshape(-1)).T
         step = max(_AT_ONCE // len(self.angles), 1)
@@ -58,15 +61,15 @@ class Panels:
             forward.append(turned @ weighed)
             backward.append(np.conj(turned) @ weighed)
         ahead, against = np.concatenate(forward), np.concatenate(backward)
-        against[orders == 0] = 0.0  # a mean stands in one of them
+        against[orders == 0] = 0.0  # a mean is kept in one of both
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
-        there = np.abs(waves - np.rint(waves)) < 0.1  # the period has no others
+        there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has
         ahead[~there] = against[~there] = 0.0
         return ahead, against
 
     def find_largest(self, samples: Complex) -> Peak:
-        """Return the largest size of one force, and the first angle (rad) at which it is reached;
-        at a jump both sides count.
+        """Return the largest size of a force and the first angle (rad) at which it is reached. At a
+        jump both sides count.
         """
         series = self._find_series(samples)
         finer = 2 * _TERMS - 1  # terms of the square
@@ -76,15 +79,15 @@ class Panels:
         return Peak(float(np.sqrt(max(highest.value, 0.0))), highest.angle)
 
     def find_mean_size(self, samples: Complex) -> float:
-        """Return the mean over the period of the size of one force, which has a corner where it
-        passes 0.
+        """Return the mean size of a force over the period. The size has a corner where the force is
+        0.
         """
         series = self._find_series(samples)
         x, y = (PiecewiseCurve(self.breaks, part) for part in (series.real, series.imag))
         return resolved(lambda at: np.hypot(x.within(at), y.within(at)), self.breaks).mean
 
     def _find_series(self, samples: Complex) -> Complex:
-        """Return Legendre coefficients of one force on each panel, shape (terms, panels)."""
+        """Return the Legendre coefficients of a force on each panel, shape (terms, panels)."""
         return np.asarray(values_to_series(_TERMS) @ samples.reshape(_TERMS, -1))
 
 
@@ -92,8 +95,9 @@ def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
     """Return panels for forces that are smooth between breakpoints, fine enough for these orders.
 
     Args:
-        forces: values at angles (rad).
-        breaks: rising, rad; the last a period after the first.
+        forces: Returns the values of all forces at angles (rad).
+        breaks: Rising breakpoints, rad; the last is one period after the first.
+        highest_order: Highest order that is wanted.
     """
 
     def add_squares(angle: Array) -> Array:

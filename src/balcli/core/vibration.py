@@ -1,8 +1,8 @@
 """Mass, damping and stiffness: natural modes, and the motion that harmonic loads cause.
 
-Every motion and load by order is complex, its value in time `Re(c e^{i w t})`. Frequencies w are in
-rad/s and of any shape, commonly (orders, speeds) as `frequencies` makes them; whatever has one
-value for each degree of freedom carries these as its last axis: (orders, speeds, dof).
+Every motion and load of an order is a complex number c; its value in time is `Re(c e^{i w t})`.
+Frequencies w are in rad/s and have any shape, commonly (orders, speeds) from `frequencies`. Arrays
+with a value for each degree of freedom have these as their last axis: (orders, speeds, dof).
 """
 
 from __future__ import annotations
@@ -16,20 +16,20 @@ Real = NDArray[np.floating]
 Complex = NDArray[np.complexfloating]
 Indices = NDArray[np.intp]
 
-UNDAMPED = 2e-9  # a loss factor up to here is none: no machine vibrates for a billion turns
-ROUNDING = 1e-12  # a share of damping, or a distance of two frequencies, up to here is rounding
-_UNMOVED = 1e-10  # a share of the load up to here does not drive a mode
-_SINGULAR = 1e-11  # a motion in which the load does less than this share of all work is a mode
+UNDAMPED = 2e-9  # a loss factor up to here counts as 0: no machine vibrates for a billion turns
+ROUNDING = 1e-12  # a share of damping, or a distance of two frequencies, below this is rounding
+_UNMOVED = 1e-10  # a smaller share of the load does not drive a mode
+_SINGULAR = 1e-11  # if the load does a smaller share of all work, the equations are singular
 _RANK = 1e-13  # singular values below this share of the largest are 0
 
 
 class Modes(NamedTuple):
-    """Natural modes without damping, lowest first; the rigid ones lead.
+    """Natural modes without damping: rigid modes first, then by rising frequency.
 
     Attributes:
-        omega: (modes,) angular frequencies, rad/s; of rigid modes exactly 0.
-        shapes: (modes, dof), of unit modal mass: `shapes M shapes^T = 1`.
-        rigid: how many of them are rigid.
+        omega: Angular frequencies, rad/s, shape (modes,); exactly 0 for rigid modes.
+        shapes: Mode shapes of unit modal mass (`shapes M shapes^T = 1`), shape (modes, dof).
+        rigid: Number of rigid modes.
     """
 
     omega: Real
@@ -38,7 +38,7 @@ class Modes(NamedTuple):
 
 
 class Resonance(NamedTuple):
-    """An undamped mode (its index in `Modes`) met by an order at a speed (rad/s)."""
+    """An undamped mode, by its index in `Modes`, that an order excites at a speed (rad/s)."""
 
     mode: int
     order: float
@@ -49,7 +49,7 @@ class UndampedResonanceError(ValueError):
     """A load drives an undamped mode at its own frequency (rad/s), where no steady motion exists.
 
     Attributes:
-        frequency: rad/s.
+        frequency: Frequency of the mode, rad/s.
     """
 
     def __init__(self, frequency: float) -> None:
@@ -70,14 +70,15 @@ def frequencies(orders: ArrayLike, speeds: ArrayLike) -> Real:
 def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = None) -> Modes:
     """Return natural modes of masses on springs.
 
-    The frequencies are the singular values of `k^1/2 S M^-1/2`, not the roots of the eigenvalues of
-    `(S^T k S, M)`: squaring would lose half the figures of the low ones.
+    The frequencies are the singular values of `k^1/2 S M^-1/2`. The roots of the eigenvalues of
+    `(S^T k S, M)` are the same, but low ones would lose half their digits by the squaring.
 
     Args:
-        springs: S (springs, dof), stretch of each spring for a unit of each motion.
-        stiffness: k (springs,), above 0.
-        mass: M (dof, dof), positive definite, or its diagonal (dof,).
-        rigid: (count, dof), all independent motions that stretch no spring; left out: none.
+        springs: S, stretch of each spring per unit of each motion, shape (springs, dof).
+        stiffness: k of each spring, above 0, shape (springs,).
+        mass: M, positive definite, shape (dof, dof), or its diagonal, shape (dof,).
+        rigid: All independent motions that stretch no spring, shape (count, dof); None: there are
+            none.
     """
     rigid = np.zeros((0, springs.shape[1])) if rigid is None else rigid
     root = np.diag(np.sqrt(mass)) if mass.ndim == 1 else np.linalg.cholesky(mass)  # L: M = L L^T
@@ -87,13 +88,15 @@ def find_modes(springs: Real, stiffness: Real, mass: Real, rigid: Real | None = 
     omega, turned = falling[elastic][::-1], turned[elastic][::-1]
     mixed = np.linalg.qr((rigid @ root).T, mode="r")
     signed = mixed * np.copysign(1, np.diag(mixed))[:, None]
-    still = np.linalg.solve(signed.T, rigid)  # each of unit modal mass, orthogonal to the others
+    still = np.linalg.solve(signed.T, rigid)  # of unit modal mass, orthogonal to each other
     shapes = np.concatenate([still, np.linalg.solve(root.T, turned.T).T])
     return Modes(np.concatenate([np.zeros(len(still)), omega]), shapes, len(still))
 
 
 def scale_shapes(shapes: Real) -> Real:
-    """Return mode shapes (modes, dof) with their largest element +1 (of equal ones the first)."""
+    """Return mode shapes (modes, dof), scaled so that the largest element (the first of equal ones)
+    is 1.
+    """
     size = np.abs(shapes)
     near = size >= size.max(axis=1, keepdims=True) * (1 - 1e-9)
     largest = np.take_along_axis(shapes, np.argmax(near, axis=1)[:, None], axis=1)
@@ -101,15 +104,15 @@ def scale_shapes(shapes: Real) -> Real:
 
 
 def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
-    """Return the loss factor (modes,) of every mode, `x^T (Im K + w C) x / w^2`; rigid modes have
-    0.
+    """Return the loss factor of every mode, `x^T (Im K + w C) x / w^2`, shape (modes,); it is 0 for
+    rigid modes.
 
-    A mode alone at resonance is magnified by its inverse.
+    At resonance, a single mode is magnified by the inverse of its loss factor.
 
     Args:
-        modes: of n degrees of freedom.
-        stiffness: K (n, n) with its loss.
-        damping: C (n, n), N s/m or N m s.
+        modes: Modes of a system with n degrees of freedom.
+        stiffness: K with its loss as imaginary part, shape (n, n).
+        damping: C, N s/m or N m s, shape (n, n).
     """
     x, omega = modes.shapes, modes.omega
     lost = np.einsum("mi,ij,mj->m", x, stiffness.imag, x)
@@ -120,15 +123,15 @@ def modal_loss(modes: Modes, stiffness: Complex, damping: Real) -> Real:
 def find_resonances(
     modes: Modes, loss: Real, orders: Real, speeds: Real, load: Complex
 ) -> tuple[Resonance, ...]:
-    """Return undamped modes that a load drives at their own frequency somewhere in a range of
-    speeds, between the speeds computed too: there, motion has no bound.
+    """Return the undamped modes that a load drives at their own frequency somewhere in a range of
+    speeds, also between the given speeds. The motion has no bound there.
 
     Args:
-        modes: with shapes (modes, dof).
-        loss: (modes,) as of `modal_loss`.
-        orders: (orders,).
-        speeds: (speeds,) rad/s, rising; the range runs from the first to the last.
-        load: that broadcasts to (orders, speeds, dof).
+        modes: Natural modes.
+        loss: Loss factors from `modal_loss`, shape (modes,).
+        orders: Orders of the load, shape (orders,).
+        speeds: Rising speeds, rad/s, shape (speeds,); the range runs from the first to the last.
+        load: Load, which broadcasts to (orders, speeds, dof).
     """
     load = np.broadcast_to(load, (len(orders), len(speeds), modes.shapes.shape[1]))
     undamped = (modes.omega > 0) & (loss <= UNDAMPED)
@@ -142,33 +145,36 @@ def find_resonances(
 
 
 def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Complex) -> bool:
-    """Whether the load (speeds, dof) of one order feeds the mode where it meets it."""
+    """Return whether the load of one order, shape (speeds, dof), drives the mode at its
+    frequency.
+    """
     speed = modes.omega[mode] / order
     if not speeds[0] * (1 - _UNMOVED) <= speed <= speeds[-1] * (1 + _UNMOVED):
         return False
     after = int(np.clip(np.searchsorted(speeds, speed), 1, max(len(speeds) - 1, 1)))
     beside = load[after - 1 : after + 1]
     work = np.abs(beside @ modes.shapes[mode])
-    most = np.abs(modes.shapes).max(axis=0)  # that any mode moves each coordinate
+    most = np.abs(modes.shapes).max(axis=0)  # largest motion of each coordinate in any mode
     return bool(np.any(work > _UNMOVED * (np.abs(beside) @ most)))
 
 
 def solve_response(
     stiffness: Complex, damping: Real, mass: Real, frequency: Real, load: Complex
 ) -> Complex:
-    """Return the motion q (*frequency, dof) under a harmonic load: `(K + i w C - w^2 M) q = f`.
+    """Return the motion q under a harmonic load, `(K + i w C - w^2 M) q = f`, shape (*frequency,
+    dof).
 
-    Where nothing is damped, an undamped mode that is not driven stays at rest at its own frequency.
+    An undamped mode that the load does not drive stays at rest at its own frequency.
 
     Args:
-        stiffness: K (dof, dof), complex where it has loss; or (*frequency, dof, dof).
-        damping: C (dof, dof), or (*frequency, dof, dof).
-        mass: M (dof, dof), positive definite.
+        stiffness: K, complex if it has loss, shape (dof, dof) or (*frequency, dof, dof).
+        damping: C, shape (dof, dof) or (*frequency, dof, dof).
+        mass: M, positive definite, shape (dof, dof).
         frequency: w in rad/s, any shape.
-        load: f that broadcasts to (*frequency, dof).
+        load: f, which broadcasts to (*frequency, dof).
 
     Raises:
-        UndampedResonanceError: a load drives an undamped mode at its own frequency.
+        UndampedResonanceError: A load drives an undamped mode at its own frequency.
     """
     frequency = np.asarray(frequency, float)
     load = np.broadcast_to(load, (*frequency.shape, len(mass)))
@@ -180,14 +186,17 @@ def solve_response(
 def solve_equations(
     matrix: Complex, load: Complex, frequency: Real, singular: NDArray[np.bool_]
 ) -> Complex:
-    """Return solutions (*frequency, n) of equations (*frequency, n, n) of motion, the least ones
-    where these are singular.
+    """Return the solutions of the equations of motion at each frequency, shape (*frequency, n); the
+    smallest ones where the equations are singular.
 
     Args:
-        singular: (*frequency,), where they are known to be so.
+        matrix: Matrices of the equations, shape (*frequency, n, n).
+        load: Right sides, shape (*frequency, n).
+        frequency: Frequencies for error messages, rad/s.
+        singular: Which equations are known to be singular, shape (*frequency,).
 
     Raises:
-        UndampedResonanceError: somewhere there is no solution.
+        UndampedResonanceError: The equations have no solution at a frequency.
     """
     solution = np.zeros(load.shape, complex)
     regular = ~singular

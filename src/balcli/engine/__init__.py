@@ -1,1 +1,1 @@
-"""An engine file in, an `Engine` out: SI arrays, one row a cylinder."""
+"""Build an `Engine` (SI arrays, one row for each cylinder) from an engine file."""

@@ -1,24 +1,24 @@
-"""Engine file -> engine: the page to read first.
+"""Build an engine from its file, in stages. Read this module first.
 
-An engine is a crankshaft with throws, and cylinders in banks: the cylinders of one throw share
-a crank pin, unless it is split. `build` makes it in stages, each a
-function of the stages before it. `engine.parts` makes a stage when it is first needed:
+An engine is a crankshaft with throws, and cylinders in banks. The cylinders of one throw share a
+crank pin, unless it is split. Each stage is a function of earlier stages, and `engine.parts`
+computes it when it is first needed:
 
-1. plan: which cylinders there are, on which bank and throw (`plan_cylinders`),
-2. running gears: piston and rod of each, from the keys that a file may use for them (`find_gears`),
+1. plan: the cylinders with their banks and throws (`plan_cylinders`),
+2. running gears: piston and rod of each cylinder, from the keys that describe them (`find_gears`),
 3. pins: axes of the cylinders and angles of their crank pins, from the throws that the file gives
    or from its firing order (`set_pins`),
-4. masses: what a workshop would weigh (`weigh_cylinders`),
+4. masses: masses as a workshop weighs them (`weigh_cylinders`),
 5. places: positions along the crank (`find_places`),
-6. cylinders: arrays of all these, one row a cylinder (`arrange_cylinders`).
+6. cylinders: arrays of all these, one row for each cylinder (`arrange_cylinders`).
 
-An engine has to keep rules: a rod lets its crank turn, every cylinder is at top dead centre when it
-fires, and so on. The groups of `RULES` go from early stages to late ones; the first group with
-mistakes ends the search, because later rules presuppose earlier ones. A file with mistakes in
-tables that do not make the engine is checked by the same rules (`engine.parse`).
+An engine must obey rules: a rod lets its crank turn, every cylinder is at top dead centre when it
+fires, and so on. The groups of `RULES` are checked from early stages to late ones. The first group
+with mistakes ends the check, because later rules presuppose earlier ones. If other tables of a file
+have mistakes, the same rules are still checked (`engine.parse`).
 
-Variants take the same way: `varied` puts arrays in place of figures of the file, and every stage
-works on arrays as it does on numbers.
+Variants of an engine are built in the same way: arrays in `varied` replace figures of the file, and
+every stage accepts arrays as well as numbers.
 """
 
 from __future__ import annotations
@@ -62,17 +62,17 @@ def build(
     """Return the engine that a file describes, or variants of it.
 
     Args:
-        model: Engine file, each table of it checked.
-        varied: Arrays, which broadcast against each other, in place of some figures, by dotted name
-            (`rod.ratio`, `crank.throws.2`). With given throws and without [gas], the firing order
-            is then ignored.
-        rank: Least number of trailing axes. A figure that does not vary along one has length 1
-            there, and so has everything that is computed from it.
-        gas: Gas of the engine, if it is known already.
+        model: Engine file whose tables are valid.
+        varied: Arrays that replace figures, by dotted name (`rod.ratio`, `crank.throws.2`); they
+            broadcast against each other. The firing order is then ignored if the file gives throws
+            and no [gas].
+        rank: Least number of trailing axes. A figure that does not vary along an axis has length 1
+            there, and so have all results that depend only on such figures.
+        gas: Gas of the engine, if it is already known.
 
     Raises:
         InputError: Tables do not fit together; the error lists the mistakes by path.
-        BalcliError: Figures cannot vary because the file gives others in their place.
+        BalcliError: A figure cannot vary because the file gives other figures instead.
     """
     parts = assemble(model, varied, rank=rank, gas=gas)
     figures, places = parts.figures, parts.places
@@ -116,9 +116,7 @@ def assemble(
     rank: int = 0,
     gas: EngineGas | None = None,
 ) -> Parts:
-    """Return the stages of an engine that keeps all rules. Arguments and errors are those of
-    `build`.
-    """
+    """Return the stages of an engine that obeys all rules; arguments and errors as for `build`."""
     parts = Parts(model, varied, rank, known_gas=gas)
     if problems := find_contradictions(parts):
         raise InputError(problems)
@@ -147,8 +145,8 @@ _NEEDED = frozenset(
 
 
 def list_contradictions(draft: Draft) -> list[Problem]:
-    """Return the contradictions between the tables of a file with mistakes; none if a table that
-    makes the engine cannot be read.
+    """Return the contradictions between the tables of a file that has other mistakes; empty if a
+    table that the engine needs has mistakes.
     """
     return find_contradictions(Parts(draft.model)) if draft.readable >= _NEEDED else []
 
@@ -156,15 +154,15 @@ def list_contradictions(draft: Draft) -> list[Problem]:
 def find_contradictions(parts: Parts) -> list[Problem]:
     """Return the contradictions between tables of a file.
 
-    The rules of a group presuppose those of the groups before it, so that only the first group with
-    mistakes is reported, each mistake once.
+    The rules of a group presuppose those of earlier groups, so only the first group with mistakes
+    is reported. Each mistake is reported once.
     """
     for rules in RULES:
         problems: list[Problem] = []
         for check in rules:
             try:
                 problems += check(parts)
-            except InputError as error:  # a stage that cannot be made
+            except InputError as error:  # a stage cannot be computed
                 problems += error.problems
         if problems:
             return list(dict.fromkeys(problems))
@@ -172,7 +170,7 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
-    """Check that throws and banks make an engine which has all cylinders that tables name."""
+    """Check that throws and banks give all cylinders that have tables."""
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
@@ -185,7 +183,7 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
 def check_rods(parts: Parts) -> Iterator[Problem]:
     """Check that every rod has a moment of inertia and lets its crank turn.
 
-    Whether an articulated rod can follow its knuckle pin depends on its master: `check_knuckles`.
+    `check_knuckles` checks articulated rods, because their motion depends on the master rod.
     """
     model, harmonic = parts.model, parts.model.rod.motion == "harmonic"
     fixed = model.articulation is None and not model.layout.rotary
@@ -227,25 +225,19 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
 
 
 def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
-    """Check that every row has a knuckle angle for each bank, and its master 0."""
-    rows, path = parts.find_knuckle_angles(), "articulation.knuckle_angles"
-    banks, throws = parts.plan.banks, parts.plan.throws
-    if rows is not None and len(rows) != throws:
-        told = f"has {counted(len(rows), 'list')} for {counted(throws, 'row')}"
-        yield Problem(path, f"{told}: give one list for all, or one per row")
-        return
-    for master, angles in zip(parts.find_master_places(), rows or (), strict=False):
-        if len(angles) != banks:
-            told = f"has {counted(len(angles), 'angle')} for {counted(banks, 'bank')}"
-            yield Problem(path, f"{told}: give one for each, the master's own is 0")
-        elif np.any(np.asarray(angles[master - 1]) != 0):
+    """Check that the knuckle angle of every row's master is 0."""
+    rows = parts.find_knuckle_angles() or ()
+    for master, angles in zip(parts.find_master_places(), rows, strict=False):
+        if np.any(np.asarray(angles[master - 1]) != 0):
             angle = max(np.ravel(angles[master - 1]), key=abs)
             told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
-            yield Problem(path, told)
+            yield Problem("articulation.knuckle_angles", told)
 
 
 def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
-    """Return the mistake if no throw carries a master rod and others, or the bank is missing."""
+    """Return the mistake if no throw carries rods of several banks, or the master's bank is
+    missing.
+    """
     banks = plan.banks
     needs = f"needs a throw that carries the rods of several banks; this engine has {banks} bank"
     if banks < 2:
@@ -253,9 +245,6 @@ def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
     if plan.rods_on_throw < banks:
         told = f'{needs}s with rods = "alternating", one rod a throw: give rods = "shared"'
         return Problem("articulation", told)
-    if len(masters) not in (1, plan.throws):
-        told = f"{counted(len(masters), 'master')} for {counted(plan.throws, 'row')}; give one "
-        return Problem("articulation.master", f"{told}from 1 to {banks}, or one per row")
     if (master := max(masters)) > banks:
         told = f"there is no bank {master}; this engine has banks 1 to {banks}"
         return Problem("articulation.master", told)
@@ -271,7 +260,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
     cylinders, numbers = parts.cylinders, parts.numbers
     linkage, lam, eps = cast(Linkage, cylinders.linkage), cylinders.lam, cylinders.eps
     hung = cast(Articulated, linkage.hung if isinstance(linkage, Rotary) else linkage)
-    # Knuckle pins are at most a crank and a knuckle radius away.
+    # A knuckle pin is at most crank radius + knuckle radius away from the axis.
     if np.all(lam * (1 + np.abs(hung.knuckle)) + np.abs(eps) <= 1 - NEAREST_TO_LOCK):
         return
 
@@ -286,7 +275,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
         worst = int(leans[row].argmax())
         before, at, after = (leans[row, (worst + k) % STEPS] for k in (-1, 0, 1))
         bend = 2 * at - before - after
-        # The top of the parabola through the sampled maximum and its neighbours
+        # The vertex of the parabola through the sampled maximum and its neighbours
         lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
         if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
             continue
@@ -302,7 +291,9 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
-    """Check half orders of the speed: they need gas and four strokes, their only cause."""
+    """Check that half orders of the speed are given only with gas and four strokes, which cause
+    them.
+    """
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
@@ -333,8 +324,8 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
 
 
 def check_samples(parts: Parts) -> Iterator[Problem]:
-    """Refuse engines with too many unequal mechanisms whose cranks can barely turn: they would take
-    too long.
+    """Check that not too many different mechanisms are close to locking, because these need many
+    samples.
     """
     c = parts.cylinders
     if parts.rank or c.count * harmonics.HARDEST <= MOST_SAMPLES:
@@ -358,15 +349,16 @@ def check_locomotive(parts: Parts) -> Iterator[Problem]:
 
 
 def check_gas(parts: Parts) -> Iterator[Problem]:
-    """Build the gas in every cylinder; check that keys of single cylinders have [gas] to refer to.
+    """Build the gas of all cylinders. Without [gas], check that no cylinder has gas keys.
 
     Raises:
         InputError: [gas], or a file that it names, has mistakes.
     """
     if parts.model.gas is None:
+        order = parts.model.layout.firing_order or ()
         for number, own in parts.model.cylinder.items():
             for key in ("gas", "heat", "indicator"):
-                dummy = key == "gas" and own.gas == 0
+                dummy = key == "gas" and own.gas == 0 and number not in order
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)

@@ -1,8 +1,8 @@
-"""[gas] and the gas keys of single cylinders -> the gas in an engine's cylinders.
+"""Build the gas in an engine's cylinders from [gas] and the gas keys of single cylinders.
 
 The pressure in a cylinder is measured (`engine.indicator`) or computed from a cycle
-(`core.gas_cycle`); builders' tables give harmonics of the torque in its place. Cylinders with the
-same mechanism and the same source share one torque over their cycle.
+(`core.gas_cycle`); builders' tables give harmonics of the torque instead. Cylinders with equal
+mechanism, diagram and heat share one torque curve.
 """
 
 from __future__ import annotations
@@ -31,19 +31,19 @@ from .layout import find_first
 from .parts import Parts
 
 _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
-# Heat of fuel over pressure times volume of the charge that is doubted: where all air burns it is
-# 34, from 2.95 MJ/kg for petrol and Diesel fuel alike, at 300 K.
+# Above this ratio of heat to pressure x volume of the charge, a warning is given. If all air burns,
+# the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
 
 
 class _Source(NamedTuple):
-    """Gas keys that hold for one cylinder.
+    """The gas keys that apply to one cylinder.
 
     Attributes:
         number: Cylinder number.
         path: Key of its diagram.
-        indicator: Name of the file with its diagram; None without one.
-        heat: Heat supplied in a computed cycle, J; None where the file gives none.
+        indicator: Name of the file with its diagram; None without a diagram.
+        heat: Heat supplied in a computed cycle, J; None if the file gives none.
         heat_path: Key of this heat.
         share: Factor of the gas force.
     """
@@ -57,7 +57,7 @@ class _Source(NamedTuple):
 
 
 def build_gas(parts: Parts) -> EngineGas:
-    """Return the gas of an engine with [gas], whose tables fit together otherwise.
+    """Return the gas of an engine with [gas]; all other tables have been checked.
 
     Raises:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
@@ -127,7 +127,7 @@ def build_gas(parts: Parts) -> EngineGas:
 
 # ------------------------------------------------------------------ keys of the file
 def _vary(parts: Parts) -> Gas:
-    """Return [gas] with the figures that vary in place of its own and of their rivals."""
+    """Return [gas] with varied figures; they replace its own and all that exclude them."""
     gas, varied = parts.model.gas or Gas.model_construct(), parts.figures.of_table("gas")
     if not varied:
         return gas
@@ -156,9 +156,9 @@ def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
 def _list_contradictions(
     parts: Parts, gas: Gas, sources: Sequence[_Source], bore: float | None
 ) -> Iterator[Problem]:
-    """Yield keys of [gas] and of single cylinders that do not fit together."""
+    """Yield the contradictions between [gas], keys of single cylinders and the engine."""
     two_stroke = parts.model.layout.strokes == 2
-    yield from (Problem("gas", fault) for fault in gas.contradictions())  # of figures that vary
+    yield from (Problem("gas", fault) for fault in gas.contradictions())  # from varied figures
     if bore is None:
         yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
@@ -184,8 +184,8 @@ def _list_contradictions(
 def _read_harmonics(
     name: str, columns: NumberColumns, piston: GasPiston, strokes: int
 ) -> GasTorque:
-    """Return the torque of a builders' table, `T/(A r) = a cos(n c) + b sin(n c)`, c counted from
-    the firing dead centre.
+    """Return the torque of a builders' table, `T/(A r) = a cos(n c) + b sin(n c)`, c being the
+    crank angle after the firing dead centre.
 
     Raises:
         BalcliError: The first mistake in the table, by its line.
@@ -222,14 +222,14 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
     """Return the computed cycle of a cylinder.
 
     Raises:
-        InputError: A key from which no cycle can be computed.
+        InputError: No cycle can be computed from a key.
     """
     keys = [field.name for field in fields(Process) if field.name != "strokes"]
     given = {key: getattr(gas, key) for key in keys}
     for key in ("intake", "exhaust", "max_pressure"):
         given[key] = given[key] and given[key] * BAR
     process, goal = Process(strokes=strokes, **given), _find_goal(gas, source)
-    if source.heat == 0:  # it expands as it was compressed
+    if source.heat == 0:  # expansion reverses compression
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
     try:
         return gas_cycle(piston, process, goal)
@@ -238,7 +238,7 @@ def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -
 
 
 def _find_goal(gas: Gas, source: _Source) -> Goal:
-    """Return the figure that a computed cycle has to reach."""
+    """Return the figure that a computed cycle must reach."""
     if source.heat is not None:
         return Goal("heat", source.heat)
     if gas.cut_off is not None:
@@ -251,7 +251,7 @@ def _find_goal(gas: Gas, source: _Source) -> Goal:
 
 
 def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
-    """Return a mistake of a cylinder's cycle by its path in the file."""
+    """Return the mistake in a cylinder's cycle with its path in the file."""
     if error.field == "heat":
         return Problem(source.heat_path, str(error))
     if error.field == "expansion_index" and source.heat == 0:
@@ -263,7 +263,7 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
 
 
 def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -> Iterator[str]:
-    """Yield a warning of more heat than the air of the charge burns."""
+    """Yield a warning if the heat is more than the air of the charge can burn."""
     ratio = gas.compression_ratio or math.nan
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:
@@ -277,8 +277,9 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
 
 # ------------------------------------------------------------------ firing
 def _find_nominal(parts: Parts, tops: Sequence[float]) -> Iterator[float]:
-    """Yield `CylinderGas.nominal_deg` of each row. The first cylinder (`find_first`) fires in
-    [-180, 180) deg of crank angle, each other one next to the angle of the firing order.
+    """Yield `CylinderGas.nominal_deg` of each row. The first cylinder (`find_first`) fires at its
+    dead centre in [-180, 180) deg, every other one at its dead centre nearest to the angle that the
+    firing order gives.
 
     Args:
         parts: Stages of the engine.

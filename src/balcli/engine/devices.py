@@ -55,12 +55,12 @@ def build_device(
     figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
-    """Return one device, SI.
+    """Return a device in SI units.
 
     Args:
         table: Table of an engine file.
-        first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, from which the angle
-            of a counterweight counts. The angles of other devices count from x.
+        first_axis_deg: Direction of cylinder 1's crank pin at crank angle 0, deg. Angles of
+            counterweights count from it, angles of other devices from x.
         figures: Figures of the file.
         path: Dotted name of the table.
     """
@@ -75,7 +75,8 @@ def build_device(
     if isinstance(table, Shaft):
         forward, backward = (turning, 0j) if table.ratio > 0 else (0j, turning)
         return Device(abs(table.ratio), forward, backward, place, z, DeviceKind.SHAFT)
-    # The displacement `U cos(n theta + angle)` is two vectors of half the size, one each way.
+    # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
+    # turn in opposite directions.
     half = unit(take(f"{path}.direction", table.direction)) / 2
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
@@ -85,7 +86,7 @@ def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | 
     """Return mass x radius, kg m.
 
     Raises:
-        InputError: It is still to be fitted.
+        InputError: The unbalance is "fit".
     """
     if device.to_fit:
         command = "run balcli balance FILE --write OUT, which puts a figure in its place"

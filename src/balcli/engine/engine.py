@@ -1,7 +1,5 @@
-"""An engine as all chapters use it: arrays in SI units, one row a cylinder.
-
-`engine.build` makes an `Engine` of an engine file; free forces, torques and curves are computed
-from it.
+"""`Engine`, from which all results are computed: arrays in SI units, one row for each cylinder.
+`engine.build` makes it from an engine file.
 """
 
 from __future__ import annotations
@@ -34,7 +32,9 @@ if TYPE_CHECKING:
 
 
 class Bearings(NamedTuple):
-    """Projected area (diameter times width) of each bearing, m2; None where the file gives none."""
+    """Projected areas (diameter times width) of crank-pin and main bearings, m2; None if the file
+    gives none.
+    """
 
     pin_m2: float | None = None
     main_m2: float | None = None
@@ -44,8 +44,8 @@ class SilentCylinders(NamedTuple):
     """Numbers of the cylinders that do not fire.
 
     Attributes:
-        without_gas: No gas force, not even that of compression.
-        without_burning: Compress and expand, but burn nothing.
+        without_gas: Cylinders without any gas force, not even that of compression.
+        without_burning: Cylinders that compress and expand their charge, but burn nothing.
     """
 
     without_gas: tuple[int, ...] = ()
@@ -53,45 +53,44 @@ class SilentCylinders(NamedTuple):
 
 
 NONE_SILENT = SilentCylinders()
-_ONE_PLACE = 1e-9  # m, within which throws stand in one place
+_ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
 
-    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
-    an engine broadcast against each other.
+    In variants, a figure that varies is an array whose axes are those of the variants ("trailing
+    axes"). All figures of an engine broadcast against each other.
 
     Attributes:
         name: Name in the file; may be empty.
         source: Source of the figures; may be empty.
         numbers: Cylinder number of each row of `cylinders`.
-        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
-            of the variants.
-        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
-            the firing order; empty without a firing order.
+        cylinders: Geometry and masses, one row for each cylinder, sorted by bank.
+        fires_deg: Crank angle at which each cylinder fires, counted from the first, by cylinder
+            number in the firing order; empty without a firing order.
         strokes: 2 or 4.
-        bore_m: Cylinder bore; nan where the file gives none.
+        bore_m: Cylinder bore; nan if the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         throw_radii_m: Crank radius of each throw, of this shape.
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
-        up_deg: Direction that points up, deg from x; None where the file gives none.
+        up_deg: Direction that points up, deg from x; None if the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
-            all throws stand in one plane, and moments have no meaning.
-        gas: Gas in the cylinders; None where the file has no [gas], and for arrays of variants.
-        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
-            None except in sweeps.
+            all throws are in one plane, and moments have no meaning.
+        gas: Gas in the cylinders; None if the file has no [gas], and for arrays of variants.
+        gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
+            (orders,); None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
-            kg m2; None where the file gives none.
-        flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None likewise.
-        bearings: Bearings of the crankshaft; None where the file gives none.
+            kg m2; None if the file gives none.
+        flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
+        bearings: Bearings of the crankshaft; None if the file gives none.
         inferred: Keys that the file leaves out and on which results depend, with the values that
-            are taken (`layout.strokes = 4`).
+            are used (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
     """
 
@@ -145,8 +144,8 @@ class Engine:
         return varied
 
     def explore(self) -> Any:
-        """Return the page of the engine for a notebook: the engine in motion, and its numbers to
-        change.
+        """Return the live page of the engine for a notebook: it shows the engine in motion, and its
+        numbers can be changed.
 
         Raises:
             BalcliError: No file describes this engine.
@@ -154,8 +153,8 @@ class Engine:
         return import_name(EXPLORE)(self)
 
     def to_dict(self) -> Node:
-        """Return the tables of the engine file, from which `load` makes the same engine, with
-        numbers in mm, kg, degrees, rpm.
+        """Return the tables of the engine file, with numbers in mm, kg, degrees and rpm; `load`
+        makes the same engine from them.
 
         Raises:
             BalcliError: No file describes this engine.
@@ -164,13 +163,13 @@ class Engine:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings: unlikely figures of the file, and positions that it does not give."""
+        """Warnings of unlikely figures in the file, and of missing positions."""
         unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
         return (*unknown, *self.unlikely)
 
     @property
     def unlikely(self) -> tuple[str, ...]:
-        """Warnings: figures of the file that are allowed and yet unlikely."""
+        """Warnings of figures in the file that are allowed but unlikely."""
         of_gas = () if self.gas is None else self.gas.doubts
         if self.model is None:
             return of_gas
@@ -184,12 +183,13 @@ class Engine:
         return float(self.speed_rpm) == self.model.operation.speed
 
     def list_assumed(self, *chapters: str, without: Collection[str] = ()) -> tuple[str, ...] | None:
-        """Return the values taken because the file leaves them out, of `inferred`; None: none.
+        """Return the values of `inferred` on which results of some chapters depend; None if there
+        are none.
 
         Args:
             chapters: Tables that count in addition to those of every engine: gas, torsion, body,
                 mount, flywheel.
-            without: Keys that do not count.
+            without: Keys to omit.
         """
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
@@ -221,8 +221,8 @@ class Engine:
 
     @property
     def period_revolutions(self) -> int:
-        """Revolutions after which speed and inertia forces repeat: 2 where the uneven speed has
-        half orders, else 1.
+        """Revolutions after which speed and inertia forces repeat: 2 if the uneven speed has half
+        orders, else 1.
         """
         return 2 if any(line.order % 1 for line in self.ripple) else 1
 
@@ -244,7 +244,7 @@ class Engine:
 
     @property
     def displacement_m3(self) -> Figure:
-        """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        """Swept volume, m3, of all cylinders except dummies, which the firing order leaves out."""
         stroke = find_travel(self.cylinders).stroke
         burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
         volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
@@ -252,8 +252,8 @@ class Engine:
 
     @property
     def rotary(self) -> bool:
-        """Whether the cylinders turn about a crank that stands still. All masses of such cylinders
-        are on a linkage.
+        """Whether the cylinders turn about a crank at rest. All their masses then belong to the
+        linkage.
         """
         c = self.cylinders
         return c.linkage is not None and c.linkage.turning
@@ -273,17 +273,18 @@ class Engine:
 
     @property
     def pins_deg(self) -> dict[int, Figure]:
-        """Angle of each cylinder's crank pin from that of cylinder 1, by number."""
+        """Angle of each cylinder's crank pin from that of cylinder 1, deg, by cylinder number."""
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
 
     @cached_property
     def joined_throws(self) -> tuple[tuple[int, ...], ...]:
-        """Throws of the file (from 0) that are one throw of the crank, from the free end on.
+        """Throws of the file (from 0), grouped into throws of the crank, from the free end on.
 
-        Throws at one angle are one if they stand in one place, or next to each other at less than
-        half a bore and on different banks, as in a file with a throw for each cylinder. Throws
-        without known positions are single, in the order of the file. Where [crank] gives the
-        positions of the throws, the position of a single cylinder moves its rod alone.
+        Throws at the same angle form one throw of the crank if they have the same position. So do
+        neighbours less than half a bore apart with rods of different banks, as in a file with a
+        throw for each cylinder. Without known positions, every throw is single, in the order of the
+        file. If [crank] gives positions of throws, a cylinder's own position moves only its rod,
+        not its throw.
         """
         c, z = self.cylinders, np.ravel(self.pins_m)
         if self.rotary or not self.places_known:
@@ -309,13 +310,13 @@ class Engine:
 
     @property
     def joined_throws_m(self) -> Array:
-        """Position of each of the `joined_throws`, in the middle of its rods, shape (throws,)."""
+        """Position of each of the `joined_throws` (the middle of its rods), m, shape (throws,)."""
         places = np.ravel(self.throws_m)
         return np.array([places[[*throws]].mean() for throws in self.joined_throws])
 
     @property
     def joined_throw_of_rows(self) -> list[int]:
-        """Index of the one of `joined_throws` that each row of `cylinders` is on."""
+        """Index in `joined_throws` of the throw of each row of `cylinders`."""
         index = {throw: k for k, throws in enumerate(self.joined_throws) for throw in throws}
         return [index[masses.throw] for masses in self.weighed]
 
@@ -336,8 +337,8 @@ class Engine:
 
     @property
     def splay_for_even_firing(self) -> float | None:
-        """`crank.splay` (deg) with which several throws would make the cylinders fire evenly in the
-        order of the file; None where no splay does, or the file gives the firing intervals.
+        """Value of `crank.splay` (deg) with which the cylinders fire evenly in the order of the
+        file; None if there is none, for a single throw, or if the file gives firing intervals.
         """
         if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
             return None
@@ -357,8 +358,8 @@ class Engine:
 
     @property
     def mechanical_efficiency(self) -> float | None:
-        """Brake work over indicated work; None where the file does not give it, or a cylinder does
-        not fire and yet has its friction.
+        """Brake work over indicated work; None if the file does not give it, or if some cylinders
+        do not fire, because their friction remains.
         """
         if self.gas is None or any(self.silent):
             return None
@@ -366,11 +367,11 @@ class Engine:
 
 
 def check_engine(function: str, value: object) -> Engine:
-    """Return the engine that a public function was given.
+    """Return the argument of a public function, checked to be an engine.
 
     Args:
         function: Name of the function, for the message.
-        value: Its argument.
+        value: Argument of the function.
 
     Raises:
         TypeError: The value is no engine.

@@ -1,9 +1,9 @@
-"""Figures of an engine file, with arrays of variants in place of some.
+"""Figures of an engine file, some of them replaced by arrays of variants.
 
-The model of a file stays as the file is. Every stage asks `FileFigures` for a figure by its dotted
-name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`) and gets the figure of the file or the
-array that varies in its place, in the unit of the file. `column` makes arrays of the figures of all
-cylinders, one row a cylinder, before any axes of variants.
+The model of a file is never changed. Every stage of `engine.build` asks `FileFigures` for a figure
+by its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`). It returns the figure
+of the file, or the array that varies instead, in the unit of the file. `column` makes an array of
+the figures of all cylinders, with one row for each.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ class FileFigures:
     """Figures of a file, or of variants of it.
 
     Args:
-        varied: Arrays in place of figures, by dotted name. Keys of the same table that give such a
-            figure in another way (`rod.length` next to `rod.ratio`) count as not given.
+        varied: Arrays that replace figures, by dotted name. Keys of the same table that give such a
+            figure in another way (`rod.length` for `rod.ratio`) count as not given ("displaced").
         model: Engine file; needed if something varies.
 
     Raises:
-        BalcliError: Two figures vary that exclude each other; or only one varies of several that
-            belong together (a mass, where the file gives an unbalance).
+        BalcliError: Two figures vary that exclude each other; or a varied figure lacks another one
+            that belongs to it (a mass without a radius, because the file gives an unbalance).
     """
 
     def __init__(
@@ -54,12 +54,12 @@ class FileFigures:
 
         Args:
             path: Dotted name of its key.
-            given: Value in the file; None: none.
+            given: Value in the file; None if it has none.
         """
         return None if path in self._displaced else self._varied.get(path, given)
 
     def take_each(self, path: str, given: Sequence[float]) -> tuple[Figure, ...]:
-        """Return all members of a list, which vary one by one (`crank.throws.2`).
+        """Return all members of a list, each of which may vary (`crank.throws.2`).
 
         Args:
             path: Dotted name of the list's key.
@@ -82,7 +82,7 @@ class FileFigures:
         return (self.take(path, given),) * count
 
     def of_table(self, start: str) -> dict[str, Figure]:
-        """Return the figures of a table that vary, by their keys."""
+        """Return the varied figures of a table, by their keys."""
         return {
             path[len(start) + 1 :]: value
             for path, value in self._varied.items()
@@ -94,7 +94,9 @@ class FileFigures:
         return path in self._displaced
 
     def cylinder_tables(self, model: EngineFile) -> dict[int, Override]:
-        """Return the tables of single cylinders; empty ones where only variants name them."""
+        """Return the tables of single cylinders, with empty tables for cylinders that only `varied`
+        names.
+        """
         if not self._varied:
             return model.cylinder
         parts = [path.split(".") for path in self._varied]
@@ -115,7 +117,7 @@ class FileFigures:
 def _find_rivals(
     start: str, key: str, table: FileTable, varied: Mapping[str, Figure]
 ) -> Iterator[str]:
-    """Yield names of other keys in a table (at `start`) that exclude its varying `key`."""
+    """Yield the names of other keys in a table (at path `start`) that exclude its varied `key`."""
     for other in varied:
         if any(f"{other}.".startswith(f"{start}.{rival}.") for rival in table.rivals(key)):
             raise BalcliError(f"{start}.{key} and {other} give the same figure; vary one of them")
@@ -137,14 +139,14 @@ AS_GIVEN = FileFigures()  # nothing varies
 
 # ------------------------------------------------------------------ rods and single cylinders
 class PendulumTest(NamedTuple):
-    """Pendulum test of a rod: the bore about which it swings, and the period, s."""
+    """Pendulum test of a rod: the bore about which it swings and the period, s."""
 
     pivot: str
     period: Figure
 
 
 class RodFigures(NamedTuple):
-    """Figures of a rod by the keys of [rod], in m, kg, kg m2; None where the file gives none."""
+    """Figures of a rod by the keys of [rod], in m, kg, kg m2; None if the file gives none."""
 
     length: Figure | None = None
     ratio: Figure | None = None
@@ -169,7 +171,9 @@ class RodFigures(NamedTuple):
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
-        """Return the figures with those of one cylinder in place of them and of their rivals."""
+        """Return these figures with those of one cylinder, which replace the same figures and any
+        that exclude them.
+        """
         if not (said := own.given):
             return self
         rivals = {
@@ -209,7 +213,7 @@ def divide(figure: Figure | None, divisor: float) -> Figure | None:
 def rod_figures(
     figures: FileFigures, table: RodKeys | Override, path: str = "rod", prefix: str = ""
 ) -> RodFigures:
-    """Return the figures of rods in [rod], in the table of articulated rods or of one cylinder.
+    """Return the figures of a rod from [rod], [articulation.rod] or the table of a single cylinder.
 
     Args:
         figures: Figures of the file.
@@ -229,7 +233,7 @@ def rod_figures(
     return RodFigures._make((*found, None))
 
 
-_ROUNDING = 1e-9  # share of the largest by which rounding may set equal values apart
+_ROUNDING = 1e-9  # share of the largest value by which equal values may differ from rounding
 
 
 def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
@@ -243,11 +247,11 @@ def place_in_plane(x: Figure, y: Figure) -> complex | Complex:
 
 
 def column(values: Sequence[Figure], rank: int) -> Array:
-    """Return one row for each of the values, shape (len(values), *trailing).
+    """Return an array with one row for each value, shape (len(values), *trailing).
 
     Args:
         values: Numbers or arrays, which broadcast against each other.
-        rank: Number of trailing axes, of length 1, for plain numbers.
+        rank: Number of trailing axes (of length 1) if all values are plain numbers.
     """
     if any(isinstance(value, np.ndarray) for value in values):
         rows: Array = np.stack(np.broadcast_arrays(*values)) + 0.0  # in place: -0.0 becomes 0.0
@@ -268,8 +272,8 @@ def shared_column(values: Sequence[Figure], rank: int) -> Array:
 
 
 def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
-    """Return the row of the largest of values (rows, ...), shape (...); the first of those that
-    differ by rounding alone.
+    """Return the row of the largest of values (rows, ...), shape (...); if several differ only by
+    rounding, the first.
     """
     found = np.asarray(values, float)
     largest = found.max(axis=0)
@@ -277,8 +281,8 @@ def find_first_largest(values: ArrayLike) -> NDArray[np.intp]:
 
 
 def ranked(values: ArrayLike) -> Array:
-    """Return values, of any shape, rounded to ten digits as a key to sort by: values that differ by
-    rounding alone are equal.
+    """Return values of any shape, rounded to ten digits. As sort keys, values that differ only by
+    rounding are then equal.
     """
     mantissa, exponent = np.frexp(np.asarray(values, float))
     return np.ldexp(np.round(mantissa, 10), exponent)

@@ -1,7 +1,6 @@
-"""Gas in an engine's cylinders: torque over the cycle, and firing angle, of each.
-
-The cycle angle of a cylinder is 0 at the upper dead centre of its own mechanism next to which it
-fires; which of the two revolutions of a four-stroke cycle that is, the firing order says.
+"""Gas in an engine's cylinders: the torque over the cycle and the firing angle of each. The cycle
+angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke engine, the
+firing order tells in which of the two revolutions that is.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ class CylinderGas(NamedTuple):
 
     Attributes:
         piston: Mechanism, with the area of the bore.
-        torque: Torque by cycle angle, without the share.
+        torque: Torque over the cycle angle, not yet multiplied by `share`.
         nominal_deg: Crank angle, in [0, 720) or [0, 360), at which the crank pin points along the
             axis of the cylinder when it fires.
         share: Factor of the gas force; 0 is a misfire.
-        heat: Heat supplied in a computed cycle, J; None where the file gives none.
+        heat: Heat supplied in a computed cycle, J; None if the file gives none.
         like: Row of the first cylinder with an equal mechanism, diagram and heat. The two differ
             at most in `nominal_deg` and `share`.
     """
@@ -45,10 +44,10 @@ class CylinderGas(NamedTuple):
 
     def find_pressure(self, angle: Array) -> Array:
         """Return the effective pressure at cycle angles (rad), Pa: the pressure under the piston
-        and the share of the pressure difference.
+        plus `share` of the pressure difference.
 
         Raises:
-            BalcliError: The file gives harmonics of the torque, and no pressures.
+            BalcliError: The file gives harmonics of the torque but no pressures.
         """
         if self.torque.pressure is None:
             raise BalcliError("the file has harmonics of the torque, and no pressures")
@@ -63,8 +62,8 @@ class EngineGas:
     Attributes:
         cylinders: Gas of each row of `Engine.cylinders`.
         cycle_deg: Length of a cycle: 720, or 360 for a two-stroke engine.
-        mechanical_efficiency: Brake work over indicated work; None where the file gives none.
-        compression_ratio: Compression ratio; None where the file gives none.
+        mechanical_efficiency: Brake work over indicated work; None if the file gives none.
+        compression_ratio: Compression ratio; None if the file gives none.
         doubts: Warnings, each with its path in the file.
     """
 

@@ -1,7 +1,7 @@
 """Indicator diagrams: measured cylinder pressures over the crank angle, in CSV files.
 
-The pressure is a straight line between two rows, and periodic. Of several cycles in a file, one
-after the other, the mean is taken.
+The pressure is linear between rows, and periodic. If a file has several cycles, one after the
+other, their mean is used.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import Gas
 from ..file.units import ANGLE, BAR, PRESSURE
 
-ATMOSPHERE = 101325.0  # Pa, what gauge pressures lack
-WIDEST_GAP = 30.0  # deg between two rows; beyond, straight lines say nothing about an engine
-FLAT_GAP = 45.0  # deg; the same while the gas is exchanged, where the pressure hardly changes
-_FLAT = 0.01  # of the highest pressure
-_SAME = 1e-6  # deg; rows so near to one period apart are the two ends of it
+ATMOSPHERE = 101325.0  # Pa, absolute pressure minus gauge pressure
+WIDEST_GAP = 30.0  # deg between two rows; lines over wider gaps tell nothing about an engine
+FLAT_GAP = 45.0  # deg; gap during gas exchange, where the pressure hardly changes
+_FLAT = 0.01  # share of the highest pressure that counts as hardly any change
+_SAME = 1e-6  # deg; rows this close to one period apart are the two ends of it
 _OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
 _SYMBOLS = r"(?:in[-\s_]?)?cyl(?:inder|\.)?[\s_]*press(?:ure)?|press|p(?:[\s_]*cyl(?:inder)?)?"
 HEADS = (
@@ -35,13 +35,14 @@ HEADS = (
 LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
 NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
-SAME_IMEP = 0.03  # by which a diagram may miss the stated mean effective pressure
+SAME_IMEP = 0.03  # relative; larger differences from the stated imep give a warning
 
 
 def build_diagram(
     gas: Gas, path: str, name: str, columns: NumberColumns, strokes: int
 ) -> tuple[PiecewiseCurve, list[str]]:
-    """Return the absolute pressure (Pa) at cycle angles, and warnings of the rows that it leaves.
+    """Return the absolute pressure (Pa) over the cycle angle, and warnings of rows that are not
+    used.
 
     Args:
         gas: Table of the engine file that describes the diagram.
@@ -77,13 +78,13 @@ def build_diagram(
 
 
 def _name_unit(columns: NumberColumns) -> str:
-    """Return the unit of a diagram's pressures, for absolute ones."""
+    """Return the unit of a diagram's pressures, without the g of gauge pressures."""
     return columns.units[1].removesuffix("g")
 
 
 def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array, Array, int]:
-    """Return angles (deg) and pressures of a cycle, and how many cycles the rows have: of several,
-    one after the other, the mean at the angles of the first. Other rows are returned as they are.
+    """Return angles (deg) and pressures of one cycle, and the number of cycles in the rows. Several
+    cycles are averaged at the angles of the first. A single cycle is returned unchanged.
     """
     steps = np.diff(angle)
     starts = np.flatnonzero(steps < -period / 2)  # every cycle counts from its own beginning
@@ -104,21 +105,22 @@ def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array
 
 
 def _is_closed(angle: Array, period: float) -> bool:
-    """Return whether a diagram has a row at both ends of the period; the first holds."""
+    """Return whether a diagram has a row at both ends of the period; the first one is used."""
     return len(angle) > 1 and abs(angle[-1] - angle[0] - period) < _SAME
 
 
 def draw_diagram(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4, firing_deg: float = 0.0
 ) -> PiecewiseCurve:
-    """Return the pressure at cycle angles, of rows without what `find_diagram_mistakes` finds.
+    """Return the pressure over the cycle angle, from rows without mistakes
+    (`find_diagram_mistakes`).
 
     Args:
         angle_deg: Rising angles, shape (rows,).
-        pressure: Absolute, Pa, shape (rows,).
+        pressure: Absolute pressures, Pa, shape (rows,).
         strokes: 4 or 2; the period is 720 or 360 deg.
-        firing_deg: Angle at which the piston is at its firing dead centre: 0 less the phase, or
-            360 less the phase where the diagram counts from the gas-exchange dead centre.
+        firing_deg: Angle of the firing dead centre in the diagram: minus the phase, or 360 minus
+            the phase if angles count from the gas-exchange dead centre.
     """
     angle, values = np.asarray(angle_deg, float), np.asarray(pressure, float)
     period = 180.0 * strokes
@@ -130,8 +132,7 @@ def draw_diagram(
 def find_diagram_mistakes(
     angle_deg: ArrayLike, pressure: ArrayLike, *, strokes: int = 4
 ) -> Iterator[tuple[int | None, str]]:
-    """Yield the mistakes in the rows of a diagram: the row (from 0; None: the whole diagram) and
-    the mistake.
+    """Yield each mistake in a diagram with its row (from 0; None: the whole diagram).
 
     Args:
         angle_deg: Cycle angles, deg, shape (rows,).
@@ -153,7 +154,7 @@ def find_diagram_mistakes(
         yield None, f"covers {span:g}°; a cycle of {strokes} strokes has {period:g}°"
         return
     flat = np.abs(values - np.roll(values, 1)) <= _FLAT * values.max()
-    widest = np.where(flat, FLAT_GAP, WIDEST_GAP)  # behind the row before, or the last
+    widest = np.where(flat, FLAT_GAP, WIDEST_GAP)  # widest gap before each row
     close = f"give rows at most {WIDEST_GAP:g}° apart"
     for row in (np.flatnonzero(np.diff(angle) > widest[1:]) + 1).tolist():
         gap = angle[row] - angle[row - 1]
@@ -168,10 +169,10 @@ def list_doubts(
     """Yield warnings of the pressures of a diagram.
 
     Args:
-        gas: The table of the file.
+        gas: Table [gas] of the file.
         path: Key of the diagram's file.
         columns: Columns of this file.
-        found: Pressure at cycle angles, Pa.
+        found: Pressure over the cycle angle, Pa.
         imep: Indicated mean effective pressure, Pa.
     """
     unit, scale = _name_unit(columns), columns.scales[1] * BAR  # Pa

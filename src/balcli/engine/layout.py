@@ -1,13 +1,13 @@
 """Plan of an engine, and its firing order on the crank.
 
-Plan: banks x throws -> numbered cylinders.
+The plan numbers the cylinders on banks and throws.
 
 Firing (docs/theory.md): cylinder i is at top dead centre when its crank angle is `tau_i`, with `sin
-tau_i = e_i / (r + l_i)`. To fire at `f_i` after cylinder 1 it needs its crank pin at `g_i - g_1 +
-tau_i - tau_1 - f_i`, g the axis of the cylinder. In the functions below, angles are in degrees and
-may be arrays of variants, and by number of the cylinder: `fires` when each fires, `pins` where its
-crank pin stands, `tops` where the pin stands at top dead centre, `g_i + tau_i`. `sense` is -1 where
-the cylinders turn and the pins stand still; `tops` is then `g_i - tau_i`.
+tau_i = e_i / (r + l_i)`. To fire at `f_i` after cylinder 1, it needs its crank pin at `g_i - g_1 +
+tau_i - tau_1 - f_i`, where g is the axis of a cylinder. In the functions below, angles are in
+degrees, may be arrays of variants, and are given by cylinder number: `fires` is the firing angle,
+`pins` the angle of the crank pin, `tops` the angle of the pin at top dead centre, `g_i + tau_i`.
+`sense` is -1 if the cylinders turn about a crank at rest; `tops` is then `g_i - tau_i`.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def plan_cylinders(model: EngineFile) -> Plan:
     throws = max(cylinders // rods, 1) if crank.throws is None else len(crank.throws)
     if crank.throws is None and not cylinders and layout.rows is not None:
         throws = layout.rows
-    if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # more than there is memory for
+    if max(banks, throws, throws * banks * shared) > MOST_PARTS:  # memory might not suffice
         told = (
             f"{counted(banks, 'bank')} on {counted(throws, 'throw')} are too many; "
             f"no engine has more than {MOST_PARTS} cylinders"
@@ -222,7 +222,7 @@ def _check_firing_order(
     model: EngineFile, numbers: Sequence[int], throws: int
 ) -> Iterator[Problem]:
     """Check that the firing order has every cylinder once; dummies, which have no gas, may be left
-    out. If it has one cylinder for each throw, the message proposes one rod a throw.
+    out. If its length is the number of throws, the message proposes alternating rods.
     """
     layout, order = model.layout, model.layout.firing_order
     silent = {number for number, own in model.cylinder.items() if own.gas == 0}
@@ -245,7 +245,7 @@ def _check_firing_order(
 
 
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
-    """Return in words which of the wanted numbers are missing or doubled, and which are unknown."""
+    """Return in words which numbers are missing, doubled or unknown."""
     times = Counter(given)
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
@@ -256,7 +256,7 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
 
 
 def _join(numbers: Sequence[int]) -> str:
-    """Return `1 and 2`, or `1, 2, 3`."""
+    """Return numbers as text: `1 and 2`, or `1, 2, 3`."""
     return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))
 
 
@@ -267,7 +267,7 @@ def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()
     Args:
         model: Engine file.
         plan: Its cylinders.
-        varied: Names of figures that vary, which thus are given as well.
+        varied: Names of figures that vary, which count as given.
     """
     crank = model.crank
     said = crank.spacing is not None or crank.positions is not None or "crank.spacing" in varied
@@ -282,7 +282,7 @@ TOLERANCE_DEG = 1.0
 def find_instants(
     order: Sequence[int], intervals: Sequence[Figure] | None, cycle: float
 ) -> dict[int, Figure]:
-    """Return the angle at which each cylinder fires, after the first, by its number.
+    """Return the angle at which each cylinder fires, counted from the first, by cylinder number.
 
     Args:
         order: Firing order, numbers of cylinders.
@@ -297,8 +297,8 @@ def find_instants(
 def find_pins(
     fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
 ) -> dict[int, Array]:
-    """Return the crank pin angle that each cylinder needs, from that of `find_first`, deg in [0,
-    360).
+    """Return the crank pin angle that each cylinder needs, counted from the pin of `find_first`,
+    deg in [0, 360).
 
     Args:
         fires: Crank angle of firing by cylinder, deg.
@@ -313,18 +313,18 @@ def find_pins(
 
 
 def find_first(fires: Mapping[int, Figure]) -> int:
-    """Return the cylinder from which firing angles count: 1, or the first of the firing order where
+    """Return the cylinder from which firing angles count: 1, or the first of the firing order if
     cylinder 1 is a dummy.
     """
     return 1 if 1 in fires else next(iter(fires))
 
 
 def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: float) -> list[float]:
-    """Return the intervals of a firing order on a given crank, from each firing to the next: the
+    """Return the intervals from each firing to the next of a firing order on a given crank: the
     shortest that the dead centres (`find_dead_centres`) allow.
 
-    Turns that are left over (an even parallel twin fires after 360 and 360 degrees, but its pins
-    give 0) are added to the shortest intervals, of equal ones to the last.
+    If they take less than a cycle, the missing turns are added to the shortest intervals, among
+    equal ones to the last: an even parallel twin fires every 360 degrees, but its pins give 0.
 
     Args:
         order: Firing order, numbers of cylinders.

@@ -1,4 +1,4 @@
-"""Engines of a file: loaded, changed, or built for one variant after the other."""
+"""Load an engine from a file, change its keys, or build its variants one after the other."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def load(source: str | Path | Mapping[str, object]) -> Engine:
         source: Path of an engine file, "-" for standard input; or its content: a text of several
             lines (TOML), or a dict of its tables, such as `{"crank": {"stroke": 90}, "rod":
             {"length": 150}, "piston": {"mass": 0.5}}`. Bare numbers are mm, kg, degrees, rpm; a
-            text has its own unit ("3.5 in"); None counts as not given.
+            text has its unit ("3.5 in"); None counts as not given.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -147,7 +147,7 @@ Key = TypeVar("Key")
 Value = TypeVar("Value")
 Asked = TypeVar("Asked")
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
-_KEPT = 64  # variants that are remembered: as many as are computed at a time
+_KEPT = 64  # variants that are cached: as many as are computed at a time
 
 
 SPEED = "operation.speed"
@@ -156,8 +156,8 @@ SPEED = "operation.speed"
 def choose_speeds(
     engine: Engine, values: Mapping[str, float], usual: Callable[[Engine], Real]
 ) -> Real:
-    """Return the speeds (rpm) over which a quantity of a variant is the largest: the speed of the
-    variant alone where it is among the values that vary, else the usual ones.
+    """Return the speeds (rpm) over which the largest value of a quantity is sought: only the
+    variant's speed if that varies, else the usual speeds.
 
     Args:
         engine: Engine of the variant.
@@ -168,8 +168,8 @@ def choose_speeds(
 
 
 class EngineVariants:
-    """Builds variants of an engine one by one, and caches the last ones. The gas is computed again
-    only for variants that differ in more than masses or speed.
+    """Builds variants of an engine one by one and caches the last ones. The gas is computed again
+    only if a figure varies on which it depends (`concerns_gas`).
 
     Args:
         model: Engine file.
@@ -181,7 +181,7 @@ class EngineVariants:
         self._gas: dict[Values, EngineGas | None] = {}
 
     def build(self, values: Mapping[str, float]) -> Engine:
-        """Return the engine with these figures, by dotted name, in place of the file's.
+        """Return the engine with these figures (by dotted name) instead of the file's.
 
         Raises:
             InputError, BalcliError: No engine can have these figures.
@@ -200,7 +200,7 @@ class FiguresOfVariants(EngineVariants, Generic[Asked]):
     """Evaluates quantities of variants of a file one by one.
 
     Args:
-        evaluate: Function of an engine and quantities to the value of each.
+        evaluate: Function that returns the values of quantities of an engine.
         model: Engine file.
         quantities: Quantities that the engine has.
     """
@@ -215,7 +215,7 @@ class FiguresOfVariants(EngineVariants, Generic[Asked]):
         self._evaluate, self._quantities = evaluate, quantities
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """Return the value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for the variant with these figures (by dotted name).
 
         Raises:
             InputError, BalcliError: No engine can have these figures, or a quantity is not known.
@@ -224,7 +224,7 @@ class FiguresOfVariants(EngineVariants, Generic[Asked]):
 
 
 def remember(known: dict[Key, Value], key: Key, make: Callable[[], Value]) -> Value:
-    """Return the value of a key, made if it is new; the cache is emptied when it is full.
+    """Return the cached value of a key; make it if it is new. A full cache is emptied.
 
     Args:
         known: Cache.

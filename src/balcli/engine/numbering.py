@@ -1,19 +1,20 @@
-"""Which engine a file means: the usual numberings of cylinders, and which of them fit.
+"""Infer the numbering of cylinders from a firing order, or list the engines that a file may mean.
 
-The numbers of a firing order mean an engine only with a place for each number. Makers count bank by
-bank (B: 1-2-3, 4-5-6) or along the crank (O: 1-3-5, 2-4-6), and which bank comes first differs, so
-that one order can mean several engines with different moments. A numbering *fits* if, with all keys
-of the file, every cylinder is at its dead centre within 1 deg when it fires. A file without
+A firing order describes an engine only if each number has a known place (bank and throw). Makers
+number bank by bank (1-2-3, 4-5-6) or along the crank (1-3-5, 2-4-6), and begin with different
+banks. So one order can mean several engines with different moments. A numbering *fits* if, with all
+keys of the file, every cylinder is within 1 deg of its dead centre when it fires. A file without
 `layout.numbering` is read by these rules:
 
-- With given throws, bank by bank is meant if it fits.
-- Without, the usual numberings are tried in three tiers, and the first tier in which any fits
-  decides. One engine in the first tier is used; several engines, or engines of a later tier alone,
-  are listed for the user to choose from.
-- Two numberings describe the same engine if every place (throw, bank) fires at the same angle, but
-  for one shift.
+- If the file gives throws, numbering bank by bank is used if it fits.
+- Otherwise the usual numberings are tried in three tiers, from the most usual on; the first tier
+  with a numbering that fits decides. If this is the first tier and it means one engine, that is
+  used. Otherwise the user has to choose among the engines.
+- Two numberings describe the same engine if the firing angles of all places (throw, bank) differ by
+  the same shift.
 
-A numbering that the file gives is not doubted; if it does not fit, other keys are proposed.
+A numbering that the file gives is taken as true; if it does not fit, changes of other keys are
+proposed.
 """
 
 from __future__ import annotations
@@ -49,8 +50,8 @@ from .layout import (
 )
 from .parts import Parts
 
-LIST_LENGTH = 3  # engines among which a user is asked to choose
-NARROW_DEG = 30.0  # between the banks of one block with one head: their axes miss the crank
+LIST_LENGTH = 3  # largest number of engines in a list to choose from
+NARROW_DEG = 30.0  # largest bank angle of a block with one head, whose axes miss the crank
 FREE_END = (
     "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
     "the other way round."
@@ -90,7 +91,7 @@ def list_tiers(plan: Plan, *, radial: bool) -> Iterator[list[Rows]]:
 
 
 def _number_rows(plan: Plan, cells: Iterable[Cell]) -> Rows:
-    """Return the numbering that counts the cells in this order."""
+    """Return the numbering in which the cells are counted in this order."""
     numbers = {cell: number for number, cell in enumerate(cells, 1)}
     return tuple(tuple(numbers[cell] for cell in group) for group in plan.groups)
 
@@ -106,10 +107,10 @@ class Candidate:
     """An engine that a file may mean.
 
     Attributes:
-        model: The file with `layout.numbering` and, where these make it fit, other firing
-            intervals or another splay.
-        numberings: Numberings of this engine, the one of `model` first.
-        change: The other key that makes it fit, with its value; may be empty.
+        model: The file with `layout.numbering` and, if needed to fit, other firing intervals or
+            another splay.
+        numberings: Numberings that describe this engine; the first is that of `model`.
+        change: Other key and value that are needed to fit; may be empty.
     """
 
     model: EngineFile
@@ -130,8 +131,8 @@ class Candidate:
         return min(_list_gaps(self.parts)) >= least_interval - TOLERANCE_DEG
 
     def is_same(self, other: Candidate) -> bool:
-        """Return whether every place fires at the same angle in both engines, but for one shift;
-        modulo the cycle if the file has gas, else modulo 360 deg.
+        """Return whether the firing angles of all places differ by the same shift between both
+        engines, modulo the cycle if the file has gas, else modulo 360 deg.
         """
         turn = TURN if self.model.gas is None else cycle_deg(self.model.layout)
         mine, theirs = (
@@ -144,8 +145,8 @@ class Candidate:
 
     @cached_property
     def balance(self) -> tuple[Phasors, Phasors]:
-        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file; for throws
-        0.1 m apart where the file gives no spacing.
+        """Free force (N) and moment (N m) of orders 1 and 2 at the speed of the file, with throws
+        0.1 m apart if the file gives no positions.
         """
         model, orders = self.model, np.array([1.0, 2.0])
         if not self._places_known:
@@ -162,8 +163,8 @@ class Candidate:
 
     @property
     def backward_share(self) -> float:
-        """Part of order 1 that turns against the crank, over the first order of the largest
-        cylinder, of force and moment the larger; moments count where their arms are known.
+        """Backward vector of order 1 relative to the first order of one cylinder: the larger of
+        force and moment. Moments are ignored if the positions are not known.
         """
         force, moment = (float(abs(p.backward[0])) for p in self.balance)
         parts, c = self.parts, self.parts.cylinders
@@ -178,7 +179,7 @@ class Candidate:
         return are_places_known(self.model, self.parts.plan)
 
     def describe(self) -> str:
-        """Return the line of this engine in a list: keys to copy, throws, balance."""
+        """Return the line for this engine in a list: keys to copy, throws, forces and moments."""
         keys = f"layout.numbering = {write_rows(self.numberings[0])}"
         force, moment = (
             " and ".join(f"{v:.4g}" for v in sizes) for sizes in (p.major for p in self.balance)
@@ -200,8 +201,9 @@ class Candidate:
         )
 
     def rank(self, position: int) -> tuple[float, ...]:
-        """Return the key to sort lines by: force and moment that counterweights leave, splay, and
-        position in the tier; with one rod a throw, odd and even numbers before bank by bank.
+        """Return the sort key of a line: force and moment that counterweights cannot cancel, splay,
+        and position in the tier. With one rod on each throw, odd and even numbers come before bank
+        by bank.
         """
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
@@ -212,15 +214,15 @@ class Candidate:
 def _change(
     model: EngineFile, path: str, value: float | Sequence[float], numberings: Sequence[Rows] = ()
 ) -> Candidate:
-    """Return the engine of a file with another value of a key."""
+    """Return the candidate of a file with another value of a key."""
     table, _, key = path.partition(".")
     text = f"{value:g}" if isinstance(value, (int, float)) else f"[{_join(value)}]"
     return Candidate(model.with_table(table, **{key: value}), [*numberings], f"{path} = {text}")
 
 
 def find_missed(parts: Parts) -> list[Problem]:
-    """Return the mistake of the first cylinder that is not at its dead centre when it fires;
-    articulated rods may be at their true dead centres, or at their nominal ones.
+    """Return the mistake of the first cylinder that is not at its dead centre when it fires.
+    Cylinders with articulated rods may fire at their true or at their nominal dead centres.
     """
     if parts.order is None:
         return []
@@ -234,8 +236,9 @@ def find_missed(parts: Parts) -> list[Problem]:
 
 
 def find_fitting_splay(model: EngineFile) -> float | None:
-    """Return `crank.splay` (deg) with which the cylinders of a file fire in its order and at its
-    intervals, evenly where it gives none; None where no splay does, or without a firing order.
+    """Return the value of `crank.splay` (deg) with which the cylinders fire in the order and at the
+    intervals of the file (evenly if it gives none). Return None if there is no such splay, or no
+    firing order.
     """
     parts = Parts(model)
     if parts.order is None or parts.plan.rods_on_throw == 1:
@@ -260,8 +263,8 @@ def _list_gaps(parts: Parts) -> list[float]:
 
 # ------------------------------------------------------------------ the rules
 def is_open(parts: Parts) -> bool:
-    """Return whether the file leaves open which cylinder has which number: it has several banks, a
-    firing order and no numbering, and gives no cylinder a bank or throw of its own.
+    """Return whether the file leaves the numbering open: it has several banks and a firing order,
+    but neither a numbering nor a bank or throw of a single cylinder.
     """
     layout = parts.model.layout
     own = parts.model.cylinder.values()
@@ -271,17 +274,18 @@ def is_open(parts: Parts) -> bool:
 
 
 def infer_numbering(model: EngineFile) -> EngineFile:
-    """Return the file with the numbering that it leaves out, if the throws are left out as well and
-    the rules decide on one; else the file as it is.
+    """Return the file with an inferred numbering if it gives neither numbering nor throws and the
+    rules find a single engine; else the file unchanged.
 
-    The key counts as not given: it is not in `model_fields_set` and is not written.
+    The inferred key still counts as not given: it is not in `model_fields_set`, and is not written
+    to files.
     """
     parts = Parts(model)
     try:
         if not is_open(parts) or parts.throws_given:
             return model
         engines, tier = find_engines_meant(parts)
-    except InputError:  # which the rules of `engine.build` report
+    except InputError:  # the rules of `engine.build` report it
         return model
     if tier != 1 or len(engines) != 1:
         return model
@@ -291,8 +295,8 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
 
 def check_numbering(parts: Parts) -> Iterator[Problem]:
-    """Find a firing order that does not fit the crank, or that could mean several engines. Varying
-    figures do not affect this.
+    """Check that the firing order fits the crank and means a single engine. Varied figures do not
+    affect this.
     """
     missed = find_missed(parts)
     if is_open(parts):
@@ -324,10 +328,11 @@ def check_numbering(parts: Parts) -> Iterator[Problem]:
 
 
 def find_engines_meant(parts: Parts) -> tuple[list[Candidate], int]:
-    """Return the engines that the usual numberings of the first tier describe in which any fits,
-    the better balanced first, and that tier from 1; none and 0 if none fits.
+    """Return the engines of the first tier of usual numberings in which any fits, best balanced
+    first, and the number of that tier (from 1). If no numbering fits, return an empty list and 0.
 
-    With given throws and no intervals, firings nearer than half the even interval do not fit.
+    If the file gives throws and no intervals, a numbering does not fit if two firings are closer
+    than half the even interval.
     """
     layout = parts.model.layout
     least = 0.0
@@ -342,7 +347,7 @@ def find_engines_meant(parts: Parts) -> tuple[list[Candidate], int]:
 
 
 def _number(model: EngineFile, tier: Iterable[Rows]) -> list[Candidate]:
-    """Return an engine for each numbering of a tier, each once."""
+    """Return a candidate for each different numbering of a tier."""
     numberings = dict.fromkeys(tier)
     return [Candidate(model.with_table("layout", numbering=rows), [rows]) for rows in numberings]
 
@@ -355,8 +360,8 @@ def _split_pins(one: Candidate) -> Iterator[Candidate]:
 
 
 def _find_remedies(parts: Parts) -> list[Candidate]:
-    """Return the engines that fit with the intervals of shared pins, and then those that fit with
-    another splay, of the numberings of the first tier; none where the file gives the splay.
+    """Return the engines of the first tier that fit with the uneven intervals of shared pins, then
+    those that fit with another splay. There are none if the file gives the splay.
     """
     model, plan = parts.model, parts.plan
     two_on_throw = plan.banks == 2 and plan.rods_on_throw == 2
@@ -376,8 +381,8 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
 
 
 def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
-    """Yield the intervals of two rods on one pin: the bank angle and the rest of two even intervals
-    in turn, begun with either.
+    """Yield the intervals of two rods on one pin: the bank angle alternates with the rest of two
+    even intervals; either may be first.
     """
     first, second = map(float, bank_angles(parts.model.layout, parts.figures))
     both = 2 * cycle_deg(parts.model.layout) / len(parts.plan.cells)
@@ -390,7 +395,7 @@ def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
 
 
 def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]:
-    """Return one candidate for each different engine, the better balanced first."""
+    """Return one candidate for each different engine, best balanced first."""
     engines: list[Candidate] = []
     for one in fitting:
         twin = next(filter(one.is_same, engines), None)
@@ -403,8 +408,9 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 
 # ------------------------------------------------------------------ a numbering that does not fit
 def _suggest(parts: Parts) -> str:
-    """Return other keys with which every cylinder fires at its dead centre, in words; else empty:
-    intervals begun one later, a usual numbering, throws the other way round, others, another splay.
+    """Return in words changes of one key with which every cylinder fires at its dead centre; empty
+    if none helps. Tried are intervals that begin one firing later, a usual numbering, throws with
+    opposite sign, other throws, and another splay.
     """
     if parts.varies:
         return ""
@@ -421,7 +427,7 @@ def _suggest(parts: Parts) -> str:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         ways.append(_change(model, "crank.throws", throws))
         ways[-1].change += ", which count in the sense of rotation"
-        if len(throws) > 1:
+        if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
             needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
     if "splay" not in model.crank.model_fields_set:
@@ -433,8 +439,8 @@ def _suggest(parts: Parts) -> str:
 
 # ------------------------------------------------------------------ what a file leaves out
 def list_inferred(parts: Parts) -> Iterator[str]:
-    """Yield keys with values that are taken because the file leaves them out, where results depend
-    on them: `layout.strokes = 4`.
+    """Yield the keys that the file leaves out and on which results depend, with the values that are
+    used: `layout.strokes = 4`.
     """
     if not parts.rank:
         yield from _list_firing(parts)
@@ -462,8 +468,9 @@ def _list_firing(parts: Parts) -> Iterator[str]:
 
 
 def _list_defaults(parts: Parts) -> Iterator[str]:
-    """Yield the defaults of speed, places, masses, inertias and gas that the file does not give:
-    inertias of rods as of two masses at the ends, the piston offset for a narrow vee.
+    """Yield the defaults of speed, positions, masses, inertias and gas that the file does not give.
+    The inertia of a rod is that of two masses at its ends; the piston offset is listed for a narrow
+    vee.
     """
     model, gas, hinged = parts.model, parts.model.gas, parts.model.articulation
     crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
@@ -502,7 +509,7 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
 
 
 def _count_throws_from_first(parts: Parts) -> list[float]:
-    """Return the angle of each throw after the first one, deg, in [0, 360)."""
+    """Return the angle of each throw from the first one, deg, in [0, 360)."""
     throws = [float(parts.pins.throws_deg[t]) for t in range(parts.plan.throws)]
     return [round(throw - throws[0], 3) % TURN for throw in throws]
 
@@ -521,8 +528,9 @@ USUAL_FLAT_ORDERS = {
 
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings: a numbering that was inferred, a crank of an order that nobody builds, throws
-    with which all fire in one revolution of two; without an order, a splay of the wrong sign.
+    """Yield warnings of unlikely firing: a less usual numbering was inferred, nobody builds the
+    crank for this order, or the throws make all cylinders fire within one of two revolutions.
+    Without a firing order, warn of a splay of the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
@@ -555,7 +563,9 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
 
 
 def _doubt_splay(model: EngineFile) -> Iterator[str]:
-    """Yield a warning if split pins leave a part that the opposite splay would balance."""
+    """Yield a warning if split pins leave a backward vector of order 1 that the opposite splay
+    would balance.
+    """
     splay = model.crank.splay
     opposite = model.with_table("crank", splay=-splay)
     here, there = (Candidate(each, []).backward_share for each in (model, opposite))
@@ -568,10 +578,10 @@ def _doubt_splay(model: EngineFile) -> Iterator[str]:
 
 
 def _find_usual_orders(parts: Parts) -> str:
-    """Return usual firing orders if nobody builds the crank of this one, else an empty text. The
-    usual crank of an engine in line is its own mirror image end for end, that of a usual five, or
-    of an eight two cranks of fours at 90 deg; pins of neighbouring cylinders of a flat engine stand
-    180 deg apart.
+    """Return usual firing orders if nobody builds the crank of this engine, else an empty text.
+    Usual cranks of in-line engines are symmetrical end for end, have one of the usual orders of
+    five cylinders, or are two cranks of fours at 90 deg. In a flat engine, pins of neighbouring
+    cylinders are 180 deg apart.
     """
     throws, plan = _count_throws_from_first(parts), parts.plan
     angles = [*map(float, bank_angles(parts.model.layout, parts.figures))]
@@ -597,7 +607,7 @@ def _are_opposite(first: float, second: float) -> bool:
 
 
 def write_rows(rows: Sequence[Sequence[int]]) -> str:
-    """Return a numbering as a file has it."""
+    """Return a numbering in the form that a file has."""
     return str([list(row) for row in rows])
 
 

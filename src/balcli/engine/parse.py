@@ -1,7 +1,7 @@
-"""Text or tables of an engine file -> its checked model.
+"""Turn text or tables of an engine file into its checked model.
 
-All mistakes are reported at once, each by its path in the file and with what would be right. Where
-some tables cannot be read, the rules of `engine.build` check the others.
+All mistakes are reported at once, each with its path in the file and a remedy. If some tables have
+mistakes, the rules of `engine.build` still check the others.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
     """Return the model of an engine that a text describes.
 
     Args:
-        text: TOML.
-        name: Name of its file, for messages.
+        text: Text of the file (TOML).
+        name: Name of the file, for messages.
 
     Raises:
-        InputError: The text has mistakes; the error lists all of them, and the contradictions
-            between the tables that could be read.
+        InputError: The text has mistakes; the error lists all of them, and contradictions between
+            the tables without mistakes.
     """
     return _refuse_mistakes(read_tables(text, name), name)
 
@@ -58,7 +58,7 @@ def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> Engi
     """Return the model of an engine that the tables of a dict describe.
 
     Args:
-        tables: Tables as a file has them.
+        tables: Tables in the form of a file.
         folder: Folder of the files that they name; default: the working directory.
 
     Raises:

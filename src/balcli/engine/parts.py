@@ -1,11 +1,11 @@
-"""From the tables of an engine file to its parts, in stages: plan, gears, pins, firing angles,
-masses, places, cylinders.
+"""Compute the parts of an engine from the tables of its file, in stages: plan, running gears, pins,
+firing angles, masses, places, cylinders.
 
-Each stage is a function of the stages before it. `Parts` runs a stage when it is first needed, and
-once: a file with mistakes has the stages that its readable tables allow, and a numbering on trial
-needs none beyond its pins.
+Each stage is a function of earlier stages. `Parts` runs a stage once, when it is first needed. So a
+file with mistakes has the stages that its other tables allow, and the trial of a numbering computes
+only the stages up to the pins.
 
-What belongs to a cylinder is keyed by its number. Angles count from x in the sense of rotation.
+Dicts of cylinders have the cylinder numbers as keys. Angles count from x in the sense of rotation.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ from ..core.cylinders import Cylinders, find_travel
 from ..core.mechanisms.linkage import Articulated, Rotary
 from ..core.phasors import Array, Figure, unit
 from ..core.speed_ripple import RippleLine
+from ..errors import InputError, Problem
+from ..file.fields import counted
 from ..file.model import PISTON_PARTS, Articulation, EngineFile
 from .figures import (
     FileFigures,
@@ -63,7 +65,7 @@ def find_masters(parts: Parts) -> dict[int, int]:
 
 
 def find_gears(parts: Parts) -> dict[int, RunningGear]:
-    """Return piston and rod of each cylinder."""
+    """Return piston and rod of each cylinder, by its number."""
     return {n: parts.weigh_gear(parts.find_rod(n, n in parts.masters)) for n in parts.plan.numbers}
 
 
@@ -79,14 +81,16 @@ def find_strokes(parts: Parts) -> dict[int, Figure]:
 
 # ------------------------------------------------------------------ crank pins and firing
 class Pins(NamedTuple):
-    """Axes and crank pins.
+    """Angles of cylinder axes and crank pins, deg.
 
     Attributes:
         axes_deg: Axis of each cylinder.
-        tops_deg: Angle of each cylinder's crank pin at top dead centre. With articulated rods that
-            of the axis: all cylinders of a throw fire evenly only by these nominal dead centres.
-        throws_deg: Angle of each throw (from 0), as given or as the firing order needs it.
-        leads_deg: Crank pin of each cylinder, from cylinder 1's pin.
+        tops_deg: Angle of each cylinder's crank pin at top dead centre. With articulated rods, the
+            angle of the axis (nominal dead centre) is used, because only so all cylinders of a
+            throw fire evenly.
+        throws_deg: Angle of each throw, by its index from 0, as given or as the firing order needs
+            it.
+        leads_deg: Angle of each crank pin from cylinder 1's pin.
     """
 
     axes_deg: dict[int, Figure]
@@ -125,8 +129,8 @@ def set_pins(parts: Parts) -> Pins:
 
 
 def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
-    """Return the angle of each crank pin at top dead centre: with articulated rods as the motion of
-    the piston has it, else `Pins.tops_deg`.
+    """Return the angle of each crank pin at top dead centre, deg: `Pins.tops_deg`, but with
+    articulated rods the true dead centres of the pistons' motion.
     """
     pins = parts.pins
     if parts.model.articulation is None or parts.rank:
@@ -136,7 +140,8 @@ def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
 
 
 def find_fires(parts: Parts) -> dict[int, Figure]:
-    """Return when each cylinder fires, after the first of the firing order; empty without one.
+    """Return the firing angle of each cylinder, deg, from the first of the firing order; empty
+    without a firing order.
 
     Raises:
         InputError: The order takes more than a cycle.
@@ -155,7 +160,7 @@ def find_fires(parts: Parts) -> dict[int, Figure]:
 
 
 def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
-    """Return the masses of each cylinder as a workshop weighs them."""
+    """Return the masses of each cylinder as a workshop weighs them, by cylinder number."""
     take, bobweight = parts.figures.take, parts.model.bobweight
     throw_mass, plan = parts.model.crank.throw_mass, parts.plan
     of_throws = parts.figures.take_for_each("crank.throw_mass", throw_mass, plan.throws)
@@ -169,7 +174,7 @@ def weigh_cylinders(parts: Parts) -> dict[int, CylinderMasses]:
         number, hung = cell.number, cell.number in parts.masters
         gear, own = parts.gears[number], parts.override(number, "piston_mass")
         shared: Figure = 0.0
-        if oil_per_pin is not None and not hung:  # over the rods on the same crank pin
+        if oil_per_pin is not None and not hung:  # shared by the rods on the same crank pin
             rods = [c.number for c in parts.plan.cells if c.throw == cell.throw]
             apart = (leads[n] - leads[number] for n in rods if n not in parts.masters)
             together = (np.abs((angle + 180) % 360 - 180) < 1e-9 for angle in apart)
@@ -193,11 +198,12 @@ class Places(NamedTuple):
     """Places along the crank, m.
 
     Attributes:
-        z: Position of each cylinder.
+        z: Position of each cylinder, by its number.
         throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
-        pins: Position of each throw as [crank] gives it, else that of the middle of its rods.
-        reference: x, y, z of the point of moments: the file's, or on the crank axis half-way
-            between the first and the last throw.
+        pins: Position of each throw as [crank] gives it, else the middle of its rods, shape
+            (throws, *trailing).
+        reference: x, y, z of the point about which moments are taken: that of the file, or on the
+            crank axis half-way between the first and the last throw.
     """
 
     z: dict[int, Figure]
@@ -222,7 +228,7 @@ def find_places(parts: Parts) -> Places:
         offset = (c.bank - (plan.rods_on_throw - 1) / 2) * stagger if shared else 0.0
         own = parts.override(c.number, "position")
         z[c.number] = value_or(own, along[c.throw] + offset) / 1e3
-        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # of any shape
+        middles[c.throw] = middles[c.throw] + (z[c.number] - offset / 1e3)  # arrays of any shape
     throws = column([middle / plan.rods_on_throw for middle in middles.values()], parts.rank)
     given = any(np.any(place) for place in along)
     pins = column([place / 1e3 for place in along], parts.rank) if given else throws
@@ -237,9 +243,9 @@ def find_places(parts: Parts) -> Places:
 
 # ------------------------------------------------------------------ arrays
 def group_banks(parts: Parts) -> dict[int, list[int]]:
-    """Return the numbers of the cylinders with one axis at every variant, by the first of them, in
-    the order of the plan. The cylinders of a rotary engine have one axis where their crank pins
-    stand still together.
+    """Return groups of cylinder numbers that have the same axis in every variant, in the order of
+    the plan, by the first number of each group. In rotary engines, where axes and pins are
+    exchanged (`_turn`), cylinders with the same pin form a group.
     """
     banks: dict[bytes, list[int]] = {}
     for number, axis in _turn(parts)[0].items():
@@ -249,8 +255,8 @@ def group_banks(parts: Parts) -> dict[int, list[int]]:
 
 
 def _turn(parts: Parts) -> tuple[Mapping[int, Figure], Mapping[int, Figure]]:
-    """Return axes and crank pins after cylinder 1's; where the cylinders turn and the pins stand
-    still, the two change places (`core.mechanisms.linkage.Rotary`).
+    """Return the angles of axes, and of crank pins from cylinder 1's. In rotary engines, where
+    cylinders turn about pins at rest, the two are exchanged (`core.mechanisms.linkage.Rotary`).
     """
     axes, leads = parts.pins.axes_deg, parts.pins.leads_deg
     if not parts.model.layout.rotary:
@@ -264,11 +270,11 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     """Return the arrays of all cylinders, one row each, sorted by bank (`Parts.numbers`)."""
     (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
     gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.find_radius
-    one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder has figures of its own
+    one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder differs from the others
     one = one and not isinstance(parts.model.crank.throw_mass, tuple)
 
     def of_each(find: Callable[[int], Figure]) -> Array:
-        """Return a figure of piston and rod, one row for all where they are equal."""
+        """Return a figure of all cylinders, as a single row if they are equal."""
         return shared_column([find(n) for n in (numbers[:1] if one else numbers)], rank)
 
     at_pistons = of_each(lambda n: weighed[n].reciprocating)
@@ -298,8 +304,8 @@ def _link(parts: Parts, at_pistons: Array) -> Linkage | None:
     """Return the mechanism of articulated rods or turning cylinders; None for plain slider-cranks.
 
     Args:
-        parts: The stages before.
-        at_pistons: Masses at the piston pins, kg, one row a cylinder or one for all.
+        parts: Stages of the engine.
+        at_pistons: Masses at the piston pins, kg: one row for each cylinder, or a single row.
     """
     table, rotary = parts.model.articulation, parts.model.layout.rotary
     if table is None:
@@ -312,8 +318,8 @@ def _link(parts: Parts, at_pistons: Array) -> Linkage | None:
 
 
 def _hang_rods(parts: Parts, table: Articulation) -> Articulated:
-    """Return the mechanism of master and articulated rods. Seen from turning cylinders all angles
-    are mirrored.
+    """Return the mechanism of master and articulated rods. Seen from turning cylinders, all angles
+    change sign.
     """
     numbers, masters, axes, rank = parts.numbers, parts.masters, parts.pins.axes_deg, parts.rank
     angles = {n: axes[n] - axes[master] for n, master in masters.items()}
@@ -340,10 +346,10 @@ class Parts:
     """The parts of an engine, or of variants of it.
 
     Args:
-        model: The file.
-        varied: Arrays of variants in place of some figures, by dotted name.
-        rank: Trailing axes of the engine, if more than `varied` has.
-        known_gas: Gas of the cylinders, if that is known; else the rules build it.
+        model: Engine file.
+        varied: Arrays of variants that replace figures, by dotted name.
+        rank: Least number of trailing axes.
+        known_gas: Gas of the cylinders, if it is already known; otherwise the rules build it.
     """
 
     plan: cached_property[Plan] = cached_property(lambda self: plan_cylinders(self.model))
@@ -369,25 +375,25 @@ class Parts:
         self.figures = FileFigures(varied or {}, model)
         self.varies = bool(varied)
         self.rank = max(rank, *map(np.ndim, (varied or {}).values()), 0)
-        # In which the crank turns, seen from a cylinder.
+        # Sense in which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
         given = model.crank.throws is not None
-        # Beside given throws a firing order would have to fit every variant; only the gas of a
-        # single one needs it.
+        # With given throws, a firing order would have to fit every variant. Only the gas of a
+        # single variant needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
-        self.tables = self.figures.cylinder_tables(model)  # of single cylinders, by number
+        self.tables = self.figures.cylinder_tables(model)  # tables of single cylinders, by number
         self._gears: dict[tuple[int, int, bool], RunningGear] = {}
 
     @property
     def numbers(self) -> tuple[int, ...]:
-        """Cylinder of each row of `cylinders`."""
+        """Cylinder number of each row of `cylinders`."""
         return tuple(chain.from_iterable(self.banks.values()))
 
     @property
     def throws_given(self) -> bool:
-        """Whether the crank is known without the firing order: the file gives its throws, or it has
-        one, at 0.
+        """Whether the throws are known without the firing order: the file gives them, or the only
+        throw is at 0.
         """
         return self.model.crank.throws is not None or (self.plan.throws == 1 and not self.rank)
 
@@ -403,14 +409,14 @@ class Parts:
 
     @cached_property
     def _general_rods(self) -> tuple[RodFigures, RodFigures]:
-        """Figures that hold for all rods on crank pins, and for all articulated ones."""
+        """General figures of rods on crank pins, and of articulated rods."""
         rod, table = rod_figures(self.figures, self.model.rod), self.model.articulation
         return rod, RodFigures() if table is None else rod_figures(
             self.figures, table.rod, "articulation.rod"
         )
 
     def override(self, number: int, key: str) -> Figure | None:
-        """Return a figure of [cylinder.N] in the unit of the file; None where it gives none.
+        """Return a figure of [cylinder.N] in the unit of the file; None if the file gives none.
 
         Args:
             number: Number N of the cylinder.
@@ -425,8 +431,8 @@ class Parts:
         """Return the figures of a cylinder's rod.
 
         Args:
-            number: Number of the cylinder; 0 stands for what holds for all.
-            articulated: Whether it is an articulated rod.
+            number: Number of the cylinder; 0 for the general figures.
+            articulated: Whether the rod is articulated.
         """
         general, own = self._general_rods[articulated], RodFigures()
         if (table := self.tables.get(number)) is not None:
@@ -434,7 +440,7 @@ class Parts:
         return RodPlace(number, articulated, general.with_own(own), own, general)
 
     def find_piston_masses(self) -> dict[str, Figure]:
-        """Return the masses of the parts of all pistons, kg, by their keys; `mass` of pistons
+        """Return the masses of the parts of a piston, kg, by their keys; only `mass` for pistons
         weighed whole.
         """
         table, take = self.model.piston, self.figures.take_optional
@@ -451,7 +457,9 @@ class Parts:
         return number, throw, place.articulated
 
     def weigh_gear(self, place: RodPlace) -> RunningGear:
-        """Return piston and rod of one cylinder; those without figures of their own share one."""
+        """Return piston and rod of one cylinder; cylinders without figures of their own share one
+        object.
+        """
         number, key = place.number, self.kind_of_rod(place)
         if key not in self._gears:
             offset = self.figures.take("piston.offset", self.model.piston.offset)
@@ -466,7 +474,7 @@ class Parts:
         return self._gears[key]
 
     def find_ripple(self) -> tuple[RippleLine, ...]:
-        """Return the lines of the uneven speed; none of a steady one."""
+        """Return the lines of the uneven speed; empty for a steady speed."""
         take, lines = self.figures.take, []
         for k, line in enumerate(self.model.operation.speed_ripple, 1):
             path = f"operation.speed_ripple.{k}"
@@ -479,7 +487,12 @@ class Parts:
         table = self.model.articulation
         if table is None:
             return ()
-        return table.masters if len(table.masters) > 1 else table.masters * self.plan.throws
+        masters, throws = table.masters, self.plan.throws
+        if len(masters) not in (1, throws):
+            told = f"{counted(len(masters), 'master')} for {counted(throws, 'row')}; give one "
+            told += f"from 1 to {self.plan.banks}, or one per row"
+            raise InputError([Problem("articulation.master", told)])
+        return masters if len(masters) > 1 else masters * throws
 
     def find_knuckle_angles(self) -> list[tuple[Figure, ...]] | None:
         """Return the angles of each throw's knuckle pins by bank, deg; None where the file gives
@@ -488,7 +501,19 @@ class Parts:
         table, path = self.model.articulation, "articulation.knuckle_angles"
         if table is None or table.knuckle_angles is None:
             return None
-        rows = [row for row in table.knuckle_angles if isinstance(row, tuple)]
-        if rows:
-            return [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
-        return [self.figures.take_each(path, table.knuckle_angles)] * self.plan.throws  # type: ignore[arg-type]
+        banks, throws = self.plan.banks, self.plan.throws
+        found = [self.figures.take_each(path, table.knuckle_angles)] * throws  # type: ignore[arg-type]
+        if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
+            found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
+        wrong = ""
+        if len(found) != throws:
+            wrong = f"has {counted(len(found), 'list')} for {counted(throws, 'row')}: give one "
+            wrong += "list for all, or one per row"
+        elif few := [row for row in found if len(row) != banks]:
+            wrong = (
+                f"has {counted(len(few[0]), 'angle')} for {counted(banks, 'bank')}: give one for "
+            )
+            wrong += "each, the master's own is 0"
+        if wrong:
+            raise InputError([Problem(path, wrong)])
+        return found

@@ -18,7 +18,7 @@ from .figures import RodFigures, or_zero
 
 ENDS = ("small_end", "big_end")
 LENGTHS = ("length", "ratio")
-_ROUNDING = 8 * EPS  # of the figures of a rod, of the terms whose difference H is
+_ROUNDING = 8 * EPS  # relative rounding error of the terms whose difference is H
 
 
 class RunningGear(NamedTuple):
@@ -28,9 +28,9 @@ class RunningGear(NamedTuple):
         length: Rod length, m.
         offset: Offset of the piston pin's path from the crank axis, m.
         piston: Piston mass, kg.
-        small_end, big_end: The rod as two masses at its ends, kg.
+        small_end, big_end: Masses at the ends that replace the rod, kg.
         spin: Moment of inertia of the rod about its centre of mass, kg m2.
-        couple: Moment of inertia H that the two masses have beyond `spin`, kg m2.
+        couple: Moment of inertia H of the two masses less `spin`, kg m2.
     """
 
     length: Figure
@@ -42,7 +42,9 @@ class RunningGear(NamedTuple):
     couple: Figure
 
     def top_deg(self, radius: Figure) -> Figure:
-        """Return the crank angle of top dead centre from the cylinder's axis, deg; radius in m."""
+        """Return the angle of the crank pin from the cylinder's axis at top dead centre, deg;
+        radius in m.
+        """
         return np.degrees(np.arcsin(self.offset / (radius + self.length)))
 
 
@@ -52,12 +54,12 @@ class CylinderMasses(NamedTuple):
     Attributes:
         throw: Throw on which its rod runs, from 0.
         piston: Piston with pin, rings and locks.
-        piston_parts: Parts of the piston by the keys of [piston]: `mass` alone, or piston, pin,
-            rings and locks as far as they are given.
+        piston_parts: Parts of the piston by keys of [piston]: only `mass`, or those of piston, pin,
+            rings and locks that are given.
         crosshead: Crosshead with piston rod and pin.
         small_end, big_end: Ends of the rod, without bearing shells.
-        share: Share of the throw's unbalanced mass for this cylinder's pin.
-        rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin as well.
+        share: This pin's share of the throw's unbalanced mass.
+        rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin.
     """
 
     throw: int
@@ -77,21 +79,23 @@ class CylinderMasses(NamedTuple):
 
     @property
     def rotating(self) -> Figure:
-        """Rotating mass at the crank pin without the throw's own, kg."""
+        """Rotating mass at the crank pin without that of the throw, kg."""
         return self.big_end + self.rod_bearing + self.oil
 
 
 def weigh_rod(
     rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
 ) -> RunningGear:
-    """Return a rod with its piston as masses and moments of inertia.
+    """Return the masses and moments of inertia of a rod with its piston.
 
-    The rod is replaced by two masses at its ends with the same mass and centre of mass, and a
-    massless couple of inertia (docs/theory.md). The pendulum test gives the moment of inertia by
-    the period of a physical pendulum, `I + m a^2 = m g a (T / 2 pi)^2`.
+    The rod is replaced by two masses at its ends, with the same total mass and centre of mass, and
+    by a massless couple of inertia (docs/theory.md). A pendulum test gives the moment of inertia by
+    `I + m a^2 = m g a (T / 2 pi)^2`; T is the period, and a the distance of the centre of mass from
+    the pivot.
 
     Args:
-        rod: Figures of the rod. One end without the other, a mistake, makes the other weightless.
+        rod: Figures of the rod. If only one end is given, which is a mistake, the other has no
+            mass.
         length: Rod length, m.
         offset: Offset of the piston pin's path, m.
         piston: Piston mass, kg.
@@ -129,12 +133,12 @@ def weigh_harmonic(
 
 # ------------------------------------------------------------------ rules
 class RodPlace(NamedTuple):
-    """Figures of a cylinder's rod, and their places in the file.
+    """Figures of a cylinder's rod, with the tables from which they come.
 
     Attributes:
-        number: Cylinder number; 0 for the figures for all cylinders.
+        number: Cylinder number; 0 for the general figures.
         articulated: Whether the rod is carried by a master rod.
-        rod: Figures of the rod from all places.
+        rod: Figures of the rod from all tables.
         own: Figures in the cylinder's own table.
         general: Figures for all rods of its kind.
     """
@@ -146,7 +150,9 @@ class RodPlace(NamedTuple):
     general: RodFigures
 
     def path(self, *keys: str) -> str:
-        """Return the path of the first of these keys that is given, else one for the first."""
+        """Return the path of the first of these keys that the file gives, else a path for the first
+        key.
+        """
         for key in keys:
             if key in self.own.given:
                 return f"cylinder.{self.number}.rod_{key}"
@@ -184,8 +190,8 @@ def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
 
 
 def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
-    """Check that the moment of inertia of a rod is not negative, by its pendulum test or as two
-    masses at its ends, for the worst of all variants.
+    """Check that the moment of inertia of a rod (from a pendulum test, or of two masses at its
+    ends) is not negative in any variant.
 
     Args:
         place: Rod and its place in the file.
@@ -207,7 +213,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
-    # A cylinder's own length may be what the centre of mass of all rods does not fit
+    # The general centre of mass may not fit the length of this cylinder's rod
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
         path, what = place.path(*LENGTHS), f"{path} = "
@@ -216,12 +222,12 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
 
 
 def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterator[Problem]:
-    """Check that a slider-crank can turn, for the worst of all variants: lambda + |offset| / rod
-    length must stay below 1.
+    """Check that a slider-crank can turn in every variant: lambda + |offset| / rod length must be
+    below 1.
 
     Args:
-        place: The rod in the file.
-        gear: The rod with its offset.
+        place: Rod and its place in the file.
+        gear: Running gear of its cylinder.
         radius: Crank radius, m.
     """
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))

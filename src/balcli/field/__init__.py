@@ -1,1 +1,1 @@
-"""Field balancing: readings of a rotor on a machine in, correction weights and residuals out."""
+"""Field balancing: correction weights from vibration readings of a rotor on its machine."""

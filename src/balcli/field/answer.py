@@ -1,9 +1,9 @@
-"""Correction weights of a rotor, the readings that they leave, whether its grade is reached, and
-warnings of doubtful runs: `balance_rotor`.
+"""Analysis of field balancing, `balance_rotor`: correction weights of a rotor, the remaining
+readings, the balance grade, and warnings of doubtful runs.
 
-The corrections x make the readings `|V + alpha x|` small: the sum of their squares, or the largest
-of them (`minimise`), where V are the readings from which balancing goes on and alpha the influence
-coefficients. Places and largest weights are constraints of that problem where they bind.
+The corrections x minimize the sum of squares, or the largest (`minimise`), of the readings `|V +
+alpha x|`. V are the readings from which balancing goes on, alpha the influence coefficients. Given
+places and largest weights constrain x.
 """
 
 from __future__ import annotations
@@ -40,21 +40,21 @@ from .places import Piece, PlaneLimits
 from .read import check_runs
 from .tables import RunsFile, Sense
 
-_NEARLY_DEPENDENT = 0.2  # own effect of a plane below which errors of reading grow much
-_SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines a plane badly
-_SMALLEST_RADIUS = 1.0  # mm; the smallest rotors that are balanced have more
-_UNEQUAL_TRIALS = 100.0  # ratio of trial weights: those of one rotor are more alike
-_FAR_BEYOND = 5.0  # times the largest trial weight: far from where coefficients were measured
-_FEWEST_PHASES = 4  # two runs of two sensors; fewer may be as near to 0 by chance
-_EQUAL_PHASES_DEG = 0.5  # phases differ by less where all that shakes is in phase
+_NEARLY_DEPENDENT = 0.2  # own effect of a plane below which reading errors grow much
+_SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines coefficients badly
+_SMALLEST_RADIUS = 1.0  # mm; smaller than on the smallest balanced rotors
+_UNEQUAL_TRIALS = 100.0  # ratio of trial weights that one rotor hardly needs
+_FAR_BEYOND = 5.0  # times the largest trial weight: coefficients were measured far from there
+_FEWEST_PHASES = 4  # two runs of two sensors; fewer may be near 0 by chance
+_EQUAL_PHASES_DEG = 0.5  # phases within this range are equal: the rotor shakes in phase
 _ROUNDING = 1e-13  # share of the largest reading below which a prediction is rounding
-# A reading that is farther from its prediction than this share of the largest reading as found, or
-# of the largest change that weights made, has a reason.
+# A reading that differs from its prediction by more than this share of the largest reading as
+# found, or of the largest change by weights, is surprising.
 _SURPRISING = 0.5
 
 
 def find_doubts(result: FieldBalance) -> Iterator[str]:
-    """Yield everything suspicious about a result and its runs."""
+    """Yield warnings of everything suspicious in a result and its runs."""
     file = result.file
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
@@ -82,7 +82,7 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
     phases = np.degrees(np.angle([each for run in file.run for each in run.readings if each]))
     most = float(np.abs(phases).max(initial=0.0))
     several = len(phases) >= _FEWEST_PHASES and np.ptp(phases) > _EQUAL_PHASES_DEG
-    if several and most <= 2 * math.pi:  # and yet they differ
+    if several and most <= 2 * math.pi:  # they differ, but are all small
         yield (
             f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
             f"{most:.3g} rad is {math.degrees(most):.1f} deg"
@@ -90,8 +90,8 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
 
 
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
-    """Yield doubts about trial weights that changed little, corrections far beyond them, and
-    kilograms for grams in one of the planes.
+    """Yield warnings of trial weights that changed little, of corrections far beyond them, and of
+    trial weights in different units.
     """
     trials = {}
     for correction in result.corrections:
@@ -123,7 +123,9 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
 
 
 def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
-    """Yield a doubt about the reading of a speed that follows least from the other runs."""
+    """Yield a warning of the reading at a speed that differs most from its prediction by the other
+    runs, if it differs much.
+    """
     file = result.file
     used = [k for k, plane in enumerate(file.planes) if plane not in result.left_out]
     predicted, largest = _predict(series, used)
@@ -147,8 +149,8 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
 
 
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
-    """Return every reading as the first runs that determine the coefficients predict it, shape
-    (runs, sensors), and the largest reading as found, or change of one by weights.
+    """Return the readings predicted by the first runs that determine the coefficients, shape (runs,
+    sensors), and the scale for judging them: the largest reading as found or change by weights.
     """
     count = count_needed(series, used)
     first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
@@ -162,14 +164,14 @@ Minimise = Literal["squares", "max"]
 Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
-_NOISE = 1e-14  # share of the terms that cancel, below which a reading is rounding
-_NEGLIGIBLE = 1e-9  # share of the weight that would do as much as all unbalance
-_AT_EDGE = 1e3  # times that: so near its limit a weight counts as at it
+_NOISE = 1e-14  # a reading below this share of its cancelling terms is rounding
+_NEGLIGIBLE = 1e-9  # smallest weight, relative to one with the effect of all unbalance
+_AT_EDGE = 1e3  # times the negligible weight: distance at which a weight counts as at its limit
 _G_MM = 1e-6  # kg m
 
 
 class Sensor(NamedTuple):
-    """Identity of a reading: a sensor at a speed.
+    """Sensor and speed of a reading.
 
     Attributes:
         sensor: Name of the sensor, or its number.
@@ -182,19 +184,18 @@ class Sensor(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Correction:
-    """Correction weight of one plane. Angles count as the file counts those of weights.
+    """Correction weight of one plane. Angles count in the sense of the file's weights.
 
     Attributes:
         plane: Name of the plane.
-        weight: Correction weight, counted from the rotor as found, all trial weights off.
-        add: Weight to add to what was on in the last run with a correction in; left out if there is
-            no such run.
+        weight: Correction weight relative to the rotor as found, with all trial weights off.
+        add: Weight to add to those of the last correction run; left out if there is none.
         unbalance_g_mm: Unbalance of the correction weight; left out if no radius is known.
-        own_effect: Share of the plane's effect that no combination of other planes has; 1 if the
-            plane is independent of them.
-        at_limit: Whether places or a largest weight keep the plane from the best weight.
-        wanted: Best correction weight without limits; left out if the plane is not at its limit.
-        pieces: Weights or holes that together make the weight to add.
+        own_effect: Share of the plane's effect that no combination of other planes can produce; 1
+            if the plane is independent of them.
+        at_limit: Whether given places or the largest weight exclude the best weight.
+        wanted: Best correction weight without limits; left out unless `at_limit` is true.
+        pieces: Weights or holes that together are equal to the weight to add.
     """
 
     plane: str
@@ -208,7 +209,7 @@ class Correction:
 
     @property
     def step(self) -> complex:
-        """Weight to add now, whether or not a correction is in already."""
+        """Weight to add now, after a correction run or without one."""
         return self.weight if self.add is None else self.add
 
 
@@ -219,10 +220,11 @@ class PlanePermitted:
     Attributes:
         plane: Name of the plane.
         permitted_g_mm: Permitted residual unbalance.
-        present_g_mm: Unbalance there now: the best estimate (least squares) by the last readings.
-        scatter_g_mm: How far the true unbalance may lie from it, with 95 % probability, by what the
-            fit to all runs leaves; left out if there are no more readings than unknowns.
-        reached: Whether the unbalance there now is permitted even at the far end of its scatter.
+        present_g_mm: Present unbalance, estimated from the last readings by least squares.
+        scatter_g_mm: Distance from the estimate within which the true unbalance lies with 95 %
+            probability, judged by the residuals of the fit; left out if there are no more readings
+            than unknowns.
+        reached: Whether present unbalance plus scatter is permitted.
         after_g_mm: Residual unbalance after the corrections.
     """
 
@@ -235,7 +237,7 @@ class PlanePermitted:
 
     @property
     def verdict(self) -> str:
-        """Whether the plane reaches its grade, in words."""
+        """Verdict on the plane's grade: reached, uncertain or not reached."""
         if self.reached:
             return "reached"
         near = self.present_g_mm - (self.scatter_g_mm or 0.0) <= self.permitted_g_mm
@@ -260,30 +262,31 @@ class Permitted(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FieldBalance(Result):
-    """Weights that balance a rotor on the machine, and the readings that they leave.
+    """Weights that balance a rotor on its machine, and the remaining readings.
 
-    Weights and readings are complex and in the units of the file.
+    Weights and readings are complex numbers in the units of the file.
 
     Attributes:
         format: Name and version of the document.
         name: Name of the rotor; null if the file gives none.
         unit: Unit of the readings; null if the file gives none.
         weight_unit: Unit of the weights.
-        phases: Sense in which phases of readings count: with or against rotation.
-        weights: Sense in which angles of weights count: with or against rotation.
-        minimise: Minimized quantity: the sum of squares, or the largest, of the readings.
+        phases: Sense of the phases of readings: with or against rotation.
+        weights: Sense of the angles of weights: with or against rotation.
+        minimise: Minimized quantity: the sum of squared readings, or the largest reading.
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
-        before: Readings of the last run with a correction in, otherwise those as found.
+        before: Readings of the last correction run; without one, the readings as found.
         residual: Predicted readings after the corrections.
         largest: Largest weighted reading after the corrections.
         rms: Root mean square of the weighted readings after the corrections.
         condition: Condition number of the influence coefficients; null if it is infinite.
-        bound: Proven bound: no weights leave a smaller largest reading; left out for squares.
-        trimmed: Name of the last run with a correction in; left out without such a run.
-        permitted: Permitted residual unbalance; left out without a grade or keys that it needs.
-        file: The file of runs.
+        bound: Proven lower bound of the largest reading, for any weights; left out for squares.
+        trimmed: Name of the last correction run; left out if there is none.
+        permitted: Permitted residual unbalance; left out if the grade or a key that it needs is
+            missing.
+        file: File of runs.
         runs: Readings, coefficients and weights by state.
     """
 
@@ -315,7 +318,7 @@ class FieldBalance(Result):
 
     @property
     def limited(self) -> bool:
-        """Whether places or largest weights keep any plane from the best weight."""
+        """Whether given places or largest weights exclude the best weight of any plane."""
         return any(each.at_limit for each in self.corrections)
 
     @property
@@ -337,13 +340,14 @@ def find_corrections(
 
     Args:
         file: Runs.
-        minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
+        minimise: "squares" (minimize the sum of squared readings) or "max" (minimize the largest
+            reading).
         without: Names of planes that get no weight.
         name: Name of the file, for messages.
 
     Raises:
         InputError: The runs do not separate the effects of the planes.
-        BalcliError: `without` names no plane, or all of them.
+        BalcliError: `without` names all planes, or one that does not exist.
     """
     used = _choose_planes(file, without)
     runs = find_influence(file, used, name)
@@ -367,7 +371,7 @@ def find_corrections(
     noise = _NOISE * (np.abs(now) + np.abs(matrix) @ np.abs(step))
     residual = np.where(np.abs(small.residual) <= noise, 0, -small.residual)
     left = factors * np.abs(residual)
-    # sine of the angle between each column and the space of the others
+    # sine of the angle between each column and the span of the others
     inverse = np.linalg.pinv(matrix / np.linalg.norm(matrix, axis=0), rcond=0.0)
     own_effects = 1 / np.linalg.norm(inverse, axis=1)
     corrections = []
@@ -414,10 +418,10 @@ def find_corrections(
 
 
 def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
-    """Return the numbers of the planes that get a weight, from 0.
+    """Return the indices of the planes that get a weight.
 
     Raises:
-        BalcliError: `without` names no plane, or all of them.
+        BalcliError: `without` names all planes, or one that does not exist.
     """
     for name in without:
         if name not in file.planes:
@@ -461,7 +465,7 @@ def _find_unbalance(file: RunsFile, k: int, weight: complex) -> float | None:
 
 
 def list_missing(file: RunsFile) -> dict[str, str]:
-    """Return the missing keys that the file needs to judge its unbalance, each with an example."""
+    """Return the keys that the file lacks for judging its unbalance, each with an example."""
     needed = {"grade": "grade = 6.3", "mass": "mass = 120", "speed": "speed = 3000"}
     if file.weighs_masses:
         radius = f"radius = {[200] * len(file.planes)}"
@@ -472,12 +476,12 @@ def list_missing(file: RunsFile) -> dict[str, str]:
 def _find_permitted(
     file: RunsFile, runs: Influence, used: list[int], step: Complex
 ) -> Permitted | None:
-    """Return permitted and present unbalance; None without a grade or keys that it needs.
+    """Return permitted and present unbalance; None if the grade or a key that it needs is missing.
 
     Args:
         file: Runs.
-        runs: Their influence coefficients.
-        used: Numbers of the planes that get a weight, from 0.
+        runs: Influence coefficients of the runs.
+        used: Indices of the planes that get a weight.
         step: Weights to add, shape (planes,).
     """
     if file.grade is None or file.mass is None or file.speed is None or list_missing(file):
@@ -509,7 +513,7 @@ def _find_permitted(
     )
 
 
-_UNNAMED = "file of runs"  # in messages, a text or dict
+_UNNAMED = "file of runs"  # name in messages if the runs are a text or dict
 
 
 @tell_arguments()
@@ -519,21 +523,23 @@ def balance_rotor(
     *,
     without: str | Collection[str] = (),
 ) -> FieldBalance:
-    """Balance a rotor on the machine or in its bearings.
+    """Balance a rotor on its machine, from readings of runs with trial weights.
 
     Args:
-        runs: Path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and under
-            `run` one dict for each run with its `readings` and `weights`, such as "5 @ 30"
+        runs: Path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and a list
+            `run` of dicts with the `readings` and `weights` of each run, such as "5 @ 30"
             (amplitude and angle in degrees).
-        minimise: "squares", the least sum of squared readings, or "max", the smallest largest one.
+        minimise: "squares" (minimize the sum of squared readings) or "max" (minimize the largest
+            reading).
         without: Names of planes that get no weight.
 
     Returns:
-        `corrections`, each with its `weight` (complex, in the file's unit) and `pieces`;
-        `residual`, the predicted readings, shape (readings,).
+        The result, with `corrections` (each has a complex `weight` in the file's unit, and
+        `pieces`) and `residual` (predicted readings, shape (readings,)).
 
     Raises:
-        BalcliError: The file cannot be read; `without` names no plane, or all of them.
+        BalcliError: The file cannot be read, or `without` names all planes or one that does not
+            exist.
         InputError: The runs have mistakes, or do not separate the effects of the planes.
         TypeError: An argument has a wrong type.
 

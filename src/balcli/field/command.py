@@ -1,4 +1,4 @@
-"""`balcli field`"""
+"""The command `balcli field`: its options."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ def field(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Balance a rotor on the machine or in its bearings: from readings with trial weights to
-    correction weights, places or drill holes, and the residual readings.
+    """Balance a rotor on its machine: compute correction weights, places or drill holes, and the
+    remaining readings, from readings with trial weights.
 
-    `balcli new field runs.toml` writes a file to start from: planes, then a run as found and one
-    with a trial weight in each plane. Weights and readings have the units of the file.
+    `balcli new field runs.toml` writes a file to start from: planes, a run as found, and a run with
+    a trial weight for each plane. Weights and readings are printed in the units of the file.
 
     \b
     Examples:

@@ -1,19 +1,20 @@
 """Influence coefficients from runs with trial weights.
 
-At each speed the readings V depend on the weights U by `V = V0 + alpha U` (Goodman, J. Eng. Ind.
-86, 1964, 273). The coefficients alpha and the readings as found V0 are fitted to all runs by least
-squares; where there are just enough runs, this is `alpha = (V - V0) / U`.
+At each speed, the readings V depend on the weights U by `V = V0 + alpha U` (Goodman, J. Eng. Ind.
+86, 1964, 273). The influence coefficients alpha and the readings as found V0 are fitted to all runs
+by least squares. With a single trial weight this is `alpha = (V - V0) / U`.
 
-A run after the coefficients are determined, with weights that no earlier run had, is a *correction
-run*: balancing goes on from the last of them. A repeated run is not one.
+A *correction run* has weights that differ from those of all runs that determine the coefficients.
+Balancing goes on from the last correction run.
 
-All complex numbers here turn in the sense in which phases of readings count.
+Angles of all complex numbers in this module count in the sense of the phases of readings.
 
-All readings are taken to have errors of one size. It is estimated from the residuals of the fit
-and of the correction. To first order the errors e
-move the weights by `B h e`: h is the share of each run in the readings to cancel, B the inverse of
-the coefficients. With nu complex degrees of freedom the square of such a distance over its
-estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t / nu)^-nu`.
+For the scatter of the weights (`find_scatter`), all readings are assumed to have errors e of one
+size, which is estimated from the residuals of the fit and of the correction. To first order, the
+errors change the weights by `B h e`, where h is the share of each run in the readings to cancel,
+and B is the (pseudo)inverse of the coefficients. With nu complex degrees of freedom, the square of
+this change over its estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t /
+nu)^-nu`.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ from ..errors import InputError, Problem
 from ..file.fields import join_words
 from .tables import RunsFile
 
-_SAME = 1e-9  # share of the largest weight by which equal weights may differ
-_ROUNDING = 1e-13  # share of the largest reading below which a change is rounding
-_OUTSIDE = 0.05  # probability that an unbalance lies farther from its estimate than its scatter
+_SAME = 1e-9  # weights that differ by less, relative to the largest, are equal
+_ROUNDING = 1e-13  # changes below this share of the largest reading are rounding
+_OUTSIDE = 0.05  # probability of an unbalance farther from its estimate than its scatter
 
 
 class Series(NamedTuple):
@@ -39,10 +40,10 @@ class Series(NamedTuple):
 
     Attributes:
         speed_rpm: Speed; None if the file gives none.
-        numbers: Number of each run in the file, from 0.
+        numbers: Index of each run in the file.
         readings: Readings, shape (runs, sensors).
-        weights: All weights that are on, shape (runs, planes).
-        given: Influence coefficients of the file, shape (sensors, planes); None: to be found.
+        weights: Weights on the rotor in each run, shape (runs, planes).
+        given: Influence coefficients in the file, shape (sensors, planes); None: they are fitted.
     """
 
     speed_rpm: float | None
@@ -53,20 +54,20 @@ class Series(NamedTuple):
 
 
 class Influence(NamedTuple):
-    """Readings of all speeds, one speed after the other, and the effects of weights on them.
+    """Readings and influence coefficients of all speeds, one speed after the other.
 
     Attributes:
         speeds_rpm: Speed of every reading, rpm; None if the file gives none.
         coefficients: Change of each reading by one unit of weight, shape (readings, planes); 0 for
             planes that are left out.
         found: Readings of the rotor without weights, shape (readings,).
-        latest: Readings of the last run with a correction in, shape (readings,); `found` at speeds
+        latest: Readings of the last correction run, shape (readings,); equal to `found` at speeds
             without such a run.
-        start: Readings from which balancing goes on, shape (readings,): those with the weights
-            `weights_on`, computed from `latest` where other weights were on.
-        factors: How much each reading counts, shape (readings,).
-        trimmed: Name of the last run with a correction in, at any speed; empty without one.
-        weights_on: Weights that were on in that run, shape (planes,); otherwise 0.
+        start: Readings from which balancing goes on, shape (readings,): readings with the weights
+            `weights_on`, computed from `latest` at speeds whose last run had other weights.
+        factors: Factor of each reading in the sum or maximum, shape (readings,).
+        trimmed: Name of the last correction run at any speed; empty if there is none.
+        weights_on: Weights on the rotor in that run, shape (planes,); 0 if there is none.
     """
 
     speeds_rpm: tuple[float | None, ...]
@@ -80,7 +81,7 @@ class Influence(NamedTuple):
 
     @property
     def state(self) -> str:
-        """Name of the state in which `latest` was read."""
+        """Name of the state to which `latest` belongs."""
         if not self.trimmed:
             return "as found"
         return "last read" if len(set(self.speeds_rpm)) > 1 else self.trimmed
@@ -106,18 +107,19 @@ def collect_series(file: RunsFile) -> list[Series]:
 
 
 def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Influence:
-    """Return influence coefficients: those of the file, or fitted to all runs.
+    """Return readings and influence coefficients, which are those of the file or fitted to all
+    runs.
 
     Args:
         file: Runs.
-        used: Numbers of the planes that get a weight, from 0.
+        used: Indices of the planes that get a weight.
         name: Name of the file for messages.
 
     Raises:
         InputError: The runs do not determine the coefficients of all planes.
     """
     planes, blocks = len(file.planes), []
-    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # last run with a correction in
+    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # of the last correction run
     for series in collect_series(file):
         count = count_needed(series, used)
         if count is None:
@@ -147,9 +149,8 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
     """Return influence coefficients and readings as found at one speed.
 
     Returns:
-        Coefficients, shape (sensors, planes), 0 for planes without weights; and readings as found,
-        shape (sensors,): the mean of the runs without weights, or the fitted ones if there is no
-        such run.
+        Coefficients, shape (sensors, planes), 0 for planes without weights. Readings as found,
+        shape (sensors,): the mean of the runs without weights; if there are none, the fitted V0.
     """
     if series.given is not None:
         alpha = series.given
@@ -165,21 +166,23 @@ def fit_coefficients(series: Series) -> tuple[Complex, Complex]:
 
 
 def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex) -> Array | None:
-    """Return how far the unbalance of each plane may lie from its estimate, with 95 % probability.
+    """Return the distance from the estimate within which the unbalance of each plane lies with 95 %
+    probability.
 
     Args:
         file: Runs.
-        runs: Their influence coefficients.
-        used: Numbers of the planes that get a weight, from 0.
-        step: Weights that cancel the readings best, by least squares, shape (planes used,).
+        runs: Influence coefficients of the runs.
+        used: Indices of the planes that get a weight.
+        step: Least-squares weights that cancel the readings best, shape (planes used,).
 
     Returns:
-        Weights, shape (planes used,); None if there are no more readings than unknowns.
+        Distances as amounts of weight, shape (planes used,); None if there are no more readings
+        than unknowns.
     """
     after, blocks, squares, freedom = runs.weights_on.copy(), collect_series(file), 0.0, 0
     after[used] += step
     factors = runs.factors
-    gains = []  # variance of a reading to cancel over that of one run
+    gains = []  # variance of a reading to cancel, relative to a single reading
     for series, scale in zip(blocks, np.split(factors, len(blocks)), strict=True):
         design, readings = _design(series), series.readings
         if series.given is not None:
@@ -200,7 +203,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     left[np.abs(left) <= _ROUNDING * np.abs(factors * runs.found).max()] = 0
     inverse = np.linalg.pinv(matrix)
     if spare := len(left) - len(used):
-        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # of errors, by reading
+        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # of the errors' variance
         squares += spare * float(np.sum(np.abs(left) ** 2) / kept.sum())
     freedom += spare
     if not freedom:
@@ -210,11 +213,12 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
 
 
 def count_needed(series: Series, used: Collection[int]) -> int | None:
-    """Return how many runs, from the first, determine V0 and all coefficients; None: not even all.
+    """Return the number of first runs that determine V0 and all coefficients; None if all runs
+    together do not determine them.
 
     Args:
         series: Runs.
-        used: Numbers of the planes that get a weight, from 0.
+        used: Indices of the planes that get a weight.
     """
     if series.given is not None:
         return 1
@@ -224,8 +228,8 @@ def count_needed(series: Series, used: Collection[int]) -> int | None:
 
 
 def find_last_correction(series: Series, count: int) -> int | None:
-    """Return the index of the last run whose weights differ from those of each of the first `count`
-    runs; None: no such run.
+    """Return the index of the last correction run, whose weights differ from those of each of the
+    first `count` runs; None if there is none.
     """
     states = series.weights
     apart = np.abs(states[:, np.newaxis] - states[:count]).max(axis=2)
@@ -235,18 +239,22 @@ def find_last_correction(series: Series, count: int) -> int | None:
 
 
 def _design(series: Series) -> Complex:
-    """Return the matrix of the fit, shape (runs, 1 + planes): 1, and weights over the largest."""
+    """Return the matrix of the fit, shape (runs, 1 + planes): a column of 1, and the weights
+    relative to the largest.
+    """
     size = np.abs(series.weights).max() or 1.0
     return np.concatenate([np.ones((len(series.weights), 1)), series.weights / size], axis=1)
 
 
 def _count_unknowns(series: Series, used: Collection[int]) -> int:
-    """Return 1 for V0, and one for each plane that is used or had a weight on."""
+    """Return the number of unknowns of the fit: V0, and a coefficient for each plane that is used
+    or had a weight.
+    """
     return 1 + len({*used, *np.flatnonzero(series.weights.any(axis=0)).tolist()})
 
 
 def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int]) -> Problem:
-    """Return why not even all runs at a speed determine the coefficients."""
+    """Return the problem that the runs at a speed do not determine the coefficients."""
     at = "" if series.speed_rpm is None else f" at {series.speed_rpm:g} rpm"
     tried = np.asarray(series.weights.any(axis=0))
     bare = [file.planes[k] for k in used if not tried[k]]

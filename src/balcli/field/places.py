@@ -1,7 +1,8 @@
-"""Corrections that a plane allows: weights at places or at any angle, or holes in the rim.
+"""Weights that a plane allows: at given places or at any angle, up to a largest one, or as holes in
+the rim.
 
-Weights at given angles, each from 0 to a largest one, make together any weight in a convex polygon
-(`find_region`). `split_weight` finds the lightest set of weights that makes a given one.
+The sums of weights at given angles, each from 0 to a largest weight, fill a convex polygon
+(`find_region`). `split_weight` finds the lightest weights with a given sum.
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from ..core.records import angle_deg
 from ..core.unbalance import find_drill_depth, find_drilled_unbalance
 from .tables import RunsFile
 
-_ROUNDING = 1e-9  # share of a weight that is rounding
+_ROUNDING = 1e-9  # smaller shares of a weight are rounding
 
 
 class Piece(NamedTuple):
     """Weight at a place, or a drilled hole: a part of a correction.
 
     Attributes:
-        weight: Weight to put on, or weight at the rim to which the hole is equivalent.
-        angle_deg: Angle, in the sense in which the file counts angles of weights.
-        place: Number of the place in the file's list, from 1; left out at any angle.
+        weight: Weight to put on, or weight at the rim with the same effect as the hole.
+        angle_deg: Angle, in the sense of the file's weights.
+        place: Number of the place in the file's list, from 1; left out without places.
         depth_mm: Depth of the hole; left out for weights.
     """
 
@@ -39,13 +40,14 @@ class Piece(NamedTuple):
 
 
 class PlaneLimits(NamedTuple):
-    """Where one plane takes weights, and how heavy they may be. Angles are those of the file.
+    """Places and largest weight of one plane. Angles have the sense of the file's weights.
 
     Attributes:
-        places_deg: Angles of the places, deg; empty: any angle.
-        most: Largest weight in the plane, at one place, or of one hole; infinite: no limit.
-        find_depth: Depth, m, of the hole that removes as much as a weight at the rim has; holes
-            are opposite to the weight. None: weights are put on.
+        places_deg: Angles of the places, deg; empty if any angle is allowed.
+        most: Largest weight at one place, of one hole, or in the whole plane; infinite if
+            unlimited.
+        find_depth: Function that returns the depth, m, of a hole with the effect of a weight at the
+            rim; holes are opposite to the weight. None if weights are put on.
     """
 
     places_deg: tuple[float, ...]
@@ -54,7 +56,7 @@ class PlaneLimits(NamedTuple):
 
     @classmethod
     def of_plane(cls, file: RunsFile, k: int) -> PlaneLimits:
-        """Return the limits of the k-th plane, from 0."""
+        """Return the limits of the plane with the index k."""
         places = file.places[k] if file.places else ()
         most = file.most[k] if file.most else math.inf
         unit = file.find_unbalance_per_weight(k)
@@ -70,10 +72,11 @@ class PlaneLimits(NamedTuple):
         return cls(places, heaviest, find_depth)
 
     def make_region(self, weight_on: complex, sense: int) -> Region:
-        """Return the region of weights that can be added, in the sense of the readings.
+        """Return the region of weights that can be added, as complex numbers in the sense of the
+        readings.
 
         Args:
-            weight_on: Weight that is on in the plane already, in the sense of the readings.
+            weight_on: Weight already on the plane, in the sense of the readings.
             sense: -1 if phases of readings count against angles of weights, otherwise 1.
         """
         if self.places_deg:
@@ -82,11 +85,11 @@ class PlaneLimits(NamedTuple):
         return Region(0j if self.find_depth or math.isinf(self.most) else -weight_on, self.most)
 
     def plan(self, weight: complex, negligible: float) -> tuple[Piece, ...]:
-        """Return the weights or holes that together make a weight in the region.
+        """Return the weights or holes whose sum is a given weight in the region.
 
         Args:
             weight: Weight to add.
-            negligible: Weight that need not be put on.
+            negligible: Smaller weights are not put on.
         """
         if abs(weight) <= negligible:
             return ()
@@ -104,21 +107,22 @@ class PlaneLimits(NamedTuple):
 def split_weight(
     wanted: complex, angles_deg: Array, most: float, noise: float = 0.0
 ) -> tuple[Piece, ...] | None:
-    """Return the lightest weights at given angles that together make a given weight.
+    """Return the lightest weights at given angles whose sum is a given weight.
 
-    This is the optimum of a linear program: all places of an arc of less than half a turn are full,
-    its two neighbors take the remainder, all others are empty. Proof: price the two components of
-    the weight so that the two neighbors are worth their weight; then the places between them are
-    worth more and all others less.
+    They are the optimum of a linear program: all places within an arc of less than half a turn are
+    full, the two neighbors of the arc take the remainder, and the others are empty. The proof is by
+    duality: choose a price for each component of the sum so that a unit of weight at each of the
+    two neighbors is worth exactly 1. Then a unit is worth more at the places between them and less
+    at all others.
 
     Args:
-        wanted: Weight to make.
+        wanted: Required sum.
         angles_deg: Angles of the places, deg, shape (places,).
-        most: Largest weight at one place; infinite: no limit.
-        noise: Weight that is negligible, if it is more than rounding errors of `wanted`.
+        most: Largest weight at one place; infinite if unlimited.
+        noise: Negligible weight; rounding errors of `wanted` are negligible in any case.
 
     Returns:
-        The places that get a weight; None if no weights there make the wanted one.
+        The weights at their places; None if no weights at these places have the required sum.
     """
     size = abs(wanted)
     if size <= noise:
@@ -145,12 +149,12 @@ def split_weight(
 
 
 def find_region(angles_deg: Array, most: float) -> Region:
-    """Return the region of weights that weights at given angles can make together: a polygon whose
-    edges are parallel to the places, or without a limit a wedge.
+    """Return the region of the sums of weights at given angles: a polygon with edges parallel to
+    the places' directions, or a wedge if the weights are unlimited.
 
     Args:
         angles_deg: Angles of the places, deg, shape (places,).
-        most: Largest weight at one place; infinite: no limit.
+        most: Largest weight at one place; infinite if unlimited.
     """
     angles, _, unit = _sort_places(angles_deg)
     if np.isfinite(most):
@@ -167,7 +171,9 @@ def find_region(angles_deg: Array, most: float) -> Region:
 
 
 def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
-    """Return the distinct angles in [0, 360), their numbers from 1, and their unit vectors."""
+    """Return the distinct angles in [0, 360), their numbers in the list from 1, and their unit
+    vectors.
+    """
     rounded = np.round(np.asarray(angles_deg) % 360, 9) % 360
     angles, first = np.unique(rounded, return_index=True)
     return angles, first + 1, np.exp(1j * np.radians(angles))
@@ -176,7 +182,8 @@ def _sort_places(angles_deg: Array) -> tuple[Array, NDArray[np.intp], Complex]:
 def _resolve(wanted: Complex, one: Complex, other: Complex, nothing: float) -> Array:
     """Return the weights along `one` and `other` that add up to `wanted`, shape (2, places).
 
-    If `other` is half a turn or more ahead of `one`, only `one` is used; impossible weights are -1.
+    If `other` is half a turn or more ahead of `one`, only `one` is used. -1 marks an impossible
+    weight.
     """
     across, miss = (np.conj(one) * other).imag, (np.conj(one) * wanted).imag
     parts = np.array([-(np.conj(other) * wanted).imag, miss])

@@ -1,5 +1,5 @@
-"""A file of runs, read and checked: first every mistake of a value, then every contradiction
-between values, each by its path.
+"""Read and check a file of runs. First all wrong values are reported, each by its path; if there
+are none, all contradictions between values.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ RUNS_FILE = (
 def read_runs(source: str | Path) -> RunsFile:
     """Return the runs in a file, or on standard input for "-".
 
-    Raises BalcliError if there is nothing to read, InputError with every mistake of the text.
+    Raises BalcliError if the file cannot be read, and InputError with every mistake of the text.
     """
     return parse_runs(read_bytes(source), name_file(source))
 
@@ -46,7 +46,7 @@ def parse_runs(text: str | bytes, file: str = "") -> RunsFile:
 
 
 def check_runs(data: Mapping[str, object], file: str = "") -> RunsFile:
-    """Return the runs that tables describe, as TOML is read; otherwise as `parse_runs`."""
+    """Return the runs that the tables of a parsed TOML text describe; see `parse_runs`."""
     refuse_other_kind(data, file, RUNS)
     reader = TableReader(RUNS.name, _describe)
     stand_in = [Run.model_construct(readings=(0j,))]  # runs are read one by one
@@ -74,7 +74,7 @@ def _describe(path: str, finding: ErrorDetails, table: type[FileTable]) -> Probl
 
 
 def _find_misfits(file: RunsFile) -> Iterator[Problem]:
-    """Yield contradictions between keys, and between runs."""
+    """Yield contradictions between keys and between runs."""
     for key in ("planes", "sensors"):
         names = getattr(file, key) or ()
         if twice := sorted({name for name in names if names.count(name) > 1}):
@@ -88,7 +88,7 @@ def _find_misfits(file: RunsFile) -> Iterator[Problem]:
     in_a_run = f"{readings} in a run"
     counts.append(("reading_weights", file.reading_weights, "value", sensors, in_a_run))
     speeds = {run.speed for run in file.run}
-    if None not in speeds or len(speeds) == 1:  # otherwise the speeds are not known
+    if None not in speeds or len(speeds) == 1:  # otherwise the number of speeds is unknown
         at = f" at {counted(len(speeds), 'speed')}" if len(speeds) > 1 else ""
         wanted = sensors * len(speeds)
         counts.append(("influence", file.influence, "row", wanted, f"{readings}{at}"))
@@ -117,7 +117,7 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
 
 
 def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Problem]:
-    """Yield what does not fit in the k-th run, from 1; others have this many sensors."""
+    """Yield contradictions in the k-th run (from 1); a run has as many readings as `sensors`."""
     if len(run.readings) != sensors:
         whose = "sensors names" if file.sensors else "run.1 has"
         yield Problem(

@@ -1,6 +1,7 @@
-"""Field balancing as people read it (tables), and as programs do (JSON, CSV).
+"""Show the result of field balancing as tables and CSV.
 
-Polar picture of field balancing: readings before and after on the left, weights on the right.
+`make_field` draws it in polar diagrams: readings before and after on the left, weights on the
+right.
 """
 
 from __future__ import annotations
@@ -27,13 +28,13 @@ if TYPE_CHECKING:
 
 
 _HEADER = ("part", "speed_rpm", "name", "figure", "value", "unit")
-Column: TypeAlias = tuple[str, list[str]]  # of a table: heading and cells
+Column: TypeAlias = tuple[str, list[str]]  # heading and cells of a table's column
 _WAY = {"with": "the way the rotor turns", "against": "against the way the rotor turns"}
 
 
 # ------------------------------------------------------------------ for programs
 def rows(result: FieldBalance, system: System) -> Rows:
-    """Return every figure of corrections and readings as CSV, in the units of the file."""
+    """Return all figures as CSV, with weights and readings in the units of the file."""
     return Rows(_HEADER, _list_lines(to_document(result), result.file.planes))
 
 
@@ -201,7 +202,7 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
 
 
 def _name_readings(result: FieldBalance) -> list[str]:
-    """Return a name for every reading: its sensor, and its speed where there are several."""
+    """Return a name for every reading: its sensor, and its speed if there are several."""
     several = len({each.speed_rpm for each in result.readings}) > 1
     return [
         f"{each.sensor}, {each.speed_rpm:g} rpm" if several else each.sensor
@@ -246,7 +247,7 @@ def _show_influence(result: FieldBalance) -> Grid:
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-_MOST_LABELLED = 8  # readings; more names would overlap
+_MOST_LABELLED = 8  # most readings with a name; more names would overlap
 
 
 def make_field(result: FieldBalance) -> Figure:
@@ -270,7 +271,7 @@ def make_field(result: FieldBalance) -> Figure:
 
 
 def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
-    """Draw each reading from a hollow dot (in the last run) to a full one (predicted)."""
+    """Draw each reading as a hollow dot (last run) joined to a full dot (predicted)."""
     hollow: Look = {"color": SOFT, "markerfacecolor": PAPER}
     ends = [*zip(result.before, result.residual, strict=True)]
     for name, (start, end) in zip(_name_readings(result), ends, strict=True):
@@ -287,7 +288,7 @@ def _draw_readings(ax: PolarAxes, result: FieldBalance) -> None:
 
 
 def _draw_weights(ax: PolarAxes, result: FieldBalance) -> None:
-    """Draw the weight of every plane as a ray, and the pieces of which the shop makes it."""
+    """Draw the weight of every plane as a ray, and its single weights or holes as marks."""
     drilled = result.file.drill is not None
     marks: Look = {"marker": "x" if drilled else "s", "markerfacecolor": "none", "linestyle": ""}
     sizes = [0.0]

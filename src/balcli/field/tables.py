@@ -1,7 +1,7 @@
-"""Tables of a file of runs: readings as amplitude and phase, weights as amount and angle.
+"""Tables of a file of runs, with readings as amplitude @ phase and weights as amount @ angle.
 
-Readings keep the unit in which they were read, weights the unit of the file (`weight_unit`).
-Lengths are in mm, speeds in rpm, the mass of the rotor in kg, angles in degrees.
+Readings may have any unit; the unit of weights is `weight_unit`. Lengths are in mm, speeds in rpm,
+the mass of the rotor in kg, angles in degrees.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _GRADE = re.compile(rf"\s*[Gg]\s*({BARE_FIGURE})\s*", re.ASCII)
 _POLAR = re.compile(rf"\s*({BARE_FIGURE})\s*@\s*({BARE_FIGURE})\s*(?:deg|°)?\s*", re.ASCII)
 _FARTHEST_DEG = 1e6
-FREE = "free"  # places of a plane that takes weights at any angle
+FREE = "free"  # value of `places` for a plane that takes weights at any angle
 _AMOUNTS = Dimension("g", "a unit of mass or of unbalance", ("g", "oz", "g mm"))
 
 
@@ -49,7 +49,7 @@ class Polar(Number):
     """A complex number written as amplitude and angle in degrees: `"170 @ 112"`.
 
     Args:
-        example: A right value, for messages.
+        example: Valid value, for messages.
         zero: Whether the amplitude may be 0.
     """
 
@@ -83,7 +83,9 @@ class Polar(Number):
 
 
 def make_polar(amplitude: float, angle_deg: float) -> complex:
-    """Return the complex number, exact on the axes, where trial weights are often put."""
+    """Return the complex number. It is exact at multiples of 90 degrees, frequent angles of trial
+    weights.
+    """
     quarter, rest = divmod(angle_deg, 90)
     turned = cmath.rect(amplitude, math.radians(rest)) if rest else complex(amplitude)
     return turned * (1, 1j, -1, -1j)[int(quarter) % 4]
@@ -104,8 +106,8 @@ class AmountUnit(Label):
 
 
 class PlaceAngles(Number):
-    """Angles at which a plane takes weights, deg: a list, or how many there are all round, or
-    "free": at any angle, which is an empty list.
+    """Angles at which a plane takes weights, deg: a list, a number of equally spaced places, or
+    "free" for any angle (an empty tuple).
     """
 
     def __init__(self) -> None:
@@ -219,21 +221,23 @@ class RunsFile(FileTable):
 
     @property
     def senses(self) -> tuple[Sense, Sense]:
-        """Senses in which phases of readings and angles of weights count rotation."""
+        """Senses, relative to rotation, of phases of readings and of angles of weights."""
         phases: Sense = "against" if self.rotation == "lag" else "with"
         return phases, self.weights or phases
 
     def turn(self, weights: Weights) -> Weights:
-        """Return weights in the sense of the readings, or back in the sense of the file."""
+        """Return weights converted from the sense of the file to that of the readings, or back."""
         phases, angles = self.senses
         return weights if phases == angles else weights.conjugate()
 
     def name_run(self, k: int) -> str:
-        """Return the name of the k-th run (from 0), or its number."""
+        """Return the name of the run with the index k, or its number."""
         return self.run[k].name or f"run {k + 1}"
 
     def find_unbalance_per_weight(self, k: int) -> float | None:
-        """Return the unbalance of one unit of weight in the k-th plane, kg m; None: no radius."""
+        """Return the unbalance of one unit of weight in plane k, kg m; None if the radius is
+        unknown.
+        """
         scale = float(read_amount_unit(self.weight_unit).scale)
         if not self.weighs_masses:
             return scale

@@ -1,3 +1,1 @@
-"""Read TOML text into a checked model, in the file's own units, with every mistake by its
-path.
-"""
+"""Read TOML text into a checked model in the units of the file; mistakes are reported by path."""

@@ -1,4 +1,4 @@
-"""Tables of numbers next to an engine file: columns with a heading, such as a measured diagram."""
+"""Read columns of numbers, such as a measured diagram, from CSV files next to an engine file."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from .toml import read_bytes
 from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
 ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
-GAUGE_UNITS = ("barg", "psig")  # over the atmosphere
-_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # degrees of it
+GAUGE_UNITS = ("barg", "psig")  # pressures above the atmosphere
+_CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # a unit
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
 _STARTS_NUMBER = r"(?i)\s*[+-]?(?:\.?\d|nan\b|inf)"
@@ -29,9 +29,10 @@ class Head(NamedTuple):
     """A wanted column.
 
     Attributes:
-        usual: its head as documents write it, such as torque_Nm; other heads begin with its name.
-        dimension: dimension of its numbers; PLAIN: the head is `usual` alone.
-        others: further heads that messages name.
+        usual: Head as the documents write it, such as torque_Nm; other heads begin with the same
+            name.
+        dimension: Dimension of its numbers; with PLAIN, only `usual` itself is a head.
+        others: Further heads, which messages name.
         symbols: Other names of the quantity, as a regular expression.
     """
 
@@ -41,11 +42,12 @@ class Head(NamedTuple):
     symbols: str = ""
 
     def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
-        """Return the unit in a head, and its size; None: this is another column.
+        """Return the unit in a head and its size in the unit of the dimension; None for another
+        column.
 
         Args:
             head: Head of a column, with its unit.
-            by_symbol: Whether to compare it with the symbols of the quantity, not with its name.
+            by_symbol: Whether to compare the head with symbols of the quantity, not with its name.
         """
         if self.dimension is PLAIN:
             return ("", 1.0) if head == self.usual else None
@@ -59,7 +61,7 @@ class Head(NamedTuple):
         if self.dimension is PRESSURE:  # "bar (abs)", "bar g"
             unit = re.sub(r"(?i)[\s(]+a(?:bs(?:olute)?)?\)?$", "", unit)
             unit = re.sub(r"(?i)[\s(]+g(?:auge)?\)?$", "g", unit)
-        try:  # gauge pressures are units with a g behind them
+        try:  # units of gauge pressures end in g
             absolute = unit.removesuffix("g") if unit in GAUGE_UNITS else unit
             return unit, convert(f"1 {absolute}", self.dimension)
         except ValueError:
@@ -70,10 +72,10 @@ class NumberColumns(NamedTuple):
     """Columns of numbers in a file.
 
     Attributes:
-        rows: A number for each wanted head.
+        rows: Rows with a number for each wanted head.
         lines: Line of each row in the file, from 1.
-        units: Unit of each head, as the file has it; empty where the head has none.
-        scales: Size of that unit in the unit of the column's dimension.
+        units: Unit of each head as the file writes it; empty if there is none.
+        scales: Size of this unit in the unit of the column's dimension.
     """
 
     rows: tuple[tuple[float, ...], ...]
@@ -82,11 +84,11 @@ class NumberColumns(NamedTuple):
     scales: tuple[float, ...]
 
     def column(self, number: int) -> list[float]:
-        """Return all numbers under one of the heads, counted from 0, in its quantity's unit."""
+        """Return all numbers under the head with this index, in the unit of its dimension."""
         return [row[number] * self.scales[number] for row in self.rows]
 
     def as_written(self, row: int, number: int) -> str:
-        """Return a number as the file has it, with the file's unit."""
+        """Return a number with its unit as the file writes it."""
         return f"{self.rows[row][number]:.15g} {self.units[number]}".rstrip()
 
 
@@ -102,7 +104,7 @@ def locate_beside(folder: Path, name: str) -> Path:
     """
     try:
         home, place = folder.resolve(), (folder / name).resolve()
-    except ValueError as error:  # letters that names of files have not here: LC_ALL=C
+    except ValueError as error:  # letters that file names cannot have here, such as with LC_ALL=C
         raise BalcliError(f"{shorten(name)}: cannot be read ({error})") from None
     if not place.is_relative_to(home):
         raise BalcliError(f"{shorten(name)} is outside the folder of the engine file; put it there")
@@ -112,16 +114,16 @@ def locate_beside(folder: Path, name: str) -> Path:
 def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
     """Return some columns of a CSV file.
 
-    Other columns, empty lines and lines that begin with # are ignored. Where semicolons,
-    tabs or blanks part the heading, they part the lines, and decimals may have commas; elsewhere a
-    number to the right of the heading is refused: "0,5,1,3" might be two.
+    Other columns, empty lines and lines that begin with # are ignored. If semicolons, tabs or
+    blanks separate the heads, they also separate the numbers, and decimals may have commas.
+    Otherwise a number to the right of the last head is rejected: "0,5,1,3" might be two numbers.
 
     Args:
         path: Path of the file.
         wanted: Heads of the columns.
 
     Raises:
-        BalcliError: The file cannot be read, a column is missing, or a line has no such numbers.
+        BalcliError: The file cannot be read, a column is missing, or a line lacks a number.
     """
     content = read_bytes(path)
     if len(content) > LARGEST_FILE_BYTES:
@@ -142,7 +144,7 @@ def _list_lines(text: str) -> dict[int, str]:
             continue  # Excel writes sep=;
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
-        if len(lines) > MOST_ROWS:  # besides the heading
+        if len(lines) > MOST_ROWS:  # not counting the heading
             raise ValueError(f"has more than {MOST_ROWS} rows; keep the mean of the cycles")
         lines[number] = line.rstrip("\n")
     return lines
@@ -151,11 +153,12 @@ def _list_lines(text: str) -> dict[int, str]:
 def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     lines = _list_lines(text)
     first = next(iter(lines.values()), "")
-    # The comma, where none of them is there; tabs after a comma are room.
+    # The separator: a comma if the heading has none of these. Tabs after a comma are only white
+    # space.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
         mark = " "
-        for number in list(lines)[:2]:  # a unit in brackets may have blanks: "torque [kN m]"
+        for number in list(lines)[:2]:  # a unit in brackets may contain blanks: "torque [kN m]"
             squeezed = re.sub(
                 r"[\[(][^\])]*[\])]", lambda unit: unit[0].replace(" ", "_"), lines[number]
             )
@@ -173,7 +176,7 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     texts = [_find_cells(row, places, width, n) for row, n in zip(rows, numbers, strict=False)]
     for column in zip(*texts, strict=True):
         _refuse_thousands(column, numbers)
-    comma = "," if mark == "," else "."  # what a comma in a number stands for
+    comma = "," if mark == "," else "."  # replacement for a comma in a number
     figures = tuple(
         tuple(_read_number(cell, comma, n) for cell in row)
         for row, n in zip(texts, numbers, strict=False)
@@ -183,7 +186,7 @@ def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
 
 
 def _join_units(heading: list[str], below: list[str]) -> list[str]:
-    """Return the heading with the units of a row below it; empty where that row has none."""
+    """Return the heading joined with a row of units below it; empty if that row has no units."""
     units = [cell.strip(" []()") for cell in below]
     if len(units) < len(heading) or any(re.match(_STARTS_NUMBER, cell) for cell in below):
         return []
@@ -195,7 +198,7 @@ def _join_units(heading: list[str], below: list[str]) -> list[str]:
 def _find_head(
     wanted: Head, heading: list[str], every: Sequence[Head], mark: str
 ) -> tuple[int, str, float]:
-    """Return place, unit and scale of a column; `mark` parts the columns of the heading."""
+    """Return index, unit and scale of a column; `mark` separates the heads."""
     for by_symbol in (False, True):
         read = enumerate(wanted.read(head, by_symbol=by_symbol) for head in heading)
         places = [(place, *unit) for place, unit in read if unit]
@@ -212,8 +215,8 @@ def _find_head(
 
 
 def _find_cells(row: list[str], places: list[int], width: int | None, line: int) -> list[str]:
-    """Return the cells at these places of a line. No number may stand beyond `width`, the number of
-    columns in the heading; None: it may.
+    """Return the cells at these places of a line. If `width`, the number of heads, is given, there
+    must be no number to the right of the last head.
     """
     if len(row) <= max(places):
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
@@ -226,8 +229,8 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
 
 
 def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
-    """Raise ValueError where points are rather between thousands: all of them have three digits
-    behind, and other numbers have a decimal comma, or three digits and no point.
+    """Raise ValueError if points probably separate thousands: three digits follow every point, and
+    other numbers have a decimal comma, or three digits and no point.
     """
     pointed = [(cell, line) for cell, line in zip(column, lines, strict=False) if "." in cell]
     others = any(re.match(r"[+-]?\d*(,|\d{3}$)", cell) for cell in column)

@@ -1,6 +1,7 @@
-"""Valid but suspicious: figures that no ordinary engine has, most often a slip of the unit.
+"""Warnings for valid but suspicious figures, which no ordinary engine has; most often the unit is
+wrong.
 
-The limits are wide: engines from models to ships pass. Each warning has the value, the usual range
+The limits are wide: engines from models to ships pass. A warning states the value, the usual range
 and a remedy.
 """
 
@@ -14,15 +15,15 @@ from .fields import WrittenFigure, count_lambda_digits, printable
 from .model import PISTON_PARTS, EngineFile
 from .units import ask_unit
 
-# Pistons of like design weigh as the cube of the bore: in aluminium with pin and rings 300 to 1000
-# kg per m^3 of bore^3 (racing to lorry), in cast iron up to 3000. The limits leave room beyond; a
-# slip from g to kg is a factor of 1000.
+# The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
+# have 300 to 1000 kg per m^3 of bore^3 (racing to lorry), pistons of cast iron up to 3000. The
+# limits are wider; a confusion of g and kg is a factor of 1000.
 PISTON = 100.0, 5000.0  # kg/m^3
-CROSSHEAD_HEAVY = 40_000.0  # with piston rod and crosshead, where the stroke is LONG_STROKE bores
+CROSSHEAD_HEAVY = 40_000.0  # kg/m^3, with crosshead, above LONG_STROKE
 LONG_STROKE = 2.5
 LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
-CROSSHEAD_LAMBDA = 0.6  # with a crosshead rods are short
-BORE = 0.2, 3.0  # bore / stroke: crosshead from 0.25, racing engines to 2.5
+CROSSHEAD_LAMBDA = 0.6  # rods of crosshead engines are short
+BORE = 0.2, 3.0  # bore / stroke: crosshead engines from 0.25, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
 SMALL_END = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
@@ -35,8 +36,8 @@ SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9
 # Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
-NO_DISTANCE = 1e-6  # mm: on the axis, but for rounding
-OFFSET = 0.2  # of the stroke; pin offsets have up to 0.05, narrow-angle vees up to 0.15
+NO_DISTANCE = 1e-6  # mm: smaller distances from the axis are rounding
+OFFSET = 0.2  # share of the stroke; pin offsets are up to 0.05, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 # Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
 # lie beyond. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
@@ -67,13 +68,13 @@ GRAMS = 'is it in kg? Grams are said as in "47 g"'
 
 
 class Figure(NamedTuple):
-    """A figure of a file, and its usual range.
+    """A figure of a file and its usual range.
 
     Attributes:
         name: Name with its verb, such as "rod.cg is".
         value: Value in the file.
         least, most: Usual range.
-        unit: Unit of value and range, with a space before it; empty: a plain number.
+        unit: Unit of value and range, with a space before it; empty for a plain number.
         hint: Probable mistake.
         digits: Number of digits of the value that are shown.
     """
@@ -88,10 +89,10 @@ class Figure(NamedTuple):
 
 
 def find_suspicious(model: EngineFile) -> list[str]:
-    """Return warnings for figures that are allowed and yet unlikely; none for an ordinary engine.
+    """Return warnings for figures that are allowed but unlikely; empty for an ordinary engine.
 
     Args:
-        model: the engine file.
+        model: Engine file.
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     question = ask_unit("bar", "130 psi", "0.9 MPa")
@@ -102,10 +103,10 @@ def find_suspicious(model: EngineFile) -> list[str]:
 
 
 def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
-    """Yield warnings for impossible loss factors, most likely given in percent.
+    """Yield warnings for impossibly large loss factors, which are probably given in percent.
 
     Args:
-        losses: Loss factors by their paths in the file; None: not given.
+        losses: Paths in the file and loss factors; None if not given.
     """
     hint = "{0:g} % is {1:g}, and of a relative damping psi the loss factor is psi/(2 pi)"
     yield from _doubt(
@@ -116,7 +117,7 @@ def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
 
 
 def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
-    """Yield a warning for each figure that is not usual."""
+    """Yield a warning for each figure outside its usual range."""
     for name, value, least, most, unit, hint, digits in figures:
         if least <= value <= most:
             continue
@@ -130,12 +131,12 @@ def _doubt(figures: Iterable[Figure]) -> Iterator[str]:
 
 
 def _round(value: float) -> str:
-    """Return two significant digits, without an exponent where it can be read."""
+    """Return two significant digits, without an exponent if the number is not too long."""
     return f"{float(f'{value:.2g}'):.12g}"
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for keys that are left out, and probably forgotten."""
+    """Yield warnings for keys that are left out and probably forgotten."""
     if _weigh_piston(model) == 0:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
@@ -211,7 +212,9 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
 
 
 def _list_cranks(model: EngineFile) -> Iterator[Figure]:
-    """Yield the figures of the crankshaft and what turns with it, next to rods and pistons."""
+    """Yield figures of the crankshaft and of parts that turn with it, compared with rods and
+    pistons.
+    """
     crank, shares, wheel = model.crank, model.bobweight, model.flywheel
     angles = crank.throws or (0.0,)
     if (span := max(angles) - min(angles)) >= THROWS[0]:
@@ -247,7 +250,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
 
 
 def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
-    """Yield the loss factors of all shafts and dampers, by their paths."""
+    """Yield the paths and loss factors of all shafts and dampers."""
     if model.torsion is None:
         return
     yield "torsion.loss", model.torsion.loss
@@ -259,7 +262,7 @@ def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
 
 
 def _has_crosshead(model: EngineFile) -> bool:
-    """Return whether only engines with a crosshead have so long a stroke."""
+    """Return whether the stroke is so long that the engine must have a crosshead."""
     bore = model.piston.bore
     return bore is not None and max(model.crank.strokes) > LONG_STROKE * bore
 
@@ -270,13 +273,15 @@ def _weigh_piston(model: EngineFile) -> float:
 
 
 def _weigh_rod(model: EngineFile) -> float:
-    """Return the mass of a rod, kg; 0 where the file gives none."""
+    """Return the mass of a rod, kg; 0 if the file gives none."""
     rod = model.rod
     return rod.mass or (rod.small_end or 0.0) + (rod.big_end or 0.0)
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """Return the numbers of throws and of rods; without throws, the firing order has the latter."""
+    """Return the numbers of throws and of rods. Without crank.throws, the firing order tells the
+    number of rods.
+    """
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1
     rods_on_a_throw = banks if layout.rods == "shared" else 1

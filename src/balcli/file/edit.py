@@ -1,5 +1,5 @@
-"""Change some keys of a table in the text of a TOML file, and keep the rest as it is: comments,
-layout, other tables. tomlkit does the work; its result is read back before anyone gets it.
+"""Change some keys of a table in the text of a TOML file, and keep comments, layout and other
+tables. tomlkit makes the change; its result is read back and checked.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ HEADER = re.compile(r"^[ \t]*\[{1,2}[ \t]*([\w.-]+)[ \t]*\]{1,2}[ \t]*(?:#.*)?$"
 def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> str:
     """Return the text with some keys of a table set; comments are kept.
 
-    A key keeps its place and its comment, to which the note is added; a new one comes last in its
-    table. The section of the table is edited alone where the table has one, since tomlkit reorders
-    lists of tables that stand between each other. Where tomlkit does not get the wanted values
-    right, the file is written anew, without comments.
+    A key keeps its place and its comment, to which the note is added. A new key comes last in its
+    table. If the table has a section of its own, only this section is edited, because tomlkit
+    reorders lists of tables that alternate. If the result does not have the wanted values, the file
+    is written anew, without comments.
 
     Args:
         text: Text of the file.
         table: Dotted name; a number names a cylinder (`cylinder.3`) or, from 1, a member of a list
             (`torsion.rear.2`).
-        keys: Values of the keys; None leaves a key out.
-        note: Comment on where the new values come from.
+        keys: Values of the keys; None removes a key.
+        note: Comment that names the source of the new values.
     """
     from tomlkit.exceptions import TOMLKitError
 
@@ -76,7 +76,7 @@ def remove_tables(text: str, name: str) -> str:
 
 
 def rewrite(data: Mapping[str, object], reason: str) -> str:
-    """Return a whole file in the order of its keys, headed by the reason why its comments are lost.
+    """Return a whole file from its tables, headed by the reason why its comments are lost.
 
     Args:
         data: Tables of the file.
@@ -89,8 +89,8 @@ def rewrite(data: Mapping[str, object], reason: str) -> str:
 
 
 def format_value(value: object) -> str:
-    """Return a number, a text, a truth value, or lists and tables of them, as TOML has it in one
-    line: the shortest decimals that read back to the same number.
+    """Return a value, list or table in TOML, on one line. Numbers have the fewest decimals that
+    read back as the same number.
     """
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(format_value, value))}]"
@@ -101,8 +101,8 @@ def format_value(value: object) -> str:
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
-    """Yield start and end of the section of a table, and the table's name in this section alone;
-    nothing if it has no section of its own.
+    """Yield start and end of a table's section, and the table's name if only this section is read;
+    nothing if the table has no section of its own.
     """
     path, _, number = table.rpartition(".")
     in_list = number.isdigit() and path != "cylinder"
@@ -116,7 +116,7 @@ def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
 
 
 def _edit(text: str, table: str, changes: Node, wanted: Any, note: str) -> str:
-    """Return the text with these changes; a table in braces is written anew as it is wanted."""
+    """Return the text with these changes; a table in braces is written anew."""
     import tomlkit
     from tomlkit.items import AoT, InlineTable, Table
 

@@ -1,10 +1,9 @@
-"""Files that are shipped: example engines, and files to start from.
+"""Files that come with balcli: example engines, and starting files for new engines.
 
-Examples: textbook layouts, one of each kind, are in the folder itself; engines that were built, or
-are of the size of such, in folders by class. The first line of a file is a comment with its lesson.
-
-Starting files: commented ones that work as they stand, of every common kind of engine, of runs
-of a rotor and of a chain of shafts.
+Examples of textbook layouts, one of each kind, are in the folder of examples itself. Engines that
+were built, or could have been, are in a folder for each class. The first line of an example is a
+comment with its lesson. There is a commented, valid starting file for every common kind of engine,
+for runs of a rotor, and for a chain of shafts.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ class Example(NamedTuple):
     """A shipped engine.
 
     Attributes:
-        name: Short name, that of its file.
+        name: Short name: the name of its file without ending.
         group: Class, which is its folder.
         lesson: Lesson of the engine, in a sentence.
         text: Content of the file.
@@ -40,8 +39,8 @@ class Example(NamedTuple):
     text: str
 
     def mentions(self, words: str) -> bool:
-        """Return whether each of the words, in any case, occurs in name, class, lesson, title,
-        source, or is a table of the file, such as gas.
+        """Return whether each of the words occurs in name, class, lesson, title or source, or is a
+        table of the file, such as gas. Case does not matter.
         """
         head, _, _ = self.text.partition("\n[")
         tables = {*re.findall(r"^\[+([a-z]+)", self.text, re.MULTILINE)} - _USUAL_TABLES
@@ -57,7 +56,7 @@ def find(words: str = "", group: str | None = None) -> list[Example]:
         group: Class of the examples; None: all.
 
     Raises:
-        BalcliError: No such class; no example.
+        BalcliError: There is no such class, or no example mentions the words.
     """
     if group is not None and group not in groups():
         raise BalcliError(f'there is no class "{group[:60]}" of engines: {", ".join(groups())}')
@@ -69,17 +68,19 @@ def find(words: str = "", group: str | None = None) -> list[Example]:
 
 
 def names() -> list[str]:
-    """Return the short names, layouts first, then by class."""
+    """Return the short names of all examples, layouts first, then by class."""
     return list(_find_paths())
 
 
 def groups() -> list[str]:
-    """Return the classes, layouts first."""
+    """Return the classes of examples, layouts first."""
     return list(dict.fromkeys(map(_group, _find_paths().values())))
 
 
 def is_example(name: str) -> bool:
-    """Return whether there is an example of this short name; an installation may have none."""
+    """Return whether there is an example with this short name; without a folder of examples, there
+    is none.
+    """
     return any(path.stem == name for place in _PLACES for path in place.rglob("*.toml"))
 
 
@@ -101,7 +102,7 @@ def folder() -> Path:
     """Return the folder of the examples.
 
     Raises:
-        BalcliError: The installation has none.
+        BalcliError: The installation has no such folder.
     """
     place = next(filter(Path.is_dir, _PLACES), None)
     if place is None:
@@ -143,15 +144,11 @@ def template(kind: str) -> str:
     """Return the starting file of a kind as TOML text.
 
     Raises:
-        BalcliError: No such kind; the error lists all of them and the nearest.
+        BalcliError: There is no such kind; the error lists all kinds and names the nearest.
     """
     if kind not in KINDS:
         near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
-        like = (
-            []
-            if kind.lower() in OTHER_WORDS
-            else [name for name in names() if kind.lower() in name]
-        )
+        like = [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."

@@ -1,6 +1,5 @@
-"""Figures of an engine file as pydantic types: how one is read, refused, and its JSON schema.
-
-Keys of a table of which only some may be given together.
+"""Values of an engine file as pydantic types, which check a value and describe it in JSON Schema;
+and `Choice`, for keys of a table that exclude each other.
 """
 
 from __future__ import annotations
@@ -28,17 +27,17 @@ if TYPE_CHECKING:
 
 _DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
 STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
-RIGID = "rigid"  # a stiffness without end: of a flange, or a mesh of gears
+RIGID = "rigid"  # infinite stiffness, as of a flange or a mesh of gears
 
 
 def printable(text: str) -> str:
-    """Return the first 60 characters; what moves the cursor or colours a terminal becomes a "?"."""
+    """Return the first 60 characters, with "?" for characters that control a terminal."""
     cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
 
 def shorten(value: object) -> str:
-    """Return a value as a reader may recognize it, cut to about 60 characters."""
+    """Return a value in recognizable form, cut to about 60 characters."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and value.bit_length() > 200:
@@ -55,7 +54,7 @@ def shorten(value: object) -> str:
 
 
 class WrittenFigure(float):
-    """A figure that a file gives in a unit of its own; `text` is what the file has."""
+    """A figure that a file gives with its own unit; `text` is the text in the file."""
 
     text: str
 
@@ -69,7 +68,7 @@ class WrittenFigure(float):
 
 
 def as_written(value: float, unit: str) -> str:
-    """Return a figure as its file has it.
+    """Return a figure as its file writes it.
 
     Args:
         value: Figure.
@@ -80,7 +79,7 @@ def as_written(value: float, unit: str) -> str:
 
 
 def order_number(order: float) -> int | float:
-    """Return an order as it is written: a whole one without a point."""
+    """Return an order for output: an int if it is whole."""
     return int(order) if order == int(order) else float(order)
 
 
@@ -95,18 +94,20 @@ def counted(count: int, what: str) -> str:
 
 
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
-    """Return how many digits of crank radius / rod length are shown: more next to 1, where the
-    crank locks.
+    """Return how many digits of crank radius / rod length to show: more near 1, where the crank
+    locks.
 
     Args:
         ratio: Crank radius / rod length.
-        usual: Digits of a ratio that is not next to 1.
+        usual: Digits for a ratio that is not near 1.
     """
     return usual if ratio < 0.999 else max(usual, 7)
 
 
 def parse_firing_order(value: object) -> object:
-    """Return a firing order as tables print it (`"1-3-4-2"`) as a list; anything else as it is."""
+    """Return a firing order in the form `"1-3-4-2"` as a list; any other value is returned
+    unchanged.
+    """
     if isinstance(value, str) and re.fullmatch(r"\s*\d{1,5}(?:\s*[-–—,; ]\s*\d{1,5})+\s*", value):
         return [int(number) for number in re.findall(r"\d+", value)]
     return value
@@ -116,9 +117,9 @@ def nearest(word: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     """Return the known word that was probably meant; empty if none is near.
 
     Args:
-        word: as somebody wrote it.
-        known: words that there are.
-        cutoff: least similarity, 1 for equal words.
+        word: Unknown word.
+        known: Known words.
+        cutoff: Least similarity; equal words have 1.
     """
     from difflib import get_close_matches
 
@@ -132,14 +133,14 @@ def suggest_nearest(word: str, known: Iterable[str], otherwise: str) -> str:
     Args:
         word: Unknown word.
         known: Known words.
-        otherwise: Text if none of them is near.
+        otherwise: Text if no known word is near.
     """
     near = nearest(word, known)
     return f"did you mean {near}?" if near else otherwise
 
 
 class _Field:
-    """A type of field: `read` gives the value or raises ValueError, `json` describes it."""
+    """A type of value: `read` returns the value or raises ValueError, `json` returns its schema."""
 
     def read(self, value: object) -> object:
         raise NotImplementedError
@@ -161,7 +162,7 @@ class _Field:
 
 
 class Number(_Field):
-    """A figure of some dimension: a bare number in the file's unit, or a string with its own."""
+    """A figure of some dimension: a bare number in the file's unit, or a string with a unit."""
 
     def __init__(
         self,
@@ -174,7 +175,7 @@ class Number(_Field):
         word: str = "",
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word = word  # may stand in place of the figure, which is nan then
+        self.word = word  # allowed instead of a number; the figure is then nan
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
@@ -187,7 +188,9 @@ class Number(_Field):
         return WrittenFigure(number, value) if isinstance(value, str) else number
 
     def _measure(self, value: object) -> float:
-        """Return a figure in the unit of the file; ValueError says why it is none."""
+        """Return a figure in the unit of the file; if it is not valid, raise ValueError with the
+        reason.
+        """
         if isinstance(value, str):
             number = convert(value, self.dimension)
         elif isinstance(value, bool) or not isinstance(value, (int, float)):
@@ -201,7 +204,7 @@ class Number(_Field):
         return number
 
     def _fault(self, number: float) -> tuple[str, str] | None:
-        """Return how a number is out of bounds, and its bounds; None if it is within."""
+        """Return how a number is out of bounds, and its bounds; None if it is within them."""
         if self.above is not None and number <= self.above:
             return f"not above {self.above:g}", f"above {self.above:g}"
         if self.above == 0 and number < SMALLEST_POSITIVE:
@@ -230,7 +233,7 @@ class Number(_Field):
 
 
 class Whole(_Field):
-    """A whole number, of which 4.0 counts as 4; or a multiple of 1/2."""
+    """A whole number (4.0 counts as 4), or a multiple of 1/2."""
 
     def __init__(self, *, least: float, most: int, zero: bool = True, halves: bool = False) -> None:
         self.least, self.most, self.zero, self.halves = least, most, zero, halves
@@ -302,7 +305,7 @@ class ListOrEach:
     """
 
     def __init__(self, one: object) -> None:
-        self._one = one
+        self.one = one
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
@@ -314,7 +317,7 @@ class ListOrEach:
             several = any(isinstance(row, (list, tuple)) for row in rows)
             return tuple(map(one, rows)) if several else one(value)
 
-        one_schema = handler.generate_schema(self._one)
+        one_schema = handler.generate_schema(self.one)
         return core_schema.no_info_wrap_validator_function(read, one_schema)
 
     def __get_pydantic_json_schema__(
@@ -339,7 +342,7 @@ class Flag(_Field):
 
 
 class OneOf(_Field):
-    """One of a few words or numbers; `meaning`: of these, for who writes another."""
+    """One of a few words or numbers; `meaning` explains them in the message for another value."""
 
     def __init__(self, *options: str | int, meaning: str = "") -> None:
         self.options, self.meaning = options, meaning
@@ -373,7 +376,7 @@ class Label(_Field):
 
 
 class FileName(Label):
-    """The name of a file, of at most some hundred characters."""
+    """The name of a file, of limited length."""
 
     most, kind = LONGEST_FILE_NAME, "name of a file"
     wanted = 'give the name of a file, such as "p_2000rpm.csv"'
@@ -396,7 +399,7 @@ class Choice(NamedTuple):
     unless: str = ""
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
-        """Yield the mistakes in the given keys, in words that follow the name of the table."""
+        """Yield the mistakes in the given keys, as text that follows the name of the table."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         keys = [key for group in begun for key in group if key in given]
         choices = " or ".join(map(join_words, self.groups))
@@ -410,17 +413,17 @@ class Choice(NamedTuple):
             yield f"has {join_words(keys)} without {join_words(missing)}; {wanted}"
 
     def rivals(self, key: str) -> tuple[str, ...]:
-        """Return the keys that exclude this one; none for a key of no group."""
+        """Return the keys that exclude this one; empty for a key of no group."""
         if not any(key in group for group in self.groups):
             return ()
         return tuple(other for group in self.groups if key not in group for other in group)
 
     def for_overrides(self, prefix: str) -> Choice:
-        """Return this choice among keys with a prefix, none of which must be given."""
+        """Return this choice for keys with a prefix, without keys that must be given."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
 
 def join_words(words: Collection[str]) -> str:
-    """Return words as a sentence lists them: `a, b and c`."""
+    """Return words joined as in a sentence: `a, b and c`."""
     *front, last = words
     return f"{', '.join(front)} and {last}" if front else last

@@ -1,7 +1,7 @@
 """Tables of an engine file about gas pressure, crank torque and flywheel: [gas], [flywheel] and
 [bearing].
 
-They are imported for files that have them (`names.CHAPTERS`).
+This module is imported only for files that have one of these tables (`names.CHAPTERS`).
 """
 
 from collections.abc import Iterator
@@ -31,59 +31,65 @@ class Gas(FileTable):
 
     indicator: Annotated[str, FileName()] | None = None
     """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
-    _kPa, _Pa, _psi; over the atmosphere _barg, _psig). Example: 'p_2000rpm.csv'"""
+    _kPa, _Pa, _psi; gauge pressures _barg, _psig). Example: 'p_2000rpm.csv'
+    """
     zero: Annotated[str, OneOf("firing", "gas-exchange")] = "firing"
     """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
     phase: Angle = 0.0
     """Added to the angles of the diagram. Example: -0.5"""
     pressure: Annotated[str, OneOf("absolute", "gauge")] = "absolute"
-    """Gauge: above the atmosphere of 1.01325 bar. Example: 'gauge'"""
+    """Kind of the diagram's pressures; gauge: above an atmosphere of 1.01325 bar. Example: 'gauge'
+    """
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
     """A computed cycle, by how it burns. Example: 'wiebe'"""
     compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
-    """Largest over smallest volume of the cylinder; with a diagram it gives the volume.
-    Example: 10.5"""
+    """Largest over smallest volume of the cylinder; with a diagram, it only serves to state
+    volumes. Example: 10.5
+    """
     compression_index: Annotated[float, Number(PLAIN, least=1, most=5)] = 1.32
-    """n of p V^n = const. Example: 1.35"""
+    """Index n of the compression, p V^n = const. Example: 1.35"""
     expansion_index: Annotated[float, Number(PLAIN, above=1, most=5)] = 1.28
-    """n of p V^n = const, and while it burns. Example: 1.27"""
+    """Index n of the expansion, p V^n = const, and of the burn. Example: 1.27"""
     intake: Annotated[float, Number(PRESSURE, above=0, most=1e6)] = 1.0
-    """Absolute, while it is filled. Example: 1.8"""
+    """Absolute pressure while the cylinder fills. Example: 1.8"""
     exhaust: Pressure = 1.05
-    """Absolute, while it empties; four-stroke. Example: 1.3"""
+    """Absolute pressure while the cylinder empties; four-stroke. Example: 1.3"""
     imep: MeanPressure | None = None
-    """Indicated mean effective pressure that the cycle is to have; with a diagram: its expected
-    value. Example: 10"""
+    """Indicated mean effective pressure of a computed cycle; with a diagram, its expected value.
+    Example: 10
+    """
     bmep: MeanPressure | None = None
-    """Instead of imep, with mechanical_efficiency. Example: 8.5"""
+    """Brake mean effective pressure, with mechanical_efficiency, instead of imep. Example: 8.5"""
     mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
     """Brake over indicated mean effective pressure. Example: 0.85"""
     max_pressure: Pressure | None = None
-    """Absolute; that the cycle is to have, or (dual) at which it burns on. Example: 70"""
+    """Absolute highest pressure of a computed cycle, or (dual) the pressure of the burn. Example:
+    70
+    """
     cut_off: Annotated[float, Number(PLAIN, least=1, most=1000)] | None = None
-    """Volume after over before burning at constant pressure. Example: 2"""
+    """Volume after burning at constant pressure over the volume before. Example: 2"""
     heat: Heat | None = None
-    """Supplied in each cycle of a cylinder. Example: 1400"""
+    """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
-    """Wiebe: cycle angle. Example: -10"""
+    """Wiebe: cycle angle at which the burn starts. Example: -10"""
     burn_duration: Annotated[float, Number(ANGLE, above=0, most=720)] = 50.0
-    """Wiebe: crank angle. Example: 60"""
+    """Wiebe: crank angle that the burn takes. Example: 60"""
     burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
     """Wiebe: exponent m. Example: 1.5"""
     exhaust_opens: Annotated[float, Number(ANGLE, above=0, most=360)] | None = None
-    """Cycle angle; left out: lower dead centre. Example: 140"""
+    """Cycle angle of opening; left out: lower dead centre. Example: 140"""
     intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
-    """Cycle angle, four-stroke; left out: lower dead centre. Example: 580"""
+    """Cycle angle of closing, four-stroke; left out: lower dead centre. Example: 580"""
     harmonics: Annotated[str, FileName()] | None = None
     """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
     the firing dead centre. Example: 'tangential.csv'"""
     crankcase: Pressure = 1.0
-    """Absolute, under the pistons. Example: 1.1"""
+    """Absolute pressure under the pistons. Example: 1.1"""
 
     @property
     def goals(self) -> tuple[str, ...]:
-        """Keys of which exactly one sets the heat; the highest pressure of a dual cycle stands next
-        to it.
+        """Keys of which exactly one must be given, because it sets the heat; a dual cycle has
+        max_pressure in addition.
         """
         return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
 
@@ -92,7 +98,7 @@ class Gas(FileTable):
         return (*super().rivals(key), *(goal for goal in goals if goal != key))
 
     def list_idle_keys(self, strokes: int, measured: bool, computed: bool) -> set[str]:
-        """Return the keys of figures that change nothing of the gas in this engine.
+        """Return the keys whose values do not matter for the gas in this engine.
 
         Args:
             strokes: 2 or 4.
@@ -113,7 +119,7 @@ class Gas(FileTable):
         return idle
 
     def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[str]:
-        """Defaults that count in an engine of so many strokes, as `list_idle_keys` takes it."""
+        """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
         idle = self.list_idle_keys(strokes, measured, computed) | {"phase", "zero", "pressure"}
         at_dead_centre = dict.fromkeys(("exhaust_opens", "intake_closes"), "lower dead centre")
         for key in type(self).model_fields:
@@ -123,14 +129,14 @@ class Gas(FileTable):
                 yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
 
     def _check_misplaced(self) -> Iterator[str]:
-        """Find keys of a computed cycle without one."""
+        """Check that keys of a computed cycle are given only with `cycle`."""
         others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
         if others and self.cycle is None and (self.indicator or self.harmonics):
             what = "indicator" if self.indicator else "harmonics"
             yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
     def _check_cycle(self) -> Iterator[str]:
-        """Check that a computed cycle has its keys, and exactly one figure that sets the heat."""
+        """Check that a computed cycle has all its keys, and exactly one that sets the heat."""
         if self.cycle is None:
             return
         wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
@@ -151,7 +157,7 @@ class Gas(FileTable):
 
 
 class Flywheel(FileTable):
-    """A flywheel, or all that turns with the crankshaft beyond it. [torsion] has its own."""
+    """A flywheel, with all other parts that the crankshaft drives. [torsion] does not use it."""
 
     choices = (
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),
@@ -166,7 +172,7 @@ class Flywheel(FileTable):
 
 
 class Bearing(FileTable):
-    """Bearings of the crankshaft, for loads per area."""
+    """Bearings of the crankshaft, for bearing loads per area."""
 
     choices = (
         Choice((("pin_diameter", "pin_width"),), complete=True),
@@ -174,20 +180,20 @@ class Bearing(FileTable):
     )
 
     pin_diameter: Size | None = None
-    """Of the crank pins. Example: 48"""
+    """Diameter of the crank pins. Example: 48"""
     pin_bore: Distance = 0.0
     """Inner diameter of hollow crank pins. Example: 20"""
     pin_width: Size | None = None
-    """Of each rod's bearing. Example: 20"""
+    """Width of each rod's bearing. Example: 20"""
     main_diameter: Size | None = None
-    """Of the main journals. Example: 60"""
+    """Diameter of the main journals. Example: 60"""
     main_bore: Distance = 0.0
     """Inner diameter of hollow main journals. Example: 20"""
     main_width: Size | None = None
-    """Of each main bearing. Example: 22"""
+    """Width of each main bearing. Example: 22"""
 
     def _check_bores(self) -> Iterator[str]:
-        """A hollow journal has a diameter, above that of its bore."""
+        """Check that a hollow journal has a diameter larger than its bore."""
         for kind in ("pin", "main"):
             bore, diameter = getattr(self, f"{kind}_bore"), getattr(self, f"{kind}_diameter")
             if bore and (diameter is None or bore >= diameter):

@@ -1,5 +1,5 @@
-"""Mistakes of an engine file in plain words: pydantic's findings translated, keys that no engine
-file has, and the kinds of files, which differ by the keys at their head.
+"""Messages for mistakes in an engine file: pydantic's findings in plain words, remedies for unknown
+keys, and the kinds of files, which are recognized by the keys at their head.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 
 
 def import_table(key: str) -> type[FileTable]:
-    """Return the table of a key; the module of a chapter is imported."""
+    """Return the class of the table with this key; the module of its chapter is imported."""
     if key in TABLES or key in DEVICES:
         return (TABLES | DEVICES)[key]
     table: type[FileTable] = import_name(f"{(CHAPTERS | CHAPTER_LISTS)[key]}:{key.capitalize()}")
@@ -46,29 +46,29 @@ def import_table(key: str) -> type[FileTable]:
 
 
 def import_tables() -> dict[str, type[FileTable]]:
-    """Return all tables that stand once in a file, with those of chapters."""
+    """Return the classes of all tables that a file has only once, chapters included."""
     return TABLES | {key: import_table(key) for key in CHAPTERS}
 
 
 def join_path(start: str, parts: Iterable[int | str]) -> str:
-    """Return a dotted path: `a`, ("speed_ripple", 0, "order") -> `a.speed_ripple.1.order`: people
-    count from 1. The path of the file itself is empty.
+    """Return a dotted path: `a.speed_ripple.1.order` for `a` and ("speed_ripple", 0, "order"). In
+    paths, members of lists count from 1. The path of the file itself is empty.
 
     Args:
         start: Path of the table.
-        parts: Keys, and places in lists from 0.
+        parts: Keys, and indices in lists from 0.
     """
     names = (str(part + 1) if isinstance(part, int) else printable(part) for part in parts)
     return ".".join(filter(None, [start, *names]))
 
 
 def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -> Problem:
-    """Return one finding of pydantic in words; a member of a list is named as `the 2nd value`.
+    """Return the message for a finding of pydantic; a member of a list is called `the 2nd value`.
 
     Args:
-        path: of the table.
-        finding: with the place of the key in it.
-        table: what may stand there.
+        path: Path of the table.
+        finding: Finding, with the place of the key in the table.
+        table: Class of the table.
     """
     kind, loc, value = finding["type"], finding["loc"], finding["input"]
     inner, key = find_inner_table(table, loc), str(loc[-1]) if loc else ""
@@ -108,7 +108,7 @@ def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[F
 
     Args:
         table: Table at the start of the place.
-        loc: Keys, and places in lists.
+        loc: Keys, and indices in lists.
     """
     for part in loc[:-1]:
         field = table.keys().get(str(part))
@@ -117,7 +117,9 @@ def find_inner_table(table: type[FileTable], loc: Sequence[str | int]) -> type[F
 
 
 def find_table(annotation: object) -> type[FileTable] | None:
-    """Return the table of which a field's type is made, alone or in a list; None: it is none."""
+    """Return the class of tables in a field's type (a table, or a list of them); None if there is
+    none.
+    """
     if isinstance(annotation, type) and issubclass(annotation, FileTable):
         return annotation
     return next(filter(None, map(find_table, get_args(annotation))), None)
@@ -131,16 +133,16 @@ def ordinal(number: int) -> str:
     return f"{number}{suffix}"
 
 
-SHARED = {"name", "source", "shaft"}  # keys of an engine file that others have, or might have
+SHARED = {"name", "source", "shaft"}  # keys of an engine file that other kinds may have
 
 
 class FileKind(NamedTuple):
     """A kind of file.
 
     Attributes:
-        name: of the kind, in words.
-        reader: the command that reads it, in words.
-        keys: that only this kind has.
+        name: Name of the kind.
+        reader: The command that reads it, in words.
+        keys: Keys that only this kind has.
     """
 
     name: str
@@ -154,8 +156,8 @@ CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "exc
 
 
 def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
-    """Raise an error if the keys at the head of a file are those of one other kind, and none of a
-    wanted kind: a list of all its mistakes would not help.
+    """Raise an error if the keys at the head of a file show that it is of another kind. A list of
+    all its mistakes would not help then.
 
     Args:
         head: Keys at the head of the file.
@@ -163,7 +165,8 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
         wanted: Kinds that can be read here.
 
     Raises:
-        OtherKindError: The error names the kind, and the command that reads it.
+        OtherKindError: The file is of another kind; the error names it and the command that reads
+            it.
     """
     found = [kind for kind in (ENGINE, RUNS, CHAIN) if any(key in head for key in kind.keys)]
     if len(found) == 1 and found[0] not in wanted:
@@ -172,7 +175,7 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
         raise OtherKindError([Problem("", message)], file)
 
 
-# What people call a key, and keys that mean it; the first that a table has
+# Other words for keys, and the keys that they may mean; the first that a table has is proposed
 _SYNONYMS = """
 conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
 crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
@@ -185,12 +188,12 @@ _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
 )
-# What is no key of an engine file by any name, and what to write instead
+# Words for which an engine file has no key, and what to write instead
 INSTEAD = {
     **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
     **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
 }
-_NEAR = 0.65  # of a key and one of its table that is meant: "damper" is no "name"
+_NEAR = 0.65  # least similarity of an unknown key and the proposed one in its table
 _NEAR_ELSEWHERE = 0.75
 
 
@@ -206,12 +209,13 @@ def format_heading(path: str) -> str:
 
 
 def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[str, str]:
-    """Return the remedy for an unknown key, in words, and the key that was probably meant, or "".
+    """Return the remedy for an unknown key, in words, and the key that was probably meant ("" if
+    none).
 
     Args:
-        key: as it is written.
-        own: keys of its table.
-        is_engine: whether the table is of an engine file, which has hints and other tables.
+        key: Key as it is written.
+        own: Keys of its table.
+        is_engine: Whether the table is one of an engine file, for which there are more hints.
     """
     word = key.lower().replace("-", "_")
     if is_engine and word in INSTEAD:
@@ -232,12 +236,12 @@ def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[
 
 
 def suggest_place(key: str) -> str:
-    """Return the tables of an engine file that have this key, in words: `bore belongs to [piston]`;
-    empty if none has.
+    """Return in words which tables of an engine file have this key: `bore belongs to [piston]`;
+    empty if no table has it.
     """
     if key in TEXTS:
         return f"{key} stands at the head of the file, above all tables"
     having = [name for name, table in import_tables().items() if key in table.model_fields]
-    # The parts of an engine first: a chapter may use the same word for something of its own
+    # Tables of engine parts first: a chapter may use the same key for something else
     names = [f"[{name}]" for name in having if name in TABLES] or [f"[{name}]" for name in having]
     return f"{key} belongs to {' or '.join(names)}" if names else ""

@@ -1,9 +1,9 @@
 """The tables of an engine file: one pydantic class per part, in its units (mm, kg, degrees, rpm, kg
 mm^2, g mm, s).
 
-The tables check and never derive: what follows from the figures (rod length from its ratio, inertia
-from a pendulum) is computed by the package `engine`. A validator is built only for a table that a
-file has.
+The tables only check figures. Values that follow from them (rod length from its ratio, inertia from
+a pendulum test) are computed by the package `engine`. pydantic builds a validator only for tables
+that a file has. The string below a key documents it (`table.document_keys`).
 """
 
 import math
@@ -73,7 +73,7 @@ class Crank(FileTable):
     """Axial distance of neighbouring throws; without it (or positions) moments of several throws
     are not known. Example: 100"""
     positions: Lengths | None = None
-    """Axial place of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
+    """Axial position of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
     throw_mass: Masses = 0.0
     """Unbalanced mass of one whole throw, referred to the crank radius; its pins share it
     equally; a list has one for each throw. Example: 0.8"""
@@ -167,15 +167,16 @@ class Piston(FileTable):
     locks: Mass | None = None
     """Both locks (clips) of the pin. Example: 0.004"""
     offset: Length = 0.0
-    """Of the pin path, + towards the side to which the crank pin moves after top dead centre.
-    Example: -1.6"""
+    """Offset of the piston pin's path, positive towards the side to which the crank pin moves after
+    top dead centre. Example: -1.6
+    """
 
 
 class Crosshead(FileTable):
     """Crosshead between the piston rod and the connecting rod of large engines."""
 
     mass: Mass = 0.0
-    """Of each cylinder, with piston rod and pin; it moves with the piston. Example: 2400"""
+    """Mass of each crosshead with piston rod and pin; it moves with the piston. Example: 2400"""
 
 
 class Layout(FileTable):
@@ -184,7 +185,7 @@ class Layout(FileTable):
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
 
     bank_angle: Angle | None = None
-    """A vee: banks at minus and plus half of this angle. Example: 90"""
+    """Angle of a vee: its banks are at minus and plus half of it. Example: 90"""
     banks: Angles | None = None
     """Angle of every bank. Example: [-90, 90]"""
     radial: Count | None = None
@@ -202,8 +203,9 @@ class Layout(FileTable):
     firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
     """Numbers of the cylinders as they fire. Example: [1, 3, 4, 2]"""
     firing_intervals: Intervals | None = None
-    """From each firing to the next; left out: as crank.throws give them, even without these.
-    Example: [405, 315]"""
+    """Angle from each firing to the next; left out: as crank.throws give them, or even without
+    throws. Example: [405, 315]
+    """
     rotary: Switch = False
     """The crank stands still and the cylinders turn about it. Example: true"""
     strokes: Annotated[int, OneOf(2, 4)] = 4
@@ -254,8 +256,8 @@ class Layout(FileTable):
 
 
 def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
-    """Return the interval after each firing if these numbers rise from 0 or to the whole cycle, as
-    angles that count from the first firing do; else an empty list.
+    """Return the interval after each firing if these numbers look like angles from the first
+    firing: they rise from 0, or to the whole cycle. Otherwise return an empty list.
     """
     first = angles[0] == 0
     gaps = [b - a for a, b in pairwise([*angles, cycle] if first else [0, *angles])]
@@ -284,11 +286,11 @@ class Ripple(FileTable):
     """
 
     order: RippleOrder
-    """Times for each turn of the crank. Example: 4"""
+    """Oscillations per turn of the crank. Example: 4"""
     amplitude: Share
-    """Of the mean speed. Example: 0.01"""
+    """Amplitude as a share of the mean speed. Example: 0.01"""
     angle: Angle = 0.0
-    """Phase: it is largest at angle / order. Example: 0"""
+    """Phase: the speed is largest at crank angle = angle / order. Example: 0"""
 
 
 class Operation(FileTable):
@@ -347,7 +349,7 @@ class Override(FileTable):
     """As gas.heat, of a computed cycle; 0: a cylinder that compresses and does not burn.
     Example: 0"""
     indicator: Annotated[str, FileName()] | None = None
-    """As gas.indicator, a diagram of its own. Example: 'p_3.csv'"""
+    """As gas.indicator, with a diagram for this cylinder. Example: 'p_3.csv'"""
     stroke: Size | None = None
     """Twice the radius of this cylinder's pin, where it differs from that of its throw.
     Example: 85"""
@@ -356,26 +358,26 @@ class Override(FileTable):
     throw: Angle | None = None
     """Angle of this cylinder's crank pin. Example: 120"""
     position: Length | None = None
-    """Axial place of this cylinder. Example: 50"""
+    """Axial position of this cylinder. Example: 50"""
 
 
 class Device(FileTable):
-    """Keys of all devices: the size, as unbalance or as mass and radius."""
+    """Keys of all devices: the unbalance, or mass and radius; and the position."""
 
     choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
 
     unbalance: Unbalance | None = None
-    """Mass times radius; "fit": `balcli balance` finds it. Example: 9000"""
+    """Mass times radius; "fit": `balcli balance` computes it. Example: 9000"""
     mass: Mass | None = None
     """With radius, instead of unbalance. Example: 0.5"""
     radius: Distance | None = None
     """With mass, instead of unbalance. Example: 40"""
     position: Length = 0.0
-    """Axial place (z). Example: 0"""
+    """Axial position (z). Example: 0"""
 
     @property
     def to_fit(self) -> bool:
-        """Whether its unbalance is "fit", for `balcli balance` to find."""
+        """Whether the unbalance is "fit": `balcli balance` computes it."""
         return self.unbalance is not None and math.isnan(self.unbalance)
 
 
@@ -383,7 +385,7 @@ class Counterweight(Device):
     """An unbalance fixed to the crankshaft."""
 
     angle: Angle = 0.0
-    """At crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
     axle: Name | None = None
     """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
 
@@ -392,9 +394,9 @@ class Shaft(Device):
     """A balancer shaft, or one of several eccentrics on it."""
 
     ratio: ShaftRatio
-    """Times crank speed; negative: against the crank. Example: -2"""
+    """Speed over crank speed; negative: against the crank. Example: -2"""
     angle: Angle = 0.0
-    """Of the eccentric at crank angle 0, from the x axis. Example: 90"""
+    """Angle of the eccentric at crank angle 0, from the x axis. Example: 90"""
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
 
@@ -403,9 +405,9 @@ class Slider(Device):
     """A reciprocating balance mass."""
 
     order: Count
-    """Strokes for each turn of the crank. Example: 2"""
+    """Oscillations per turn of the crank. Example: 2"""
     direction: Angle
-    """Of its path, from the x axis. Example: 90"""
+    """Direction of its path, from the x axis. Example: 90"""
     angle: Angle = 0.0
     """Phase at crank angle 0: displacement ~ cos(order * theta + angle). Example: 180"""
     at: Place = (0.0, 0.0)
@@ -413,8 +415,8 @@ class Slider(Device):
 
 
 def label_table(table: FileTable, number: int) -> str:
-    """Return the word for a table of several in dotted names: its name, with `_` for spaces, if
-    that is a word; else its number.
+    """Return the part of a dotted name that stands for a table in a list: its name with `_` for
+    spaces, if that is an identifier; else its number.
 
     Args:
         table: Table, which may have a name.
@@ -428,7 +430,7 @@ class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
     name: str = ""
-    """What the engine is called. Example: 'in-line four'"""
+    """Name of the engine. Example: 'in-line four'"""
     source: str = ""
     """Where the figures come from, and which are assumed. Example: 'weighed, May 2024'"""
     crank: Crank
@@ -446,7 +448,7 @@ class EngineFile(FileTable):
     torsion: "Torsion | None" = None
     locomotive: "Locomotive | None" = None
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
-    """What differs in single cylinders, by their numbers."""
+    """Figures of cylinders that differ from the others, by cylinder number."""
     counterweight: tuple[Counterweight, ...] = ()
     """Unbalance fixed to the crankshaft."""
     shaft: tuple[Shaft, ...] = ()
@@ -455,7 +457,7 @@ class EngineFile(FileTable):
     """Reciprocating balance masses."""
     body: "Body | None" = None
     mount: "tuple[Mount, ...]" = ()
-    """What the body stands on."""
+    """Mounts of the body."""
     point: "tuple[Point, ...]" = ()
     """Points whose motion is wanted."""
     axle: "tuple[Axle, ...]" = ()
@@ -465,7 +467,7 @@ class EngineFile(FileTable):
 
     @property
     def folder(self) -> Path:
-        """Where the file stands, and the files that it names."""
+        """Folder of the file and of the files that it names."""
         return self._folder
 
     def with_table(self, key: str, **values: object) -> Self:
@@ -474,8 +476,8 @@ class EngineFile(FileTable):
         return self.model_copy(update={key: table.model_copy(update=values)})
 
     def tables(self) -> Iterator[tuple[str, FileTable]]:
-        """Yield every table with its dotted name (`crank`, `shaft.1`, `mount.left`), as far as the
-        file has it or it has defaults; not the tables within tables.
+        """Yield every table that the file has or that has defaults, with its dotted name (`crank`,
+        `shaft.1`, `mount.left`); tables within tables are omitted.
         """
         for name, part in self:
             if isinstance(part, FileTable):
@@ -491,21 +493,21 @@ class ArticulatedRod(RodKeys):
     """An articulated rod, from its knuckle pin (its big end) to its piston pin."""
 
     length: Size | None = None
-    """From the knuckle pin to the piston pin. Example: 200"""
+    """Distance from the knuckle pin to the piston pin. Example: 200"""
     cg: Length | None = None
-    """From the knuckle pin to the centre of mass. Example: 100"""
+    """Distance of the centre of mass from the knuckle pin. Example: 100"""
     big_end: Mass | None = None
     """Mass weighed at the knuckle pin, instead of mass and cg. Example: 0.3"""
 
 
 class Articulation(FileTable):
-    """A radial with one master rod, to which the others are hinged."""
+    """A radial engine with a master rod, to which the other rods are hinged."""
 
     master: Counts = 1
     """Number of the bank that carries the master rod, in a radial in rows its place in the row;
     a list has one for each row. Example: 1"""
     knuckle_radius: Size
-    """From the crank pin to the knuckle pins. Example: 55"""
+    """Distance from the crank pin to the knuckle pins. Example: 55"""
     knuckle_angles: AnglesOfRows | None = None
     """One for each bank, from the master rod's axis (its own is 0), or such a list for each row;
     left out: bank angles from it. Example: [0, 72, 144, 216, 288]"""

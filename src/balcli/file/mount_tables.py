@@ -1,6 +1,6 @@
 """Tables of an engine file about its mounts: [body], [[mount]] and [[point]].
 
-They are imported for files that have them (`names.CHAPTERS`).
+This module is imported only for files that have one of these tables (`names.CHAPTERS`).
 """
 
 import math
@@ -15,7 +15,7 @@ from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
 
 class AlikeOrEach(OneOrEach):
-    """Figures along the three own axes of a mount, or one that holds along all three."""
+    """Figures along the three axes of a mount, or one figure for all three."""
 
     count = 3
 
@@ -33,14 +33,14 @@ Stiffnesses = Annotated[tuple[float, ...], AlikeOrEach(_Stiffness)]
 Dampings = Annotated[tuple[float, ...], AlikeOrEach(_Damping)]
 
 UNIT = INERTIA.unit
-_PERPENDICULAR = 1e-6  # cosine between two axes that are
+_PERPENDICULAR = 1e-6  # largest cosine between perpendicular axes
 
 
 class Body(FileTable):
     """The body on the mounts: the engine with its gearbox, as one rigid body."""
 
     mass: Annotated[float, Number(MASS, above=0, most=1e12)]
-    """Of the whole. Example: 163.9"""
+    """Mass of the whole body. Example: 163.9"""
     cg: Triple
     """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
     inertia: Tensor
@@ -50,8 +50,9 @@ class Body(FileTable):
     gravity: Direction = (-1.0, 0.0, 0.0)
     """Direction of the weight, of any length. Example: [-1, 0, 0]"""
     carries_load: Switch = False
-    """The load that takes the engine's torque also stands on the body, such as the generator of a
-    genset: at rest no mount feels its mean. Example: true"""
+    """Whether the load that takes the engine's torque is also on the body, such as the generator of
+    a genset; then no mount carries the mean torque. Example: true
+    """
 
     def _check_gravity(self) -> Iterator[str]:
         if not any(self.gravity):
@@ -88,21 +89,26 @@ class Mount(FileTable):
     choices = (Choice((("axes",), ("angles",))),)
 
     name: Name
-    """What to call it. Example: 'left'"""
+    """Name of the mount. Example: 'left'"""
     at: Triple
     """x, y, z, in the engine's axes. Example: [-66, 463, 156]"""
     stiffness: Stiffnesses
-    """Static, along its three own axes; one figure: alike along all three. Example: [349.5,
-    370.5, 453]"""
+    """Static stiffness along its three axes, or one figure for all three. Example: [349.5, 370.5,
+    453]
+    """
     axes: Directions | None = None
-    """First and second own axis in the engine's axes, perpendicular, of any length; left out: x,
-    y, z. Example: [[0, 1, 0], [-1, 0, 0]]"""
+    """First and second axis of the mount, in the engine's axes, perpendicular, of any length; left
+    out: x, y, z. Example: [[0, 1, 0], [-1, 0, 0]]
+    """
     angles: Turns | None = None
-    """Instead of axes: turned about x, then y, then z by these. Example: [0, -10, 0]"""
+    """Angles by which the mount's axes are turned about x, then y, then z, instead of axes.
+    Example: [0, -10, 0]
+    """
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""
     damping: Dampings = (0.0, 0.0, 0.0)
-    """Viscous, along its own axes, or one figure. Example: [0.4, 0.4, 0.4]"""
+    """Viscous damping along its three axes, or one figure for all three. Example: [0.4, 0.4, 0.4]
+    """
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
     """Dynamic over static stiffness; statics do not use it. Example: 1.3"""
 
@@ -126,6 +132,6 @@ class Point(FileTable):
     """A point of the body whose motion is wanted."""
 
     name: Name
-    """What to call it. Example: 'seat rail'"""
+    """Name of the point. Example: 'seat rail'"""
     at: Triple
     """x, y, z, in the engine's axes. Example: [0, 500, 0]"""

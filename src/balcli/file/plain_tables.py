@@ -1,5 +1,5 @@
-"""An engine file as dicts, lists, numbers and texts, from what Python gives and from a model; and
-the defaults that count where it leaves keys out.
+"""An engine file as dicts, lists, numbers and texts, made of a Python user's tables or of a model;
+and the defaults that apply if the file leaves keys out.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from .toml import name_file, parse_toml, read_bytes
 
 
 def normalize_tables(tables: Mapping[Any, object]) -> Node:
-    """Return tables of a user of Python as TOML has them: keys are text, arrays and tuples are
-    lists, numpy's numbers are Python's; None is left out.
+    """Return tables from Python in the form that TOML has: keys become text, arrays and tuples
+    become lists, numpy's numbers become Python's; None is omitted.
 
     Raises:
-        InputError: a key that is no text or number; tables that hold themselves.
+        InputError: A key is no text or number, or a table contains itself.
     """
     try:
         return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
@@ -38,17 +38,18 @@ def normalize_tables(tables: Mapping[Any, object]) -> Node:
 
 
 def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str, object], str]:
-    """Return the tables of a source, and the file's name, empty without a file. A source is a path
-    ("-": standard input), the text of a file, of several lines, or a dict.
+    """Return the tables of a source, and the name of its file (empty if it is no file). A source is
+    a path ("-": standard input), the text of a file with several lines, or a dict.
 
     Args:
-        function: Function that was given the source, for messages.
+        function: Function to which the source was given, for messages.
+        source: Path, text or dict.
         wanted: A right source in words, for messages.
 
     Raises:
-        BalcliError: there is nothing to read.
-        InputError: it is no TOML.
-        TypeError: the source is none of these.
+        BalcliError: The file cannot be read.
+        InputError: The text is no TOML.
+        TypeError: The source is none of these.
     """
     if isinstance(source, Mapping):
         return normalize_tables(source), ""
@@ -78,7 +79,7 @@ def _plain(value: object) -> object:
 
 
 def list_tables(model: EngineFile) -> Node:
-    """Return the tables that describe a file again; numbers are in the units of the file."""
+    """Return the tables of a file; numbers are in the units of the file."""
     return _write(model)
 
 
@@ -99,13 +100,13 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
     """Return the tables of a file with other values of some keys.
 
     Args:
-        model: the file.
+        model: Engine file.
         changes: Values by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`);
             None removes a key. Equivalent keys (`rod.ratio` of `rod.length`) are removed, unless
             they are changed as well.
 
     Raises:
-        InputError: a name of a member of a list that the file does not have.
+        InputError: A name stands for a member of a list that the file does not have.
     """
     tables = list_tables(model)
     for path, value in changes.items():
@@ -125,8 +126,8 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
 
 
 def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[Any, Any]:
-    """Return the table or list at these keys, as written and as the model has it (None: it has
-    none).
+    """Return the table or list at these keys, in the written tables and in the model (None if the
+    model lacks it).
     """
     for key in keys:
         if isinstance(place, list):
@@ -142,7 +143,7 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
 
 
 def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
-    """Return the place (from 0) of the member of a list that a number (from 1) or a name means."""
+    """Return the index of the member of a list with this number (from 1) or name."""
     labels = [
         label_table(one, k) if isinstance(one, FileTable) else str(k)
         for k, one in enumerate(given, 1)
@@ -156,8 +157,8 @@ def _find_member(place: Sequence[Any], given: Any, key: str, path: str) -> int:
 
 
 def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
-    """Yield defaults that count in torsion and on mounts, with the list of tables in place of its
-    member: `mount.dynamic_factor = 1`.
+    """Yield the defaults on which results of torsion and mounts depend. For lists, one line stands
+    for all members: `mount.dynamic_factor = 1`.
     """
     torsion, body, mounts = model.torsion, model.body, model.mount
     for end, parts in (("front", torsion.front), ("rear", torsion.rear)) if torsion else ():
@@ -174,17 +175,17 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     yield from (default for default, counts in left_out.items() if counts)
 
 
-# Tables that count in some subjects alone.
+# Tables on which only some results depend.
 _OF_CHAPTERS = {"gas", "torsion", "body", "mount", "flywheel"}
-# Keys that are no part of a torque at steady speed.
+# Keys on which the torque at steady speed does not depend.
 STEADY = ("crank.spacing", "layout.stagger", "crank.throw_mass", "crank.inertia")
 
 
 def choose_assumed(
     inferred: Iterable[str], chapters: Collection[str], without: Collection[str] = ()
 ) -> tuple[str, ...]:
-    """Return the keys of `engine.numbering.list_inferred` that count in a subject; arguments as of
-    `Engine.list_assumed`.
+    """Return the lines of `engine.numbering.list_inferred` on which the results of a chapter
+    depend; arguments as for `Engine.list_assumed`.
     """
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)

@@ -1,7 +1,7 @@
-"""Read the tables of an engine file one by one, and collect every mistake by its path, with what
-would be right.
+"""Read the tables of an engine file one by one. Every mistake is collected with its path and a
+remedy.
 
-Contradictions between tables are not looked for here: that takes an engine (`engine.parse`).
+Contradictions between tables are not found here, because that needs the engine (`engine.parse`).
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ T = TypeVar("T", bound=FileTable)
 
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
-    """Return mistakes as one error that lists the first ones and the number of the others. A
-    key that is only misspelt is not listed as missing.
+    """Return one error that lists the first mistakes and the number of the others. A misspelt key
+    is not listed as missing as well.
 
     Args:
-        problems: all mistakes of a file.
-        name: of the file.
+        problems: All mistakes of a file.
+        name: Name of the file.
     """
     problems = sorted(problems, key=lambda problem: problem.meant is None)
     meant = {problem.meant for problem in problems}
@@ -57,15 +57,16 @@ def refuse(problems: Iterable[Problem], name: str) -> InputError:
 
 
 class TableReader:
-    """Reads tables and collects the mistakes.
+    """Reads tables and collects their mistakes.
 
     Args:
-        file_kind: what the file is, in words: "a chain file".
-        describe: Puts one of pydantic's findings in a table with this path into words.
-        is_engine: whether tables are those of an engine file, which has synonyms and hints.
+        file_kind: Kind of the file, in words: "a chain file".
+        describe: Returns the message for a finding of pydantic, from the table's path, the finding
+            and the table's class.
+        is_engine: Whether the file is an engine file, for which there are more hints.
 
     Attributes:
-        problems: the mistakes so far.
+        problems: Mistakes found so far.
     """
 
     def __init__(
@@ -82,13 +83,14 @@ class TableReader:
     def read_list(
         self, key: str, value: object, table: type[T], most: int = MOST_PARTS
     ) -> tuple[T | None, ...] | None:
-        """Return the tables under a key, None for those with mistakes; None if it is no list.
+        """Return the tables of a list, with None for each table that has mistakes; None if the
+        value is no list, or too long.
 
         Args:
-            key: of the list.
-            value: as TOML is read.
-            table: what each of them may say.
-            most: how many there may be.
+            key: Key of the list.
+            value: Value in the TOML.
+            table: Class of the tables.
+            most: Largest number of tables.
         """
         if not isinstance(value, list):
             wanted = f"write [[{key}]] in double brackets, once for each {key}"
@@ -100,13 +102,13 @@ class TableReader:
         return tuple(self.read_table(f"{key}.{k}", item, table) for k, item in enumerate(value, 1))
 
     def read_table(self, path: str, value: object, table: type[T]) -> T | None:
-        """Return a table; None if it has mistakes. Contradictions between its keys are looked for
-        where all of them can be read.
+        """Return a table; None if it has mistakes. Contradictions between its keys are reported
+        only if all keys are known.
 
         Args:
             path: Path of the table; empty: the file itself.
-            value: Content of the table as TOML has it.
-            table: Keys that it may have.
+            value: Value in the TOML.
+            table: Class of the table.
         """
         if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
             self.add(path, f"is given once, in single brackets: [{path}]")
@@ -128,17 +130,17 @@ class TableReader:
         return read if len(known) == len(value) else None
 
     def refuse_key(self, path: str, key: str, own: Collection[str] | None, value: object) -> None:
-        """Collect a key that is none of a table.
+        """Collect the mistake of a key that a table does not have.
 
         Args:
-            path: of the table; empty: the file itself.
-            key: as it is written.
-            own: keys of the table; None: no engine file has this table.
-            value: what stands there.
+            path: Path of the table; empty: the file itself.
+            key: Key as it is written.
+            own: Keys of the table; None: no engine file has this table.
+            value: Value of the key.
         """
         place = join_path(path, [key])
         self._unknown += 1
-        if self._unknown > MOST_MISTAKES_SHOWN:  # only the number of these is told
+        if self._unknown > MOST_MISTAKES_SHOWN:  # these are only counted
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
@@ -153,7 +155,7 @@ class TableReader:
         self.problems.append(Problem(place, f"{message}; {hint}" if hint else message, (), meant))
 
     def refusal(self, name: str) -> InputError:
-        """Return the error that lists the mistakes of the file with this name (empty: none)."""
+        """Return the error that lists the mistakes; `name` is the name of the file, or empty."""
         return refuse(self.problems, name or self._file_kind.removeprefix("a "))
 
     def add(self, path: str, message: str) -> None:
@@ -161,23 +163,23 @@ class TableReader:
 
         Args:
             path: Path of the key or table.
-            message: The mistake, and then the remedy.
+            message: The mistake, then the remedy.
         """
         self.problems.append(Problem(path, message))
 
     def _translate(
         self, path: str, table: type[FileTable], error: ValidationError, *, whole: bool
     ) -> None:
-        """Collect pydantic's findings in a table; `whole`: whether it has no unknown keys."""
+        """Collect pydantic's findings in a table; `whole` tells that it has no unknown keys."""
         for finding in error.errors(include_url=False)[:MOST_LIST_VALUES]:
             if not finding["loc"]:
                 contradictions = finding["ctx"]["error"].args if whole else ()
                 self.problems += (Problem(path, message) for message in contradictions)
-            elif finding["type"] == "extra_forbidden":  # in a table within the table
+            elif finding["type"] == "extra_forbidden":  # an unknown key in an inner table
                 *parents, last = finding["loc"]
                 inner = find_inner_table(table, finding["loc"]).keys()
                 self.refuse_key(join_path(path, parents), str(last), inner, finding["input"])
-            elif not (  # members with findings of their own were not counted
+            elif not (  # pydantic does not count members that have findings themselves
                 finding["type"] == "too_short"
                 and len(finding["input"]) >= finding["ctx"]["min_length"]
             ):
@@ -191,10 +193,10 @@ class Draft(NamedTuple):
     """The readable part of an engine file.
 
     Attributes:
-        model: the file. A table with mistakes has its default, or is left out.
-        readable: tables and keys at the head of the file that were read without mistakes, or
-            are really absent.
-        problems: mistakes of the text.
+        model: Engine file; a table with mistakes has its default, or is missing.
+        readable: Tables and keys at the head of the file that were read without mistakes, or that
+            the file does not have.
+        problems: Mistakes of the file.
     """
 
     model: EngineFile
@@ -203,16 +205,16 @@ class Draft(NamedTuple):
 
 
 def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Draft:
-    """Return the readable part of a TOML text.
+    """Return the readable part of an engine file from its text.
 
     Args:
-        text: of the file.
-        name: of the file, for messages.
-        bare: whether a body on its mounts will do, without crank, rods and pistons: the model then
-            has none.
+        text: Text of the file (TOML).
+        name: Name of the file, for messages.
+        bare: Whether a file with only a body on mounts is allowed; its model has no crank, rods and
+            pistons.
 
     Raises:
-        InputError: it is no TOML, or of another kind.
+        InputError: The text is no TOML, or a file of another kind.
     """
     return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
 
@@ -220,17 +222,17 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
 def check_tables(
     data: Mapping[str, object], folder: Path, name: str = "", *, bare: bool = False
 ) -> Draft:
-    """Return the readable part of the tables of a file; pydantic compiles only tables that are
-    present.
+    """Return the readable part of an engine file from its tables. pydantic compiles only tables
+    that are present.
 
     Args:
-        data: as TOML is read.
-        folder: Folder of the files that it names.
-        name: of their own file, for messages.
-        bare: as of `read_tables`.
+        data: Tables as TOML has them.
+        folder: Folder of the files that they name.
+        name: Name of the engine file, for messages.
+        bare: As for `read_tables`.
 
     Raises:
-        InputError: they are of another kind of file.
+        InputError: The file is of another kind.
     """
     refuse_other_kind(data, name, ENGINE)
     body_alone = "body" in data and not any(key in data for key in REQUIRED)
@@ -243,7 +245,7 @@ def check_tables(
         if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
             reader.refuse_key("", key, KNOWN, inside)
             continue
-        for inner, value in inside.items():  # of an unknown table: each with the table that has it
+        for inner, value in inside.items():  # keys of an unknown table
             reader.refuse_key(printable(key), inner, None, value)
     for key, example in REQUIRED.items():
         if key not in data and not body_alone:
@@ -275,7 +277,7 @@ def _settle_speed(model: EngineFile) -> EngineFile:
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:
-    """Return the value of a key at the head of the file; None where it cannot be used."""
+    """Return the value of a key at the head of the file; None if it has mistakes."""
     if key in TEXTS:
         return _read_text(reader, key, value)
     if key == "cylinder":
@@ -287,15 +289,15 @@ def _read_part(reader: TableReader, key: str, value: object) -> object:
 def change_figures(
     model: EngineFile, values: Mapping[str, float], tables: Collection[str]
 ) -> EngineFile:
-    """Return the file with other figures in some of its tables.
+    """Return the file with other figures in tables of some kinds.
 
     Args:
-        model: the file.
-        values: by dotted names (`mount.left.stiffness.2`, `torsion.rear.1.inertia`).
-        tables: kinds of tables that change (`mount`); figures of all others are left alone.
+        model: Engine file.
+        values: Figures by dotted names (`mount.left.stiffness.2`, `torsion.rear.1.inertia`).
+        tables: Kinds of tables that change (`mount`); figures of other tables are ignored.
 
     Raises:
-        InputError: a contradiction in a changed table, such as a bore wider than its shaft.
+        InputError: A changed table has a contradiction, such as a bore wider than its shaft.
     """
     own = {path: value for path, value in values.items() if path.partition(".")[0] in tables}
     data = change_tables(model, own)

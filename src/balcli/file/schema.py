@@ -1,4 +1,4 @@
-"""JSON Schema of the engine file, for editors that check and complete while one types."""
+"""JSON Schema of the engine file, with which editors check and complete the text that one types."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
 def describe_engine_file() -> Node:
-    """Return the JSON Schema (draft 2020-12) of an engine file: every key with description, unit,
+    """Return the JSON Schema (draft 2020-12) of an engine file. Every key has a description, unit,
     bounds and an example.
     """
     chapters = {key.capitalize(): import_table(key) for key in (*CHAPTERS, *CHAPTER_LISTS)}
@@ -45,22 +45,23 @@ def describe_engine_file() -> Node:
 def describe_file(
     file: type[BaseModel], tables: Iterable[type[BaseModel]], name: str, title: str
 ) -> Node:
-    """Return the JSON Schema (draft 2020-12) of files: every key with description, unit, bounds and
-    an example.
+    """Return the JSON Schema (draft 2020-12) of a kind of file, in the form of
+    `describe_engine_file`.
 
     Args:
-        file: table that they hold.
-        tables: those within it.
-        name: that the schema's identifier ends in.
+        file: Class of the whole file.
+        tables: Classes of the tables in it.
+        name: End of the schema's identifier.
+        title: Title of the schema.
     """
     for table in tables:
-        table.model_rebuild()  # pydantic before 2.13 writes no default of a table not built yet
+        table.model_rebuild()  # pydantic < 2.13 writes no defaults of tables not yet built
     document = tidy_schema(file.model_json_schema())
     return {"$schema": DIALECT, "$id": f"urn:balcli:schema:{name}", **document, "title": title}
 
 
 def tidy_schema(schema: Node) -> Node:
-    """Return a schema without what pydantic adds for Python: null (TOML has none), titles, empty
+    """Return a schema without pydantic's additions for Python: null (TOML has none), titles, empty
     defaults.
     """
     node: Node = {key: _tidy_member(value) for key, value in schema.items()}
@@ -76,12 +77,12 @@ def tidy_schema(schema: Node) -> Node:
             field.pop("default", None)
         unit = field.get("unit") or field.get("items", {}).get("unit")
         if unit:
-            field["description"] += f" [{unit}]"  # editors show the description alone
+            field["description"] += f" [{unit}]"  # editors show only the description
     return node
 
 
 def _tidy_member(value: object) -> object:
-    """Return a tidied schema, or dict or list of schemas; anything else as it is."""
+    """Return a tidied schema, or dict or list of schemas; any other value is returned unchanged."""
     if isinstance(value, dict):
         return tidy_schema(value)
     return [_tidy_member(item) for item in value] if isinstance(value, list) else value

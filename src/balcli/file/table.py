@@ -1,4 +1,4 @@
-"""Base class of all tables of a file: types of figures, and rules for keys."""
+"""Base class of all tables of a file, and types for their keys."""
 
 from __future__ import annotations
 
@@ -94,8 +94,8 @@ class KeyDocument(NamedTuple):
     """The documentation of a key.
 
     Attributes:
-        description: what the key means.
-        example: a value that it may have; None: no example.
+        description: Meaning of the key.
+        example: Example of a value; None if there is none.
     """
 
     description: str = ""
@@ -103,8 +103,8 @@ class KeyDocument(NamedTuple):
 
 
 class FileTable(BaseModel):
-    """A table of an engine file: frozen, and an unknown key is a mistake. Methods whose names start
-    with `_check_` are its rules: each yields contradictions between keys, in words.
+    """A table of an engine file. It is frozen and rejects unknown keys. Its methods `_check_...`
+    are rules: each yields contradictions between keys, in words.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
@@ -112,7 +112,7 @@ class FileTable(BaseModel):
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
-        """Refuse contradictions; each is an argument of the error."""
+        """Reject contradictions; each is an argument of the error."""
         given = self.model_fields_set
         of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
         if found := [*of_choices, *self.contradictions()]:
@@ -120,8 +120,8 @@ class FileTable(BaseModel):
         return self
 
     def contradictions(self) -> Iterator[str]:
-        """Yield the contradictions between the keys of this table that its rules find, those of its
-        bases first.
+        """Yield the contradictions that the rules of this table find; rules of base classes come
+        first.
         """
         for base in reversed(type(self).__mro__):
             for name, rule in vars(base).items():
@@ -138,7 +138,7 @@ class FileTable(BaseModel):
 
     @classmethod
     def keys(cls) -> dict[str, FieldInfo]:
-        """Return the fields of this table by their keys, as a file has them."""
+        """Return the fields of this table by their keys in a file."""
         return {field.alias or name: field for name, field in cls.model_fields.items()}
 
     @classmethod
@@ -157,8 +157,8 @@ class FileTable(BaseModel):
 
 @cache
 def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
-    """Return the documentation of every key of a table. It stands in the string below the key and
-    ends with an example in TOML. Python keeps no such string, so the source is read.
+    """Return the documentation of every key of a table: the string below the key, which ends with
+    an example in TOML. Python does not keep such strings, so the source is read.
     """
     found = dict.fromkeys(table.keys(), KeyDocument())
     for base in reversed(table.__mro__):

@@ -1,5 +1,5 @@
-"""Read a file of TOML of any kind, within limits; every mistake becomes an error with the name of
-the file.
+"""Read TOML files of any kind, within limits on size and depth. Mistakes become errors with the
+name of the file.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ ENGINE_FILE = (
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 _TOO_DEEP = "lists or tables are nested too deeply; an engine file needs no more than four levels"
-_LONGEST_LINE = 80  # that is shown
+_LONGEST_LINE = 80  # of a line that a message shows
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
-# Patterns of a value without quotes, and the remedy; the first that fits counts.
+# Patterns of values without quotes, and the remedy; the first that matches is used.
 _HINTS = (
     (rf"{_NUMBER},\d+", "write a decimal point, not a comma"),
     (rf"{_NUMBER}[dD][+-]?\d+", "an exponent is written with e, as in 1.5e3"),
@@ -41,8 +41,7 @@ _HINTS = (
 
 
 def read_bytes(source: str | Path) -> bytes:
-    """Return the content of a file, or of standard input for "-"; at most one byte more than a file
-    may have.
+    """Return the content of a file ("-": standard input), up to one byte more than the limit.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -65,7 +64,7 @@ def read_bytes(source: str | Path) -> bytes:
 
 
 def find_near_file(source: str | Path) -> str:
-    """Return the file or example that was probably meant, in words; empty if none is near."""
+    """Return words that name the file or example that was probably meant; empty if none is near."""
     with_ending, asked = f"{source}.toml", Path(source)
     if Path(with_ending).is_file():
         return f"; {with_ending} is there: did you mean it?"
@@ -73,7 +72,7 @@ def find_near_file(source: str | Path) -> str:
         return f"; {asked.stem} is an example: balcli engines {asked.stem} {asked.stem}.toml"
     there = sorted(file.name for file in asked.parent.glob("*.toml") if file.is_file())
     near = nearest(asked.name, there, cutoff=0.8)
-    if near and nearest(asked.suffix, [".toml"]):  # not the .csv beside an engine file
+    if near and nearest(asked.suffix, [".toml"]):  # not a .csv next to an engine file
         return f"; {asked.with_name(near)} is there: did you mean it?"
     return ""
 
@@ -89,10 +88,10 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
     Args:
         text: Text of the file.
         file: Name of the file, for messages.
-        right: Words for a text of another format: that it is none of the wanted kind.
+        right: Words for a text of another format, which say what would be right.
 
     Raises:
-        InputError: It is no TOML, or larger than any file is.
+        InputError: The text is no TOML, or exceeds a limit.
     """
     decoded, message = _decode(text, right)
     if not message:
@@ -102,9 +101,9 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
             message = f"is not valid TOML: {str(error)[:300]}{_explain(decoded, str(error))}"
         except RecursionError:
             decoded, message = "", _TOO_DEEP
-        except ValueError:  # Python reads no more digits
+        except ValueError:  # Python limits the number of digits
             decoded, message = "", "has a number of thousands of digits"
-    # Text that was meant as TOML is empty, or has a key or a heading.
+    # A text that is meant as TOML is empty, or has a key or a heading.
     key = r"""^(?:[\w."' \t-]++=|[ \t]*+\[{1,2}[\w. \t-]*(?:\]|$))"""
     if re.search(r"^[ \t]*[^\s#]", decoded, re.M) and not re.search(key, decoded, re.M):
         message = f"is {right}"
@@ -112,8 +111,8 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
 
 
 def _decode(text: str | bytes, right: str) -> tuple[str, str]:
-    """Return the text of a file, and why tomllib should not read it; empty if it should. A text
-    whose format does not matter is left out.
+    """Return the text of a file, and the reason why tomllib must not read it (empty if there is
+    none). The text is empty if its format no longer matters.
     """
     if len(text) > LARGEST_FILE_BYTES:
         decoded = text if isinstance(text, str) else text.decode("utf-8-sig", "replace")
@@ -136,8 +135,8 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
 
 
 def _explain(text: str, error: str) -> str:
-    """Return the line that an error of tomllib names, or else the last, and the remedy for one of
-    three slips: units without quotes, lists without brackets, a decimal comma.
+    """Return the line that an error of tomllib names (else the last line), and the remedy for some
+    slips: units without quotes, lists without brackets, a decimal comma.
     """
     place = re.search(r"\(at line (\d+), ", error)
     lines = text.rstrip("\n").split("\n")

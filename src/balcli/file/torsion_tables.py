@@ -1,5 +1,5 @@
 """Table [torsion] of an engine file, and the tables that it shares with chain files: a shaft
-between two nodes, and a damper on a node. Units: kg mm2, N m/rad, N m s/rad, mm, GPa, kg.
+between two nodes, and a damper on a node. Units are kg mm2, N m/rad, N m s/rad, mm, GPa and kg.
 """
 
 import math
@@ -68,10 +68,10 @@ STEEL = 7.85  # g/cm3
 
 
 class ShaftKeys(FileTable):
-    """Keys of a shaft: its stiffness, or the steel that makes it; its section gives stress."""
+    """Keys of a shaft: its stiffness, or the dimensions and modulus from which it follows."""
 
     stiffness: Stiffness | None = None
-    """Torsional stiffness in the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
+    """Torsional stiffness at the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
     diameter: Size | None = None
     """Diameter of the shaft: with it, stress is known. Example: 85"""
     length: Size | None = None
@@ -79,18 +79,19 @@ class ShaftKeys(FileTable):
     bore: Size | None = None
     """Diameter of its bore, if it has one. Example: 30"""
     shear_modulus: Modulus = 79.3
-    """Of what a plain shaft is made of; default: steel. Example: 79.3"""
+    """Shear modulus of a plain shaft; default: steel. Example: 79.3"""
     density: Density | None = None
-    """Of a plain shaft: half of its inertia counts at either end; left out: it has none.
-    Example: 7.85"""
+    """Density of a plain shaft, half of whose inertia counts at each end; left out: no inertia.
+    Example: 7.85
+    """
     loss: Loss | None = None
     """Loss factor, imaginary over real part of the stiffness. Example: 0.035"""
     damping: Damping = 0.0
-    """Of a dashpot between the ends of the shaft. Example: 20"""
+    """Damping of a dashpot between the ends of the shaft. Example: 20"""
 
     @property
     def is_of_unnamed_steel(self) -> bool:
-        """Whether the default shear modulus counts: that of a plain shaft without one."""
+        """Whether this is a plain shaft for which the default shear modulus is used."""
         return self.length is not None and not self.has("shear_modulus")
 
     def _check_length(self) -> Iterator[str]:
@@ -133,19 +134,19 @@ class Damper(FileTable):
     """Viscous: a ring in oil; rubber: a ring on rubber; pendulum: masses that swing in the field
     of rotation. Example: 'viscous'"""
     inertia: GivenInertia | None = None
-    """Of the ring. Example: 30000"""
+    """Moment of inertia of the ring. Example: 30000"""
     damping: _RingDamping | None = None
-    """Of the oil film. Example: 12"""
+    """Damping of the oil film. Example: 12"""
     stiffness: _RingStiffness | None = None
-    """Of the rubber. Example: 40000"""
+    """Stiffness of the rubber. Example: 40000"""
     loss: Loss | None = None
     """Loss factor of the rubber. Example: 0.15"""
     mass: _PendulumMass | None = None
-    """Of all pendulums. Example: 2"""
+    """Mass of all pendulums together. Example: 2"""
     radius: Size | None = None
-    """From the axis to where a pendulum hangs. Example: 60"""
+    """Distance from the axis to the pivot of a pendulum. Example: 60"""
     length: Size | None = None
-    """Of a pendulum, from there to its centre of mass. Example: 2.4"""
+    """Length of a pendulum, from its pivot to its centre of mass. Example: 2.4"""
 
     def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
@@ -160,35 +161,36 @@ class NodeKeys(FileTable):
     """Keys of a node: its name, its inertia, and its damper."""
 
     name: Name
-    """What to call it; each its own. Example: 'flywheel'"""
+    """Name of the node; no two have the same. Example: 'flywheel'"""
     inertia: NodeInertia | None = None
     """Moment of inertia; left out: a massless node. Example: 2.075e6"""
     damper: Damper | None = None
-    """A damper that it has. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
+    """Damper on the node. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
 
 
 class ChainKeys(FileTable):
     """Keys of a whole chain: the loss of its shafts, and limits."""
 
     loss: Loss = 0.0
-    """Loss factor of every shaft that names none. Example: 0.035"""
+    """Loss factor of every shaft without its own. Example: 0.035"""
     limit: StressLimit | None = None
     """Stress of a shaft above which a speed is barred. Example: 40"""
     angle_limit: AngleLimit | None = None
-    """Angle by which the free end (of a chain the first node) may swing either way; above, a
-    speed is barred. Example: 0.3"""
+    """Amplitude of the free end (in a chain: of the first node) above which a speed is barred.
+    Example: 0.3
+    """
 
 
 def find_stiffness(shaft: ShaftKeys) -> float:
-    """Return the torsional stiffness in N m/rad, `G pi (D^4 - d^4)/(32 L)` of a plain shaft."""
+    """Return the torsional stiffness, N m/rad; for a plain shaft `G pi (D^4 - d^4)/(32 L)`."""
     if shaft.stiffness is not None or shaft.length is None:
         return math.inf if shaft.stiffness is None else shaft.stiffness
     return shaft.shear_modulus * 1e9 * _find_polar_moment(shaft) / (shaft.length / 1e3)
 
 
 def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
-    """Return the moment of inertia of a plain shaft, kg m2; 0 without a density, and for a shaft
-    given by its stiffness.
+    """Return the moment of inertia of a plain shaft, kg m2. It is 0 without a density, and for a
+    shaft that is given by its stiffness.
 
     Args:
         shaft: Table of the shaft.
@@ -205,7 +207,7 @@ def _find_polar_moment(shaft: ShaftKeys) -> float:
 
 
 class SpeedRatio(Number):
-    """A speed ratio: not 0, negative where gears turn the other way."""
+    """A speed ratio: not 0; negative if the gears reverse the rotation."""
 
     def __init__(self) -> None:
         super().__init__(PLAIN, most=1e6)
@@ -239,42 +241,47 @@ class _EachOrAll(Number):
 
 
 class Part(ShaftKeys, NodeKeys):
-    """A part that turns with the crankshaft before or behind its throws, and the shaft that leads
-    to it from the throws.
+    """A part that turns with the crankshaft before or behind its throws, and the shaft that
+    connects it.
     """
 
     gear: Annotated[float, SpeedRatio()] | None = None
-    """Speed over that of the crank; left out: the speed of the part it hangs on. The mesh sits
-    there, and the shaft turns with this part. Example: 0.5"""
+    """Speed over crank speed; left out: the speed of the part to which it is connected. The mesh is
+    at that part, and the shaft turns with this part. Example: 0.5
+    """
     of: Name | None = None
-    """The part it hangs on, or throw 1, throw 2, ...; left out: the part before it in the
-    list, the first on the nearest throw. Example: 'throw 1'"""
+    """The part to which it is connected, or throw 1, throw 2, ...; left out: the part before it in
+    the list, or for the first part the nearest throw. Example: 'throw 1'
+    """
     node_damping: Damping = 0.0
-    """Of the part against ground, as water damps a propeller. Example: 5"""
+    """Damping of the part against ground, such as a propeller in water. Example: 5"""
 
 
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
 class Torsion(ChainKeys):
-    """Torsional vibration: a node for each throw, and the parts before and behind them."""
+    """Torsional vibration: a node for each throw, and parts before and behind the throws."""
 
     throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = None
-    """Torsional stiffness between neighbouring throws, or a list of all. Example: 1.25e6"""
+    """Torsional stiffness between neighbouring throws: one figure for all, or a list. Example:
+    1.25e6
+    """
     throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = None
-    """Moment of inertia of the crankshaft at each throw, its own mass and counterweights
-    included, without rods and pistons; or a list of all; left out: an equal share of
-    crank.inertia. Example: 46700"""
+    """Moment of inertia of the crankshaft at each throw with its counterweights, without rods and
+    pistons: one figure for all, or a list; left out: an equal share of crank.inertia. Example:
+    46700
+    """
     throw_diameter: Size | None = None
     """Diameter of the crankshaft between throws: with it, stress is known. Example: 85"""
     throw_bore: Size | None = None
     """Diameter of its bore, if it has one. Example: 30"""
     damping: Damping = 0.0
-    """At every cylinder, against ground. Example: 2"""
+    """Damping at every cylinder against ground. Example: 2"""
     front: _Parts = ()
-    """Parts before the first throw, outward."""
+    """Parts before the first throw, from it outwards."""
     rear: _Parts = ()
-    """Parts behind the last throw, outward."""
+    """Parts behind the last throw, from it outwards."""
 
     def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (

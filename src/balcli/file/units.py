@@ -1,8 +1,8 @@
 """Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
 
-A figure is first written in one spelling (`_normalize`), then matched by a regular expression;
-nothing is ever evaluated. The arithmetic is exact (fractions), so that a figure is rounded once.
-Most units are defined by others, in a table of which a figure reads the rows that it needs.
+A figure is first brought to one spelling (`_RESPELT`), then matched by a regular expression; no
+text is ever evaluated. The arithmetic uses exact fractions, so a figure is rounded only once. Most
+units are defined by others in a table, of which only the needed rows are read.
 
 Sources: the SI brochure (2019) for metric units; the international yard and pound (1959) for the
 inch, the pound and the units made of them; CGPM 1901 for standard gravity; NIST SP 811 (2008),
@@ -22,9 +22,9 @@ from unicodedata import normalize
 
 from ..limits import LONGEST_FIGURE
 
-# Names, and the figure that defines them; r, U (German Umdrehung) and tr (French tour) are
-# revolutions, mmHg is 13 595.1 kg/m3 at standard gravity, Btu is of the International Table. No
-# key has a volume, a temperature or a current, but people know their units.
+# Names and the figure that defines them. r, U (German Umdrehung) and tr (French tour) are
+# revolutions; mmHg is 13 595.1 kg/m3 at standard gravity; Btu is that of the International Table.
+# Units of volume, temperature and current fit no key, but are named in messages.
 _DEFINED = """
 metre meter = 1 m; micron = 1 um; inch inches = 1 in; mil thou = 0.001 in; ft foot feet = 12 in
 yd yard = 3 ft; mile = 5280 ft; mph = 1 mile/h
@@ -84,8 +84,8 @@ PREFIXED = {
 
 
 def find_near_name(name: str) -> str:
-    """Return the unit that was probably meant; empty if none comes to mind."""
-    from difflib import get_close_matches  # after a mistake alone
+    """Return the unit that was probably meant; empty if none is near."""
+    from difflib import get_close_matches  # needed only after a mistake
 
     usual = [prefix + unit for prefix in "mcMk" for unit in _SYMBOLS.split()]
     units = (*usual, *_SYMBOLS.split(), *DEFINITIONS)
@@ -110,9 +110,9 @@ class Dimension(NamedTuple):
     """A dimension of figures in engine files.
 
     Attributes:
-        unit: of bare numbers.
-        name: in words, with its article.
-        examples: figures to show a reader.
+        unit: Unit of bare numbers.
+        name: Name in words, with its article.
+        examples: Figures for messages.
     """
 
     unit: str
@@ -169,9 +169,9 @@ FORCE = Dimension("N", "a force", ("98 kN", "22000 lbf"))
 VELOCITY = Dimension("km/h", "a velocity", ("80 km/h", "50 mph"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 PLAIN = Dimension("", "a plain number")
-# Below this, a figure with exactly three decimals is rather one with a point between thousands.
+# Below this, a point with exactly three digits behind it probably separates thousands.
 _LEAST_WITH_DECIMALS = {SPEED: 100, STIFFNESS: 1, TORSIONAL_STIFFNESS: 1000}
-_KINDS = (  # how one speaks of what has these units; the first that has the powers
+_KINDS = (  # names of kinds of figures; the first with the same powers is used
     Dimension("J", "a torque or an energy"),
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
     *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
@@ -183,7 +183,7 @@ _KINDS = (  # how one speaks of what has these units; the first that has the pow
     VELOCITY,
 )
 
-# One spelling for what is written in several ways and can mean one thing only
+# Replacements for spellings that can mean only one thing
 _SIGNS = str.maketrans("−–º˚“”″⁄’", '--°°"""/\'')
 _CYRILLIC = dict(
     pair.split(":")
@@ -218,7 +218,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 )
 
 
-# Compiled when a string is met
+# Patterns are compiled when the first figure with a unit is read
 BARE_FIGURE = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"  # a number without a unit
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[23])?"
@@ -227,16 +227,16 @@ _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
 _WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
 FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
 _LARGE_AND_SMALL = r"\s*([+-]?)(\d+ *[A-Za-z]+) +(\d.*[A-Za-z])\s*"  # 1 lb 4 oz, 3 ft 2 1/2 in
-# A crank speed counts turns, said or not. 1/s is asked back: it is as often meant as rad/s.
+# A crank speed in 1/min or Hz counts turns. 1/s is rejected, because it often means rad/s.
 _PER_MINUTE = r"(\d\.?)(?:(?:\s+1)?\s*/\s*min|\s*min(?:\^|\*\*)?-1)\s*$"
 _PER_SECOND = r"\d\.?(?:(?:\s+1)?\s*/\s*|\s*(?=\w+(?:\^|\*\*)?-))s(?:ec)?(?:(?:\^|\*\*)?-1)?\s*$"
 _HERTZ = r"(\d\.?)\s*(k?)(?:Hz|hertz)\s*$"
 # pi/2, -3*pi/4 rad
 _PI = rf"\s*([+-]?)(?:({_NUMBER})\s*[*·⋅]?)?\s*(?:pi|π)(?:\s*/\s*({_NUMBER}))?(?:\s+rad)?\s*"
-# A force where only that fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
+# A mass unit stands for a force if only that fits: 24 lb in/rad, 0.3 lb in s2, 70 kg/cm2
 _FORCES = (
     (r"(?i)(?:\b|(?<=ft|in))(?:lbs?|pounds?)(?=\b|ft|in)", "lbf"),
-    (r"(?i)\bkgs?(?=(?:\b|[cm]?m).*[/s])", "kgf"),  # "3 kgm" of a torque is asked back
+    (r"(?i)\bkgs?(?=(?:\b|[cm]?m).*[/s])", "kgf"),  # "3 kgm" as a torque is rejected
 )
 _PART = r"([*·⋅/]?)\s*([A-Za-zµμ°_]+)(?:(?:\^|\*\*)(-?[1-9])|([23]))?"
 
@@ -245,11 +245,11 @@ def convert(text: str, dimension: Dimension) -> float:
     """Return a figure in the bare unit of a dimension, correctly rounded.
 
     Args:
-        text: number and unit, such as "3 1/2 in".
-        dimension: that the figure has to have.
+        text: Number and unit, such as "3 1/2 in".
+        dimension: Dimension that the figure must have.
 
     Raises:
-        ValueError: the text is no such figure; the message has the mistake and the remedy.
+        ValueError: The text is no such figure; the message names the mistake and the remedy.
     """
     return float(convert_exactly(text, dimension))
 
@@ -295,8 +295,7 @@ def read_fraction(text: str) -> float:
 
 
 def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -> None:
-    """Raise ValueError for a figure with three decimals where the point is rather one between
-    thousands: "6.000 rpm".
+    """Raise ValueError for a figure whose point probably separates thousands: "6.000 rpm".
 
     Args:
         text: Figure as it is typed, with or without a unit.
@@ -345,7 +344,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
 
 
 def _explain(figure: str) -> str:
-    """Return why a figure cannot be read, up to the words that name the wanted unit."""
+    """Return why a figure cannot be read; the message goes on with the wanted unit."""
     if strange := re.search(r"[а-яёА-ЯЁ]+", figure):
         return f'has "{strange[0]}" in Cyrillic letters, which is no unit; write it in Latin ones;'
     hint = ""
@@ -355,7 +354,7 @@ def _explain(figure: str) -> str:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """Return a speed or an angle with its turns written out."""
+    """Return a speed in turns, and an angle in multiples of pi as a number with the unit pi."""
     if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
         counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
         return re.sub(_PER_MINUTE, r"\1 rpm", counted)
@@ -365,13 +364,13 @@ def _spell_out(figure: str, dimension: Dimension) -> str:
 
 
 def _split(figure: str) -> tuple[Fraction, str] | None:
-    """Return a figure's number, and the names of its unit; None: it is no figure."""
+    """Return the number of a figure and the names of its unit; None if it is no figure."""
     match = re.fullmatch(FIGURE, figure, re.ASCII)
     if match is None:
         return None
     sign, whole, above, below, names = match.groups()
     number = Fraction(above) / Fraction(below or 1)
-    if whole and number >= 1:  # not three and five halves
+    if whole and number >= 1:  # not "3 5/2"
         return None
     number += Fraction(whole or 0)
     return (-number if sign == "-" else number), names or ""
@@ -382,11 +381,11 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
     """Return the product of the parts of a unit.
 
     Args:
-        names: of the parts, such as "kg mm^2".
-        dimension: for the examples in errors.
+        names: Names of the parts, such as "kg mm^2".
+        dimension: Dimension, for the examples in messages.
 
     Raises:
-        ValueError: a part is unknown or ambiguous.
+        ValueError: A part is unknown or ambiguous.
     """
     if re.sub(_PART, "", names, flags=re.ASCII).strip(" .-"):
         raise ValueError(f'has the unknown unit "{names}"; {wanted(dimension)}')
@@ -416,7 +415,9 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
 
 @cache
 def _find(name: str) -> Unit | None:
-    """Return a unit by its name, with a prefix, or several of it; None: there is no such unit."""
+    """Return a unit by its name, which may have a prefix or a plural s; None if there is no such
+    unit.
+    """
     if name in _BASE:
         return _BASE[name]
     if name in DEFINITIONS:
@@ -450,7 +451,9 @@ def _by_lower_case() -> defaultdict[str, set[str]]:
 
 @cache
 def _find_pair(name: str) -> tuple[Unit, Unit] | None:
-    """Return a mass or force and a length that are written in one word: ozin, gcm, Ncm, lbft."""
+    """Return the two units, a mass or force and a length, that are written as one word: ozin, gcm,
+    Ncm, lbft.
+    """
     length, loads = LENGTH.powers, ((0, 1, 0, 0), (1, 1, -2, 0))
     pairs = {
         (first, second)
@@ -464,11 +467,11 @@ def _find_pair(name: str) -> tuple[Unit, Unit] | None:
 
 
 def ask_unit(unit: str, *others: str) -> str:
-    """Return a question for messages on an unlikely figure: is it in its bare unit?
+    """Return a question for warnings of an unlikely figure: is it in the unit of bare numbers?
 
     Args:
-        unit: the bare one.
-        others: figures in other units, such as "3.5 in".
+        unit: Unit of bare numbers.
+        others: Figures in other units, such as "3.5 in".
     """
     said = " or ".join(f'"{other}"' for other in others)
     return f"is it in {unit}? Another unit is said as in {said}"

@@ -1,15 +1,17 @@
-"""Internal loads: shear force and bending moment in crankshaft and block, and main bearing loads.
+"""Internal loads of an engine: shear force and bending moment in crankshaft and block, and loads of
+the main bearings.
 
 Inertia: the shaft is rigid. At each section the shear force is the sum of all loads towards the
 free end, and the bending moment is their moment about the section, `i sum (z_i - z) F_i` (M_x +
-iM_y). Beyond the last load these are the free force and moment (about the last load). Between loads
-the bending moment is linear, so that its largest values are at loads.
+iM_y). Behind the last load, these are the free force and moment (about the last load). The bending
+moment is linear between loads, so its largest values are at loads.
 
-Gas and inertia: the shaft counts as cut in each main bearing. The shaft carries the forces of the
-rods, of the masses that turn with the throws and of counterweights, and the bearings hold it. The
-block carries the gas on each head, the piston on each cylinder wall, the shaft on each bearing, and
-balancer shafts and sliders. The gas presses on throw and head alike: in every section, the loads
-of shaft and block add up to those of inertia alone, with the block's own devices.
+Gas and inertia: the shaft is treated as cut in each main bearing, so that every span is statically
+determinate. The shaft carries the forces of the rods, of the masses that turn with the throws and
+of counterweights, and the bearings hold it. The block carries the gas on each head, the piston on
+each cylinder wall, the shaft on each bearing, and balancer shafts and sliders. Gas presses equally
+on throw and head. So in every section, the loads of shaft and block add up to the inertia loads
+(with the devices of the block).
 """
 
 from __future__ import annotations
@@ -51,7 +53,8 @@ class AlongCrank(NamedTuple):
     Attributes:
         z_m: Position along the crank, m, shape (places,), ascending.
         phasors: Force, N, or moment, N m, shape (orders, places).
-        peaks: Largest value over a revolution, of all orders, and its crank angle, at each place.
+        peaks: Largest value over a revolution at each place (sum of all orders), and its crank
+            angle.
     """
 
     z_m: Array
@@ -73,7 +76,7 @@ class AlongCrank(NamedTuple):
 
     @property
     def highest(self) -> tuple[float, float]:
-        """This peak, and its place, mm."""
+        """Value of the highest peak, and its place, mm."""
         return self.peaks[self.largest].value, 1e3 * float(self.z_m[self.largest])
 
 
@@ -81,13 +84,13 @@ class InnerLoads(NamedTuple):
     """Shear force (N) and bending moment (N m) just behind each load, and inertia loads of the main
     bearings (N).
 
-    The bearings are taken half-way between neighbouring throws and as far outside the end ones, and
-    the shaft as cut in each of them, so that every span is statically determinate; None for a crank
-    with one throw, whose bearings the file cannot tell.
+    Bearings are assumed half-way between neighbouring throws and as far outside the end throws, and
+    the shaft as cut in each of them, so that every span is statically determinate. For a crank with
+    one throw, the positions of bearings are not known, and `bearings` is None.
 
     Attributes:
-        with_gas: Loads of shaft, bearings and block by inertia and gas; None without gas, and
-            where they are not known.
+        with_gas: Loads of shaft, bearings and block by inertia and gas; None without gas, or if
+            they are not known.
         obstacle: Reason why the loads with gas are not known.
     """
 
@@ -103,10 +106,10 @@ class CrankLoads:
     """Largest inertia loads within a crankshaft.
 
     Attributes:
-        main_N: Largest load of a main bearing; left out where all throws stand in one plane.
-        main_mm: Axial place of this bearing; left out where all throws stand in one plane.
+        main_N: Largest load of a main bearing; left out where all throws are in one plane.
+        main_mm: Axial position of this bearing; left out where all throws are in one plane.
         inner_moment_Nm: Largest bending moment.
-        inner_mm: Axial place of this moment.
+        inner_mm: Axial position of this moment.
     """
 
     main_N: float | None = None
@@ -116,7 +119,8 @@ class CrankLoads:
 
 
 def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return forces and moments in the crankshaft by inertia, and their peaks over all orders.
+    """Return forces and moments in the crankshaft by inertia, and the peaks of the sum of all
+    orders.
 
     Args:
         engine: Engine without trailing axes.
@@ -148,9 +152,8 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 
 def find_crank_loads(engine: Engine) -> CrankLoads | None:
-    """Return the largest inertia loads within the crankshaft of an engine with its counterweights;
-    None where positions are not known, of rotary engines, and where there are too many loads to
-    keep apart.
+    """Return the largest inertia loads in the crankshaft of an engine with its counterweights; None
+    if positions are not known, for rotary engines, and if there are too many loads.
     """
     if not engine.places_known or engine.rotary:
         return None
@@ -164,8 +167,8 @@ def find_crank_loads(engine: Engine) -> CrankLoads | None:
 
 
 def place_bearings(throws_m: Array) -> Array | None:
-    """Return positions of main bearings half-way between throws and as far outside the end ones, m,
-    shape (bearings,); None for throws in one place.
+    """Return positions of main bearings, half-way between throws and as far outside the end throws,
+    m, shape (bearings,); None if all throws have the same position.
     """
     places = list_places(throws_m)
     if len(places) < 2:
@@ -175,24 +178,25 @@ def place_bearings(throws_m: Array) -> Array | None:
 
 
 def list_places(z: Array) -> Array:
-    """Return the different positions, ascending; `numpy.unique` would load `numpy.ma` for it."""
+    """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
     return np.array(sorted(set(np.ravel(z).tolist())))
 
 
 def compute_bending(loads: Phasors, z: Array) -> Phasors:
-    """Return bending moments, N m, phasors of shape (orders, sections), at each place of a load.
+    """Return the bending moments at each position of a load, N m, phasors of shape (orders,
+    sections).
 
     Args:
         loads: Forces, shape (orders, loads).
-        z: Their positions, m, shape (loads,).
+        z: Positions of the forces, m, shape (loads,).
     """
     sections = list_places(z)
-    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # their rounding
+    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # for rounding
     return 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
 
 
 def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
-    """Return forces on main bearings at these positions (`place_bearings`), N, phasors of shape
+    """Return the forces on main bearings at positions from `place_bearings`, N, phasors of shape
     (orders, bearings); other arguments as for `compute_bending`.
     """
     shares = share_by_lever(z, bearings_m)
@@ -212,7 +216,9 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
 
 
 def join_loads(loads: Sequence[Phasors]) -> Phasors:
-    """Return forces of shape (orders, loads) and of single loads as one, (orders, loads)."""
+    """Return several forces, phasors of shape (orders, loads) or (orders,), as one of shape
+    (orders, loads).
+    """
     orders = loads[0].orders
     vectors = [force.vectors.reshape(2, len(orders), -1) for force in loads]
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in loads]
@@ -220,7 +226,7 @@ def join_loads(loads: Sequence[Phasors]) -> Phasors:
 
 
 def is_counterweight(device: Device) -> bool:
-    """Return whether a device turns with the crank, on its axis."""
+    """Return whether a device turns with the crank about the crank's axis."""
     return device.order == 1 and not device.backward and not device.place
 
 
@@ -229,15 +235,16 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
     Args:
         loads: Phasors of shape (orders, loads).
-        weights: Shape (places, loads).
-        size: Terms of which the weights are differences, of the same shape; bounds the rounding.
+        weights: Weights, shape (places, loads).
+        size: Sizes of the terms of which the weights are differences, in the same shape; they bound
+            the rounding errors.
     """
     noise = loads.noise @ np.abs(size).T
     return Phasors(loads.orders, loads.vectors @ weights.T, noise).drop_noise()
 
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
-    """Return phasors, shape (orders, places), with peaks of all orders; `orders` alone are kept."""
+    """Return phasors of shape (orders, places) at some orders, with the peaks of all orders."""
     peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
     return AlongCrank(places, phasors.select_orders(orders), peaks)
 
@@ -249,9 +256,11 @@ class LoadsWithGas(NamedTuple):
     """Forces (N) and moments (N m) over the cycle, of inertia and gas, with a distributed rod.
 
     Attributes:
-        shear, bending: In the crankshaft, the shear just behind each load and bearing.
-        bearings: Force of the shaft on each main bearing.
-        block_shear, block_bending: In the block, which nothing else holds.
+        shear, bending: Shear force (just behind each load and bearing) and bending moment in the
+            crankshaft.
+        bearings: Forces of the shaft on the main bearings.
+        block_shear, block_bending: Shear force and bending moment in the block, which has no other
+            supports.
     """
 
     shear: AlongCrank
@@ -262,7 +271,7 @@ class LoadsWithGas(NamedTuple):
 
 
 class BearingsUnknownError(BalcliError):
-    """The positions of the main bearings are not known, for a reason."""
+    """The positions of the main bearings are not known; `reason` says why."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -270,13 +279,13 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return the internal loads with those of the gas as far as they are known; other errors as for
-    `compute_loads_with_gas`.
+    """Return the internal loads with loads of inertia and gas, if they are known; other errors as
+    for `compute_loads_with_gas`.
 
     Args:
         inner: Internal loads of inertia.
         engine: Engine with gas, without trailing axes.
-        orders: Orders to show, shape (orders,); None: the usual ones.
+        orders: Orders, shape (orders,); None: the default of `compute_loads_with_gas`.
     """
     try:
         place_main_bearings(engine)
@@ -287,7 +296,7 @@ def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None
 
 
 def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> LoadsWithGas:
-    """Return loads of shaft, bearings and block by order, and their largest over the cycle.
+    """Return loads of shaft, bearings and block by order, and their largest values over the cycle.
 
     Args:
         engine: Engine with gas of known pressure, without trailing axes.
@@ -295,8 +304,8 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
             `list_gas_orders` in which a bending moment is worth showing.
 
     Raises:
-        BalcliError: No gas, no pressures, no main bearings (`place_main_bearings`), or so many
-            cylinders that all forces would fill the memory.
+        BalcliError: There is no gas, no pressure or no main bearing (`place_main_bearings`), or
+            there are so many cylinders that their forces would fill the memory.
     """
     span = place_main_bearings(engine)
     shown = list_gas_orders(engine) if orders is None else orders
@@ -311,18 +320,19 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
     sections = list_places(np.concatenate([on_shaft, on_block, span]))
-    reach = 2 * float(np.abs(sections).max())  # bounds what arms are differences of
+    reach = 2 * float(np.abs(sections).max())  # bound of the terms of the arms
 
     largest = float(np.abs(samples).max(axis=1).sum())
 
     def follow(z: Array, weights: Array, factor: complex = 1.0, size: float = 1.0) -> AlongCrank:
-        """Return orders and largest values of the sums at some places, 0 below rounding.
+        """Return orders and largest values of weighted sums of the forces at some places; 0 below
+        rounding.
 
         Args:
             z: Axial places, m, shape (places,).
             weights: Share of each force at each place, shape (places, forces).
             factor: Factor of all values.
-            size: Size of the values that cancel, against which rounding is measured.
+            size: Size of the terms of the weights, which determines the rounding error.
         """
         values, least = factor * (weights @ samples), ROUNDING * size * largest
         forward, backward = panels.find_orders(values, shown)
@@ -332,7 +342,9 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
         return AlongCrank(z, phasors.drop_noise(), felt)
 
     def cut(weigh: Callable[[Array, Array], Array]) -> tuple[Array, Array]:
-        """Return the weights of all forces in the sum at each section, of shaft and of block."""
+        """Return the weights of all forces in the sums at each section, for the shaft and for the
+        block.
+        """
         borne = weigh(span, sections) @ shares
         own, of_block = weigh(on_shaft, sections), weigh(on_block, sections)
         return np.hstack([own - borne, 0 * of_block]), np.hstack([borne, of_block])
@@ -354,7 +366,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
 
 
 def place_main_bearings(engine: Engine) -> Array:
-    """Return positions of the main bearings, m, shape (bearings,), as `place_bearings`.
+    """Return the positions of the main bearings (`place_bearings`), m, shape (bearings,).
 
     Raises:
         BearingsUnknownError: The positions of the throws are not known, there is one throw, or the
@@ -390,9 +402,9 @@ def compute_bearing_loads(engine: Engine, crank_deg: Array) -> Complex:
 
 
 def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Complex]:
-    """Return forces on shaft and on block over the crank angle, x + iy, N, each of shape (places,
-    angles): of every cylinder in the order of `engine.numbers`, then of the devices. Articulated
-    rods press on the shaft at the positions of their own cylinders.
+    """Return the forces on shaft and on block over the crank angle, x + iy, N, each of shape
+    (places, angles): forces of the cylinders in the order of `engine.numbers`, then of the devices.
+    Articulated rods press on the shaft at the positions of their own cylinders.
 
     Args:
         engine: Engine without trailing axes.
@@ -414,7 +426,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
 
 
 def _place_forces(engine: Engine) -> tuple[Array, Array]:
-    """Return z of the forces on shaft and block, m."""
+    """Return the axial positions of the forces on shaft and on block, m."""
     cylinders = np.ravel(engine.cylinders.z).tolist()
     turning = [float(d.z) for d in engine.devices if is_counterweight(d)]
     others = [float(d.z) for d in engine.devices if not is_counterweight(d)]
@@ -422,14 +434,14 @@ def _place_forces(engine: Engine) -> tuple[Array, Array]:
 
 
 def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
-    """Raise an error if the forces over a cycle are more than are kept.
+    """Raise an error if there are too many forces over a cycle.
 
     Args:
         engine: Engine with gas.
-        angles: Number of crank angles; 0: the fewest that the breaks of the cycle need.
+        angles: Number of crank angles; 0: the smallest number that the breaks of the cycle need.
 
     Raises:
-        BalcliError: They are too many; the error states the numbers.
+        BalcliError: There are too many; the error states the numbers.
     """
     angles = angles or quadrature(cut(find_breaks(engine), 0.5))[0].size
     cylinders, count = engine.cylinders.count, 2 * engine.cylinders.count + len(engine.devices)
@@ -442,16 +454,16 @@ def refuse_too_many_forces(engine: Engine, angles: int = 0) -> None:
 
 
 def compute_in_pieces(engine: Engine, compute: Vectors, angles: Array) -> Complex:
-    """Return forces of an engine at crank angles, shape (forces, angles), computed in pieces so
-    that memory stays small.
+    """Return forces of an engine at crank angles, shape (forces, angles), computed piece by piece
+    to save memory.
 
     Args:
         engine: Engine.
-        compute: Function of crank angles (deg) to the forces.
+        compute: Function that returns the forces at crank angles (deg).
         angles: Crank angles, rad, shape (angles,).
 
     Raises:
-        BalcliError: More forces than are kept.
+        BalcliError: There are too many forces.
     """
     refuse_too_many_forces(engine, len(angles))
     return compute_piecemeal(engine, np.degrees(angles), lambda some: {"": compute(some)})[""]

@@ -1,10 +1,9 @@
-"""Curves over the crank angle, by direct evaluation: nothing here is a sum of orders.
+"""Curves over the crank angle, computed directly from the motion, not as sums of orders.
 
 Inertia: each cylinder has momentum G, moment of momentum h and inertia I at crank speed 1. With
 crank speed omega, crank acceleration xi and a prime for the derivative by the crank angle, the
 force is -(omega^2 G' + xi G), the couple -(omega^2 h' + xi h) and the inertia torque -(1/2 I'
-omega^2 + xi I). Whatever is below the rounding error of the terms that are added up
-(docs/theory.md) is 0.
+omega^2 + xi I). Sums below the rounding error of their terms (docs/theory.md) are set to 0.
 
 Gas: torque of all cylinders on the crank over the cycle, with and without the inertia torque.
 """
@@ -33,7 +32,7 @@ AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
 
 
 def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
-    """Return crank angles of one revolution or several, deg, from 0, without the last, shape
+    """Return crank angles from 0 through one revolution or several, deg, without the end, shape
     (angles,).
 
     Args:
@@ -41,7 +40,7 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
         revolutions: Number of revolutions.
 
     Raises:
-        BalcliError: The step is not from 0.001 to 360.
+        BalcliError: The step is not between 0.001 and 360.
     """
     if not FINEST_STEP_DEG <= step <= 360:
         raise BalcliError(f"--step {step:g}: give {FINEST_STEP_DEG:g} to 360 degrees")
@@ -73,13 +72,13 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
 def compute_piecemeal(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, NDArray[Number]]]
 ) -> dict[str, NDArray[Number]]:
-    """Return curves by name, each of shape (..., angles), computed in pieces so that memory does
-    not grow with both cylinders and angles.
+    """Return curves by name, each of shape (..., angles), computed piece by piece so that memory
+    does not grow with cylinders x angles.
 
     Args:
         engine: Engine.
         crank_deg: Crank angles, shape (angles,).
-        compute: Function of some of the angles to the curves.
+        compute: Function that returns the curves at some of the angles.
     """
     step = max(AT_ONCE // engine.cylinders.count, 1)
     starts = range(0, max(len(crank_deg), 1), step)
@@ -99,7 +98,7 @@ class EngineMotion:
         psi: Angles of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
         axis: Directions of the cylinders, shape (cylinders, 1).
         moved: Motion of pistons and rods, in crank radii, shape (cylinders, angles).
-        mass: Masses on curves of a linkage, kg, shape (cylinders, 1) or (1, 1).
+        mass: Masses of the linkage, kg, shape (cylinders, 1) or (1, 1).
     """
 
     def __init__(self, engine: Engine, crank_deg: Array) -> None:
@@ -161,8 +160,8 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
 
 
 def _torque_of_cylinders(motion: EngineMotion) -> Array:
-    """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), with
-    I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ the masses on curves).
+    """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), from
+    I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ masses of the linkage).
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     on_axis = as_rows(c.reciprocating) * r**2 * m.velocity * m.acceleration
@@ -180,7 +179,9 @@ def _inertia_of_cylinders(motion: EngineMotion) -> Array:
 
 
 def as_rows(values: Array) -> Array:
-    """Return values as a column, one row a cylinder or one for all, before the axis of angles."""
+    """Return values (one for each cylinder, or one for all) as a column that broadcasts with
+    angles.
+    """
     return np.asarray(values, float).reshape(-1, 1)
 
 
@@ -189,10 +190,10 @@ class TorqueCurves(NamedTuple):
     """Torque on the crank at crank angles (rad) of one cycle, N m, at the mean speed.
 
     Attributes:
-        gas: Torque of all cylinders' gas.
+        gas: Gas torque of all cylinders.
         total: Torque of gas and inertia.
-        gas_once: Gas torque until gas and inertia torque repeat: over one interval of equal
-            cylinders that fire evenly, else over the cycle.
+        gas_once: Gas torque up to where gas and inertia torque repeat: over one firing interval if
+            equal cylinders fire evenly, else over the cycle.
     """
 
     gas: PiecewiseCurve
@@ -201,7 +202,7 @@ class TorqueCurves(NamedTuple):
 
 
 def find_torque_curves(engine: Engine) -> TorqueCurves:
-    """Return the torque of an engine without trailing axes, as if its speed were even.
+    """Return the torque of an engine without trailing axes at constant speed.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -217,8 +218,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
 
 def count_repeats(engine: Engine) -> int:
-    """Return how often the torque repeats in a cycle: once for each firing if the cylinders are
-    equal and fire evenly to the last digit. One interval is computed in a quarter of the time.
+    """Return how often the torque repeats in a cycle: at each firing if the cylinders are equal and
+    fire exactly evenly, else once. (One interval is computed faster than a cycle.)
     """
     gas, c = take_gas(engine), engine.cylinders
     columns = (c.radius, c.offset, c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
@@ -232,8 +233,8 @@ def count_repeats(engine: Engine) -> int:
 
 
 def find_inertia_torque(engine: Engine) -> Function:
-    """Return the inertia torque (N m) at crank angles (rad) of any shape, at the mean speed; 0
-    everywhere where cylinders cancel each other's to rounding errors.
+    """Return the inertia torque (N m) at the mean speed, as a function of crank angles (rad) of any
+    shape. It is exactly 0 if the cylinders' torques cancel to rounding.
     """
     steady = replace(engine, ripple=())
     torque = compute_spectra(steady, find_relevant_orders(steady), ("torque",))["torque"]
@@ -243,9 +244,9 @@ def find_inertia_torque(engine: Engine) -> Function:
 
 
 def find_moving_inertia(engine: Engine) -> Function:
-    """Return the moment of inertia about the crank (kg m2) of pistons, rods and throw masses, at
-    crank angles (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is
-    given, which has them; those of a rotary engine stand still.
+    """Return the moment of inertia about the crank (kg m2) of pistons, rods and throw masses, as a
+    function of crank angles (rad) of any shape. Throw masses are omitted if the file gives the
+    crankshaft's inertia, which includes them, and in rotary engines, where they are at rest.
     """
     if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
@@ -257,8 +258,8 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Return the moment of inertia of crankshaft and flywheel, kg m2; None where the file gives
-    neither. The crankshaft of a rotary engine stands still.
+    """Return the moment of inertia of crankshaft and flywheel, kg m2; None if the file gives
+    neither. The crankshaft of a rotary engine is at rest and does not count.
     """
     crank = None if engine.rotary else engine.crank_inertia
     given = [v for v in (crank, engine.flywheel_inertia) if v is not None]

@@ -1,5 +1,5 @@
-"""Guide-force moments of inertia and gas, as builders of large engines state them, and as
-quantities of variants: `guide.6.H`, `guide.4.5.X`.
+"""Guide-force moments of inertia and gas, as builders of large engines state them; as quantities of
+variants they are called `guide.6.H`, `guide.4.5.X`.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ class GuideMoments(NamedTuple):
     """Sums of the cylinders' roll moments, N m, by order.
 
     Attributes:
-        h: H-type, their sum.
-        x: X-type, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None
-            where all cylinders are at one position, or their positions are not known.
+        h: H-type moment: the sum of the roll moments.
+        x: X-type moment, that of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None if
+            all cylinders have the same position, or positions are not known.
         height_m: Height L of each guide's middle above the crankshaft, by cylinder number, shape
             (cylinders,).
         with_gas: Whether the moments include the gas.
@@ -52,9 +52,9 @@ def compute_guide_moments(
 ) -> GuideMoments:
     """Return the guide-force moments of an engine's cylinders; devices have none.
 
-    The roll moment of a cylinder is taken about the crank axis, wherever the point of reference
-    stands in x and y. The X-type is defined as in the project guides of MAN B&W two-stroke engines,
-    section 17.05: bi-moment `sum force couple x distance`, divided by the height of the guide.
+    Roll moments are taken about the crank axis, wherever the point of reference is in x and y. The
+    X-type is defined as in section 17.05 of the project guides of MAN B&W two-stroke engines: the
+    bi-moment `sum force couple x distance` divided by the height of the guide.
 
     Args:
         engine: Engine without trailing axes.
@@ -65,7 +65,7 @@ def compute_guide_moments(
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = find_relevant_orders(engine) if orders is None else orders
-    if orders is None and engine.gas is not None:  # no more than are shown of gas
+    if orders is None and engine.gas is not None:  # no more orders than are shown for gas
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
@@ -98,15 +98,15 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise an error for an impossible order, and for an X-type quantity of an engine that has no
-    X-type moment.
+    """Raise an error for an impossible order, or for an X-type quantity if the engine has no X-type
+    moment.
 
     Args:
         model: Engine file.
         quantities: Wanted quantities.
 
     Raises:
-        BalcliError: The first of them that is not known, and why.
+        BalcliError: A quantity is not known; the error names the first and the reason.
     """
     for q in quantities:
         if parse_order(q.target) is None:
@@ -132,7 +132,7 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
 
     Args:
         engine: Engine without trailing axes.
-        quantities: Wanted quantities; each is known.
+        quantities: Wanted quantities, all of them known.
     """
     orders = np.array(sorted({float(q.target) for q in quantities}))
     guide = compute_guide_moments(engine, orders)

@@ -1,8 +1,8 @@
 """Table of all kinds of forces and moments: names, symbols, keys and units.
 
-Everything that is computed, shown, compared, recorded or searched by kind reads this table. A new
-kind is one line here, one member of `spectrum.Spectra`, and the physics that computes it. `KINDS`
-are those of inertia, which every engine has; `GAS_KINDS` those of engines with [gas].
+All code that computes, shows, compares, records or searches kinds reads this table. A new kind
+needs a line here, a member of `spectrum.Spectra`, and the computation. `KINDS` are the kinds of
+inertia, which every engine has; `GAS_KINDS` exist only for engines with [gas].
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ class Kind(NamedTuple):
 
     Attributes:
         name: Name in lists of kinds, quantities (`force.2.major`) and members of `Spectra`.
-        label: Words for headings and legends, where it may begin with a capital letter.
+        label: Words for headings and legends.
         symbol: Symbol for formulas and narrow columns.
         key: Key in JSON, with its SI unit as the ending.
         vector: Whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
         dimension: Force or moment.
-        plus, minus: Names of the kinds of which it is the sum and difference, if any.
+        plus, minus: Names of the kinds that are added and subtracted to give it, if any.
     """
 
     name: str
@@ -43,20 +43,22 @@ class Kind(NamedTuple):
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """Names of the kinds from which this one is computed: itself, or those that it sums up."""
+        """Names of the kinds from which this one is computed: its terms, or only itself."""
         return (*self.plus, *self.minus) or (self.name,)
 
     @property
     def upright(self) -> tuple[str, str]:
-        """Names of the components of a vector by `frame.up`, and by the axis 90 deg ahead."""
+        """Names of a vector's components along `frame.up` and along the axis 90 deg ahead of it."""
         return _UPRIGHT[self.dimension]
 
     def tell_axis(self, axis: str) -> str:
-        """Return an axis along which a force acts, or about which a moment does."""
+        """Return "along" an axis for a force, or "about" it for a moment."""
         return f"{'along' if self.dimension == 'force' else 'about'} {axis}"
 
     def name_components(self, up_deg: float | None) -> tuple[str, str]:
-        """Return names of the components of a vector, by x and y or by `up_deg` if it is known."""
+        """Return the names of a vector's components: vertical and horizontal if `up_deg` is known,
+        else x and y.
+        """
         if up_deg is None:
             return f"{self.name} {self.tell_axis('x')}", f"{self.name} {self.tell_axis('y')}"
         return f"{self.upright[0]} {self.name}", f"{self.upright[1]} {self.name}"
@@ -85,9 +87,9 @@ ROLL_TOTAL = Kind(
 )
 
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
-GAS_KINDS = {kind.name: kind for kind in (GAS, TORQUE_TOTAL, ROLL_TOTAL)}  # of engines with gas
+GAS_KINDS = {kind.name: kind for kind in (GAS, TORQUE_TOTAL, ROLL_TOTAL)}  # with gas only
 EVERY_KIND = KINDS | GAS_KINDS
-# what is asked of variants of an engine unless something else is: quantities, see quantity.py
+# default quantities (see quantity.py) of variants in sweep, search and scatter
 DEFAULT_QUANTITIES = "force.1.major,force.2.major,moment.1.major,moment.2.major"
 VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)
 SCALARS = tuple(kind for kind in KINDS.values() if not kind.vector)

@@ -1,5 +1,6 @@
-"""Quantities: single figures of an engine for sweep, search and scatter, such as `force.2.major`,
-`peak.moment`, or for a target by number or name, `mode.3.Hz`, `mount.left.force`, `guide.6.H`.
+"""Quantities: single figures of an engine for sweep, search and scatter. They are named like
+`force.2.major` or `peak.moment`; figures of a mode, mount or other target like `mode.3.Hz`,
+`mount.left.force` or `guide.6.H`.
 """
 
 from __future__ import annotations
@@ -22,24 +23,25 @@ from .spectrum import compute_spectra, find_relevant_orders, split_order
 
 _SIZES = ("major", "minor", "forward", "backward")
 _ALONG_AXES = ("x", "y", "x_cos", "x_sin", "y_cos", "y_sin")
-_SENSES = MappingProxyType({"with": "forward", "against": "backward"})  # as tables head them
+_SENSES = MappingProxyType({"with": "forward", "against": "backward"})  # words of table headings
 VECTOR_PARTS = (*_SIZES, "axis", *_ALONG_AXES)
 SCALAR_PARTS = ("amplitude", "major", "cos", "sin")
 
 
 class Quantity(NamedTuple):
-    """One figure: `kind.order.part`, or `peak.kind` with order 0 and part "peak".
+    """One figure of a force or moment: `kind.order.part`, or `peak.kind` with order 0 and part
+    "peak".
 
     For couple, torque and roll, and for force and moment along x or y, `cos` and `sin` are the
-    coefficients a and b of `a cos n theta + b sin n theta`. They are signed, and so is the mean of
-    order 0, which is its `cos`.
+    coefficients a and b of `a cos n theta + b sin n theta`. They are signed. The `cos` of order 0
+    is the mean.
 
     Attributes:
         kind: Kind of force or moment.
         order: Order; 0 for a peak.
         part: Part of the phasor, or "peak".
-        called: First word of its name where it differs from the kind: for an engine with gas,
-            `torque` is the torque of gas and inertia.
+        called: First word of its name if it differs from the kind: with gas, `torque` means the
+            torque of gas and inertia.
     """
 
     kind: str
@@ -65,7 +67,7 @@ class Quantity(NamedTuple):
         return self.part.endswith(("cos", "sin"))
 
     def read_from(self, phasors: Phasors) -> Array:
-        """Return the value by the phasors of its kind, SI or degrees, shape (*trailing)."""
+        """Return the value from the phasors of its kind, SI or degrees, shape (*trailing)."""
         own = phasors.select_orders([self.order])
         if self.signed:
             c = (own.y if self.part.startswith("y") else own.x)[0]
@@ -81,11 +83,11 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     """Return the quantity that a text names, such as `force.2.major` or `peak.force`.
 
     Args:
-        text: Name; begins with a kind, or with peak.
-        with_gas: Whether the engine has gas: its `torque` is then that of gas and inertia.
+        text: Name, which begins with a kind or with peak.
+        with_gas: Whether the engine has gas; `torque` then means the torque of gas and inertia.
 
     Raises:
-        BalcliError: The text names no quantity; the error lists what there is.
+        BalcliError: The text names no quantity; the error lists the possible ones.
     """
     kind, _, rest = text.partition(".")
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
@@ -136,11 +138,11 @@ def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
 
 
 def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[Array]:
-    """Return the value of each quantity, SI or degrees, shape (*trailing), of length 1 along axes
-    on which it does not depend.
+    """Return the value of each quantity, SI or degrees, shape (*trailing), with length 1 along axes
+    on which the quantity does not depend.
 
-    Only the orders that a kind is asked for are computed; kinds with the same orders share what
-    they have in common.
+    Only the wanted orders of each kind are computed; kinds with the same orders are computed
+    together.
 
     Args:
         engine: Engine, or variants along trailing axes.
@@ -158,7 +160,7 @@ def evaluate_quantities(engine: Engine, quantities: Sequence[Quantity]) -> list[
 
 
 def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[float]]:
-    """Return the orders that are computed together for these quantities, group by group.
+    """Return the groups of orders that are computed together for these quantities.
 
     Args:
         engine: Engine, which determines the orders of peaks.
@@ -171,7 +173,9 @@ def find_orders(engine: Engine, quantities: Sequence[Quantity]) -> list[list[flo
 
 
 def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], list[Quantity]]]:
-    """Return groups of quantities whose kinds need the same orders, with these; without peaks."""
+    """Return groups of quantities whose kinds need the same orders, each with these orders; peaks
+    are omitted.
+    """
     by_kind: dict[str, list[Quantity]] = {}
     for q in quantities:
         if q.part != "peak":
@@ -185,7 +189,7 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
 
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure of a chapter, most of them of a target: `kind.target.part`.
+    """One figure of a chapter, such as torsion or mounts; most have a target: `kind.target.part`.
 
     Attributes:
         name: Name as a user writes it.

@@ -1,20 +1,20 @@
 """Forces in each cylinder of an engine with gas: on the piston, on the cylinder wall, along the rod
-and on the pin that it turns on, exact with a rod whose mass is distributed.
+and on its lower pin. They are exact for a rod of distributed mass.
 
-In the cylinder's frame, u along its axis away from the crank and v 90 deg ahead in the sense of
-rotation: piston pin p, lower end of the rod f, which is the crank pin or, of an articulated rod,
-the knuckle pin, `d = p - f`. A rod is equivalent to its two masses and a massless couple of inertia
--H (docs/theory.md), so that with the gas force P towards the crank, piston mass M, small end a, big
-end b and the rod's angular acceleration alpha
+In the cylinder's frame, u points along the axis away from the crank, and v is 90 deg ahead in the
+sense of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle pin of an
+articulated rod) at f, and `d = p - f`. A rod is equivalent to two masses at its ends (a at the
+small end, b at the big end) and a massless couple of inertia -H (docs/theory.md). With the gas
+force P towards the crank, the piston mass M and the rod's angular acceleration alpha,
 
     W_x = M Re p'' + P                                    rod on piston
     W_y = (Im d (W_x + a Re p'') + H alpha + S)/Re d - a Im p''
     N   = W_y - M Im p''                                  piston on wall
     Q   = a p'' + b f'' + W - sum K                       pin on rod
 
-(derivatives by time; p'' has a part across the axis where the cylinder itself turns). K are the
-forces of the articulated rods on a master rod's knuckle pins, S their moment about its crank pin.
-The torque of the crank pins is `Im(conj(c) (-Q))`, as by virtual work.
+Derivatives are by time; p'' has a component across the axis only if the cylinder itself turns. K
+are the forces of articulated rods on the knuckle pins of a master rod, S is their moment about its
+crank pin. The crank pins, at c, make the torque `Im(conj(c) (-Q))`, which agrees with virtual work.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ if TYPE_CHECKING:
 
 
 class RodForces(NamedTuple):
-    """Forces, N, each of shape (cylinders, angles), in the order of `engine.numbers`.
+    """Forces, N, each of shape (cylinders, angles); cylinders are in the order of `engine.numbers`.
 
     Attributes:
         pressure: Absolute pressure in the cylinder, Pa.
         gas: Gas force on the piston, positive towards the crank.
         thrust: Force of the piston on the cylinder wall, positive along v.
         rod: Force along the rod at the piston pin, positive in compression.
-        pin: Force of the rod on its crank pin or knuckle pin, u + i v; a master rod's includes the
-            forces of its articulated rods.
+        pin: Force of the rod on its crank pin or knuckle pin, u + i v. For a master rod, it
+            includes the forces of its articulated rods.
         axis: Unit vector u of the cylinder in the engine's axes.
         throw: Unit vector from the crank's axis to the crank pin, in the cylinder's frame.
         lean: Unit vector from the rod's lower pin to its piston pin, in the cylinder's frame.
@@ -67,7 +67,7 @@ class _Course(NamedTuple):
 
 
 def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
-    """Return forces at crank angles; at a jump of the pressure those after it.
+    """Return the forces at crank angles; at a jump of the pressure, the forces after it.
 
     Args:
         engine: Engine with gas of known pressure, without trailing axes.
@@ -89,7 +89,7 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
     heads = as_rows(np.array([w.piston for w in masses]))
     small = as_rows(np.array([w.small_end for w in masses]))
     big = as_rows(np.array([w.rotating for w in masses]))
-    # Where cylinders turn, psi is a cylinder's angle ahead of the crank pin (`linkage.Rotary`).
+    # In a rotary engine, psi is the angle of a cylinder ahead of the crank pin (`linkage.Rotary`).
     turned = unit(np.degrees(motion.psi))
     axis = unit(motion.pin_deg) if engine.rotary else np.broadcast_to(motion.axis, turned.shape)
     throw = np.conj(turned) if engine.rotary else turned
@@ -115,8 +115,8 @@ def compute_rod_forces(engine: Engine, crank_deg: Array) -> RodForces:
 
 
 def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
-    """Return the rows of the cylinders with articulated rods, by the row of the master; empty
-    without articulated rods.
+    """Return the rows of cylinders with articulated rods by the row of their master; empty if there
+    are none.
     """
     linkage = engine.cylinders.linkage
     if linkage is None:
@@ -138,11 +138,13 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
     r, m = motion.radius, motion.moved
 
     def follow(point: PointMass, turned: Complex | float = 1.0) -> _Course:
-        """Return a point by its place and derivatives by the crank angle, in crank radii."""
+        """Return position and acceleration of a point from its derivatives by the crank angle, in
+        crank radii.
+        """
         acceleration = r * turned * (point.z2 * motion.omega**2 + point.z1 * motion.xi)
         return _Course(r * turned * point.z, np.asarray(acceleration, complex))
 
-    if engine.rotary:  # its points are seen from the direction of the pin
+    if engine.rotary:  # its points are given relative to the direction of the pin
         piston, *knuckle = (follow(point, throw) for point in m.points)
         still = _Course(r * throw, np.zeros_like(throw))
         return piston.acceleration, (knuckle or [still])[0]

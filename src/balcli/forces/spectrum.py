@@ -1,16 +1,17 @@
 """Free forces and moments of an engine by order, inertia and gas.
 
-An order is how often something happens in a revolution of the crankshaft. Pistons, rods and devices
-repeat after each revolution and have whole orders. What happens once in a four-stroke cycle (gas
-pressure, and a crank speed made uneven by it) has half orders as well. All orders are therefore
-multiples of 1/2, which are exact as floating-point numbers.
+An order is a number of oscillations per revolution of the crankshaft. The motion of pistons, rods
+and devices repeats after each revolution, so its orders are whole. Gas pressure in a four-stroke
+engine (and an uneven speed that it causes) repeats after two revolutions and has half orders as
+well. So all orders are multiples of 1/2, which floating-point numbers represent exactly.
 
 Inertia: `compute_spectra` sums the series of all mechanisms (`core.loads`); at uneven speed it
 convolves them with the coefficients of the speed (`core.speed_ripple`).
 
-Gas presses on piston and head alike: it makes no free force and no free moment, only a torque on
-the crank and its reaction on the frame. With t_h the coefficients of one cylinder's torque over its
-cycle, a cylinder that fires at the crank angle f adds `t_h e^{i h (theta - f)/2}`: order n = h/2.
+Gas presses equally on piston and head: it causes no free force and no free moment, only a torque on
+the crank and its reaction on the frame. If t_h are the coefficients of one cylinder's torque over
+its cycle, a cylinder that fires at crank angle f adds `t_h e^{i h (theta - f)/2}`, which is of
+order n = h/2.
 """
 
 from __future__ import annotations
@@ -56,10 +57,11 @@ class Spectra:
 
     Attributes:
         orders: Orders, ascending, shape (orders,).
-        up_deg: Direction that points up, deg from x; None where the file gives none.
+        up_deg: Direction that points up, deg from x; None if the file gives none.
         force: Free force, N.
-        moment, couple, torque, roll: N m; the torque is the inertia torque on the crank.
-        gas, torque_total, roll_total: N m, of the gas, and of gas and inertia.
+        moment, couple, torque, roll: Free moment, couple, inertia torque on the crank, and roll, N
+            m.
+        gas, torque_total, roll_total: Gas torque, and torque and roll of gas and inertia, N m.
     """
 
     orders: Array
@@ -94,12 +96,12 @@ class Spectra:
         return [(kind, phasors) for kind, phasors in self.items() if not kind.vector]
 
     def only(self, kinds: Collection[str]) -> Spectra:
-        """Return the spectra of these kinds alone, by their names."""
+        """Return the spectra of only these kinds, given by their names."""
         found = {kind.name: p for kind, p in self.items() if kind.name in kinds}
         return Spectra(self.orders, self.up_deg, **found)
 
     def with_moment_if(self, known: bool) -> Spectra:
-        """Return the spectra, with a computed moment as nan unless it is known."""
+        """Return the spectra, with nan for the moment if it is not known."""
         if known or self.moment is None:
             return self
         p = self.moment
@@ -107,7 +109,7 @@ class Spectra:
         return replace(self, moment=unknown)
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
-        """Return the spectra of these orders alone, shape (orders,)."""
+        """Return the spectra of only these orders, shape (orders,)."""
         if orders is self.orders:
             return self
         wanted = np.asarray(orders, float)
@@ -130,16 +132,16 @@ def compute_spectra(
     """Return the free forces and moments of an engine, or of each of its cylinders.
 
     Args:
-        engine: Engine, at steady or uneven speed; without trailing axes for `each` cylinder. With
-            trailing axes, phasors have them last.
+        engine: Engine at steady or uneven speed. The phasors have its trailing axes last; with
+            `each`, it must have none.
         orders: Multiples of 1/2, ascending, not negative, shape (orders,).
         kinds: Names of KINDS, and of GAS_KINDS for an engine with gas.
-        each: Phasors of each cylinder as if no other one had a mass, shape (orders, cylinders), in
-            the order of `engine.numbers`; devices are left out.
+        each: Whether to return the phasors of each cylinder, as if only that one had masses, shape
+            (orders, cylinders), in the order of `engine.numbers`; devices are then ignored.
 
     Raises:
-        BalcliError: The engine has no gas, and a kind of gas is asked for; or orders
-            times cylinders are more than MOST_LOADS_APART.
+        BalcliError: A kind of gas is wanted, and the engine has none; or orders x cylinders exceed
+            MOST_LOADS_APART.
     """
     wanted = np.asarray(orders, float)
     if each:
@@ -171,8 +173,8 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
 
 
 def count_engine_samples(engine: Engine) -> int:
-    """Return about how many samples of revolutions the mechanisms of an engine, or of variants,
-    take.
+    """Return about how many samples of a revolution the mechanisms of an engine (or of variants)
+    need.
     """
     c = engine.cylinders
     sampled = c.linkage is not None or np.count_nonzero(c.eps)
@@ -184,7 +186,7 @@ def compute_device_force(engine: Engine, device: Device, orders: Array) -> Phaso
 
     Args:
         engine: Engine without trailing axes.
-        device: One of its devices.
+        device: A device.
         orders: Orders, shape (orders,).
     """
     speed, dense = _mix_orders(engine, orders)
@@ -199,7 +201,7 @@ def add_parts(kind: Kind, parts: Mapping[str, Phasors]) -> Phasors:
 
     Args:
         kind: Kind of force or moment.
-        parts: Phasors of its parts by name.
+        parts: Phasors of the parts by name.
     """
     plus = reduce(add, (parts[name] for name in kind.plus or (kind.name,)))
     return reduce(sub, (parts[name] for name in kind.minus), plus)
@@ -210,7 +212,7 @@ def with_only(engine: Engine, moving: ArrayLike) -> Engine:
 
     Args:
         engine: Engine.
-        moving: Whether each cylinder has its masses, shape (cylinders,), in the order of
+        moving: Whether each cylinder keeps its masses, shape (cylinders,), in the order of
             `engine.numbers`.
     """
     c = engine.cylinders
@@ -253,7 +255,7 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    # `crank.inertia` minus the throws' inertia, which is counted with the pins
+    # `crank.inertia` minus the throws' inertia, which is counted with the crank pins
     found, crank = {}, engine.crank_inertia
     if crank is None or engine.rotary:
         crank = 0.0
@@ -273,8 +275,9 @@ def _compute_inertia(
 
 
 def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
-    """Return the coefficients of the speed (`ripple.find_speed`), and the orders needed to get the
-    given ones: all up to the highest at uneven speed, just the given ones at steady speed.
+    """Return the coefficients of the speed (`ripple.find_speed`), and the orders that have to be
+    computed to get the given ones. At uneven speed, these are all orders up to the highest that
+    contributes.
     """
     if not engine.ripple:
         return np.ones(1, complex), orders
@@ -284,12 +287,12 @@ def _mix_orders(engine: Engine, orders: Array) -> tuple[Complex, Array]:
 
 
 def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
-    """Return the orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. where some of
-    those that are mixed are halves.
+    """Return the orders 0, 1, 2 .. up to the highest, shape (orders,); 0, 1/2, 1 .. if any of
+    `mixed` is a half order.
 
     Args:
         highest: Highest order.
-        mixed: Orders of the uneven speed, and of the engine, that mix with one another.
+        mixed: Orders of the uneven speed and of the engine.
     """
     step = ripple.find_step(mixed)
     return np.arange(round(highest / step) + 1.0) * step
@@ -299,20 +302,20 @@ SHOWN = 1e-6  # share of a quantity's largest order below which an order is not 
 
 
 def is_order(number: float) -> bool:
-    """Return whether a number is an order: a multiple of 1/2, 0 to HIGHEST_ORDER."""
+    """Return whether a number is an order: a multiple of 1/2 from 0 to HIGHEST_ORDER."""
     return 0 <= number <= HIGHEST_ORDER and number % 0.5 == 0
 
 
 def check_orders(orders: Iterable[float], engines: Collection[Engine] = ()) -> Array:
-    """Return the orders of an argument, ascending, each once.
+    """Return the orders in an argument, ascending, each once.
 
     Args:
         orders: Numbers.
         engines: Engines, one of which must have half orders if `orders` has some.
 
     Raises:
-        BalcliError: There are none, some are no orders, or half orders that no engine has.
-        TypeError: They are no numbers.
+        BalcliError: There are no orders, some numbers are no orders, or no engine has half orders.
+        TypeError: The argument has other values than numbers.
     """
     wanted = "give numbers, such as [1, 2, 4]"
     if isinstance(orders, bytes) or not np.iterable(orders):
@@ -338,7 +341,9 @@ def parse_order(text: str) -> float | None:
 
 
 def split_order(text: str) -> tuple[float | None, str]:
-    """Return `1.5.amplitude` as the order 1.5 and the rest; None where there is no order."""
+    """Return the order at the beginning of a text and the rest: 1.5 and `amplitude` for
+    `1.5.amplitude`; None if there is no order.
+    """
     match = re.fullmatch(r"([^.]*(?:\.[05](?=\.|$))?)(?:\.(.*))?", text, re.DOTALL)
     if match is None:
         return None, text
@@ -346,8 +351,8 @@ def split_order(text: str) -> tuple[float | None, str]:
 
 
 def find_relevant_orders(engine: Engine) -> Array:
-    """Return the orders 1 .. n, above which all is rounding errors, shape (orders,); 0 .. n at
-    uneven speed, with half orders if its lines have some.
+    """Return the orders 1 .. n, shape (orders,); above n, all orders are rounding errors. At uneven
+    speed, return 0 .. n, with half orders if the speed has some.
     """
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
@@ -359,12 +364,11 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
     """Return orders of gas torque, shape (orders,): multiples of 1/2 (of 1 in two-stroke engines).
-    In engines with so many cylinders that all of these may cancel, add the order of firing and its
-    double.
+    If the order of firing is higher, add it and its double, because all lower ones may cancel.
 
     Args:
         engine: Engine with gas.
-        highest: Highest order but for the firing order and its double.
+        highest: Highest order, except for the order of firing and its double.
     """
     step = 2 / engine.strokes
     firing = step * len(engine.fires_deg or engine.numbers)
@@ -373,8 +377,8 @@ def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) 
 
 
 def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
-    """Return whether each order exceeds SHOWN of the largest order, shape (orders,); False above
-    HIGHEST_ORDER_UNASKED.
+    """Return whether each order exceeds the share SHOWN of the largest order, shape (orders,);
+    False above HIGHEST_ORDER_UNASKED.
     """
     sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1, initial=0)
     large = sizes > SHOWN * sizes.max(initial=0)
@@ -382,8 +386,8 @@ def mark_considerable(phasors: Phasors) -> NDArray[np.bool_]:
 
 
 def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
-    """Return the orders worth showing, shape (orders,): 1 and 2 (and 0), and each in which some
-    kind is considerable.
+    """Return the orders worth showing, shape (orders,): 0, 1 and 2 if computed, and each order in
+    which some kind is considerable.
 
     Args:
         found: Computed phasors of every kind.
@@ -401,11 +405,11 @@ def choose_orders(found: Spectra, listed: Iterable[float]) -> Array:
 
 def merge_orders(*several: Iterable[float]) -> Array:
     """Return all orders of several lists, ascending, each once."""
-    # np.union1d would import masked arrays, which takes longer than all the rest
+    # np.union1d would import masked arrays, which takes too long
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
 
-_LEAST = 24  # fewest harmonics computed; the largest is among them
+_LEAST = 24  # harmonics among which the largest one is
 _QUADRATURE = 8 * EPS  # error of a coefficient relative to the largest
 
 
@@ -421,13 +425,13 @@ def take_gas(engine: Engine) -> EngineGas:
 
 
 def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> Phasors:
-    """Return the torque of the gas on the crank, N m, noise included.
+    """Return the torque of the gas on the crank, N m; small orders are not yet set to 0.
 
     Args:
-        engine: Engine with gas, without trailing axes; or variants with `gas_of_variants`.
+        engine: Engine with gas, without trailing axes, or variants with `gas_of_variants`.
         orders: Multiples of 1/2, shape (orders,).
-        each: Torque of each cylinder, shape (orders, cylinders), in the order of `engine.numbers`,
-            and not that of all.
+        each: Whether to return the torque of each cylinder instead of the sum, shape (orders,
+            cylinders), in the order of `engine.numbers`.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -452,7 +456,7 @@ def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> 
 
 
 def _turn(cylinder: CylinderGas, orders: Array) -> Complex:
-    """Return e^{-i n f}: the nominal angle turns exactly, so that cylinders that fire evenly
-    cancel.
+    """Return e^{-i n f}. The turn by the nominal angle is exact, so that evenly firing cylinders
+    cancel exactly.
     """
     return np.exp(-1j * orders * cylinder.piston.top) * unit(-orders * cylinder.nominal_deg)

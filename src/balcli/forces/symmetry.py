@@ -1,17 +1,17 @@
-"""An engine compared with one of its cylinders: free forces and moments as multiples, and whether
-an order is balanced by symmetry or by chance.
+"""Compare an engine with one of its cylinders: free forces and moments as multiples of the
+cylinder's, and whether an order is balanced by symmetry or by chance.
 
-Textbooks state multiples of the first-order force of cylinder 1's reciprocating mass, `F1 = m_rec r
-omega^2`, of its n-th order, `F_n = A_n F1`, and moments as multiples of `F_n a`, a the smallest
-distance of neighbouring throws. Where the rod of cylinder 1 is articulated, the cylinder of its
-master stands for it. Textbooks count reciprocating masses alone, each in the plane of its throw:
-rotating masses are left to the counterweights. Source: Bosch, Automotive Handbook, "Free forces and
-moments of the 1st and 2nd order".
+Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
+= m_rec r omega^2`, and moments as multiples of `F_n a`, a being the smallest distance of
+neighbouring throws. The cylinder is number 1; if its rod is articulated, that of its master rod.
+Textbooks consider only reciprocating masses, each in the plane of its throw, because counterweights
+balance rotating masses. Source: Bosch, Automotive Handbook, "Free forces and moments of the 1st and
+2nd order".
 
-An order that is balanced by symmetry (docs/theory.md) stays balanced whatever all cylinders have in
-common. So the engine is computed again with other piston and rod masses, another rod length and
-other gas, the same for all cylinders, a few times; where it is still balanced to rounding, the
-layout balances it. The speed is a common factor of all forces and needs no test.
+Symmetry (docs/theory.md): an order that is balanced by symmetry stays balanced if masses, rod
+length or gas change equally in all cylinders. So the engine is computed a few times with other
+values of these. If an order is still balanced to rounding, the layout balances it. The speed is a
+common factor of all forces and needs no test.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Articulated
 
 # ------------------------------------------------------------------ multiples of one cylinder
-_NO_FORCE = 1e-12  # A_n of an order that the piston does not have
+_NO_FORCE = 1e-12  # smaller A_n are 0
 
 
 class TextbookUnits(NamedTuple):
@@ -44,10 +44,10 @@ class TextbookUnits(NamedTuple):
     Attributes:
         orders: Orders, shape (orders,).
         force: F1, N.
-        arm: Smallest distance a of neighbouring throws, m; nan where all are in one plane.
+        arm: Smallest distance a of neighbouring throws, m; nan if all are in one plane.
         ratios: |A_n| of each order, shape (orders,).
-        cylinder: Number of the cylinder that has these units.
-        equal: Whether all cylinders are equal to it.
+        cylinder: Number of the cylinder to which the units refer.
+        equal: Whether all cylinders are equal.
     """
 
     orders: Array
@@ -58,7 +58,7 @@ class TextbookUnits(NamedTuple):
     equal: bool
 
     def size(self, kind: Kind, order: float) -> float:
-        """Return F_n of an order, N, or F_n a, N m; nan without such a force or arm.
+        """Return F_n of an order, N, or F_n a, N m; nan if there is no such force or arm.
 
         Args:
             kind: Kind of force or moment.
@@ -84,8 +84,8 @@ class Textbook(NamedTuple):
 
     Attributes:
         units: Units of the multiples.
-        reciprocating: Forces, N, and moments, N m, of reciprocating masses in the planes of their
-            throws, as in textbooks.
+        reciprocating: Forces, N, and moments, N m, as textbooks count them: of reciprocating masses
+            in the planes of their throws.
         built: Forces and moments of all masses of the cylinders at their positions, without
             devices, at a steady speed.
     """
@@ -96,7 +96,8 @@ class Textbook(NamedTuple):
 
 
 def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Textbook:
-    """Return the forces of an engine in the form of textbooks.
+    """Return the forces of an engine as textbooks count them and as built, with the units of
+    multiples.
 
     Args:
         engine: Engine without trailing axes.
@@ -112,7 +113,7 @@ def find_textbook(engine: Engine, orders: Array, kinds: Collection[str]) -> Text
 
 
 def without_devices(engine: Engine) -> Engine:
-    """Return the cylinders alone, at a steady speed; moments are about the crank's axis."""
+    """Return the engine without devices, at a steady speed, with moments about the crank's axis."""
     return replace(engine, devices=(), ripple=(), reference_m=(0.0, 0.0, engine.reference_m[2]))
 
 
@@ -152,7 +153,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
 
 
 # ------------------------------------------------------------------ symmetry or chance
-# Kinds that are judged together, by the name of their group, and this name in words.
+# Groups of kinds that are judged together, and the names of some groups in words.
 _GROUPS = {
     "force": ("force",),
     "moment": ("moment",),
@@ -164,7 +165,7 @@ _INERTIA = ("force", "moment", "couple", "torque", "roll")
 NEARLY = 1e-2  # of one cylinder
 _DRAWS = 3
 _SEED = 1
-_EVEN = 1e-11  # of a cycle, by which intervals that are equal may differ
+_EVEN = 1e-11  # share of a cycle by which equal intervals may differ
 
 
 class Reason(NamedTuple):
@@ -173,13 +174,13 @@ class Reason(NamedTuple):
     Attributes:
         order: Order, above 0.
         quantity: Group of kinds: force, moment, turning (couple, torque and roll) or gas.
-        verdict: "none": no cylinder has any; "symmetry": balanced for any masses and rod length
-            that all cylinders have in common; "chance": balanced for these figures only; "nearly":
+        verdict: "none": no cylinder has this order; "symmetry": balanced for any masses and rod
+            length that all cylinders share; "chance": balanced for these figures only; "nearly":
             less than 1 % of one cylinder is left; "unbalanced".
-        size: Rest, in units of the largest that one cylinder makes.
-        reciprocating: Rest of the reciprocating masses alone, as textbooks have it, in `unit`.
-        built: Rest of the engine as built, in `unit`.
-        unit: F_n of the order, or F_n a; else empty.
+        size: Remaining amplitude, relative to the largest of a single cylinder.
+        reciprocating: Remaining amplitude of reciprocating masses only, as in textbooks, in `unit`.
+        built: Remaining amplitude of the engine as built, in `unit`.
+        unit: F_n of the order, or F_n a; empty if there is none.
     """
 
     order: float
@@ -197,7 +198,9 @@ class Reason(NamedTuple):
 
     @property
     def finding(self) -> str:
-        """The verdict, in words; the rest in the textbook's unit where there is one."""
+        """The verdict in words, with the remaining amplitude in the textbook's unit if there is
+        one.
+        """
         rest = f"{self.size:.4g} of one cylinder"
         if self.reciprocating is not None:
             alone, built = f"{self.reciprocating:.4g}", f"{self.built:.4g}"
@@ -218,8 +221,8 @@ class Symmetry(NamedTuple):
 
     Attributes:
         reasons: One for every order and group.
-        firing: How the engine fires; empty where the file does not say.
-        scope: Parts of the engine that the reasons leave out; omitted where there are none.
+        firing: Whether the engine fires evenly, in words; empty if the file does not tell.
+        scope: Parts of the engine that are ignored; omitted if there are none.
     """
 
     reasons: tuple[Reason, ...]
@@ -242,17 +245,17 @@ class Symmetry(NamedTuple):
 def explain_symmetry(
     engine: Engine, orders: Iterable[float], kinds: Collection[str] = _INERTIA
 ) -> Symmetry:
-    """Find out whether the cylinders alone, without devices and at steady speed, are balanced by
-    symmetry or by chance.
+    """Find out whether an engine without devices, at steady speed, is balanced by symmetry or by
+    chance.
 
-    Moments are about the engine's point of reference; in couple, torque and roll the displacement
-    of this point is left out.
+    Moments are about the engine's point of reference; couple, torque and roll are about the crank
+    axis.
 
     Args:
-        engine: without trailing axes.
-        orders: multiples of 1/2, above 0.
-        kinds: any of force, moment, couple, torque, roll and gas; couple, torque and roll have one
-            reason in common.
+        engine: Engine without trailing axes.
+        orders: Multiples of 1/2, above 0.
+        kinds: Any of force, moment, couple, torque, roll and gas; couple, torque and roll share one
+            verdict.
     """
     asked = {"turning" if kind in _INERTIA[2:] else kind for kind in kinds}
     groups = {
@@ -307,7 +310,7 @@ def _find_reasons(
 
 
 def _draw(engine: Engine) -> Iterator[Engine]:
-    """Yield the engine with other masses, rod length and gas, the same for all cylinders."""
+    """Yield the engine with other masses, rod length and gas, changed equally in all cylinders."""
     c, random = engine.cylinders, np.random.default_rng(_SEED)
 
     def redraw(masses: Array) -> Array:
@@ -332,7 +335,7 @@ def _draw(engine: Engine) -> Iterator[Engine]:
 
 
 def describe_firing(engine: Engine) -> str:
-    """Return in words whether the engine fires evenly; empty where the file says nothing of it."""
+    """Return in words whether the engine fires evenly; empty if the file does not tell."""
     if not engine.fires_deg:
         return ""
     cycle = 180 * engine.strokes

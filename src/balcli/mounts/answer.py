@@ -1,4 +1,4 @@
-"""Engine file -> vibration of its body on its mounts: `analyze_mounts`."""
+"""Analysis of the vibration of an engine on its mounts: `analyze_mounts`."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from .records import AtRest, Fitted, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
 from .rigid_body import drop_rounding, elastic_centre, roll_axis
 
-_SLOWEST = 1 / 8  # of the file's speed, where nobody says which speeds
+_SLOWEST = 1 / 8  # lowest default speed, relative to the file's
 _SPEEDS = 141
-_OF_BODY = ("body", "mount")  # tables of the file that count
+_OF_BODY = ("body", "mount")  # tables of the file whose defaults matter
 
 
 def choose_mount_speeds(engine: Engine) -> Real:
-    """Return the default speeds (rpm): from an eighth of the engine's speed to this."""
+    """Return the default speeds (rpm), from an eighth of the engine's speed to its speed."""
     return np.asarray(np.linspace(_SLOWEST, 1.0, _SPEEDS) * float(engine.speed_rpm))
 
 
@@ -52,23 +52,26 @@ def report_mounts(
     *,
     ranged: bool = True,
 ) -> MountReport:
-    """Return the modes and rest of a body on its mounts, and its response to its engine.
+    """Return the natural modes of a body on its mounts, its position at rest, and its response to
+    the engine.
 
     Args:
         model: File with [body] and [[mount]].
-        engine: Engine of the file; None: the first of the others, or modes and rest alone.
-        speeds_rpm: Speeds, rising, shape (speeds,); default: as of `choose_mount_speeds`.
+        engine: Engine of the file; None: the first of `others` takes its place. Without any engine,
+            only modes and rest are computed.
+        speeds_rpm: Rising speeds, shape (speeds,); default: those of `choose_mount_speeds`.
         orders: Orders of the load; default: all that contribute to the response.
-        scheme: Name of a balance scheme, with whose devices the response is computed as well.
-        others: Names and engines that are put on the same body and mounts, at the same speeds.
+        scheme: Name of a balance scheme; the response with its devices is computed as well.
+        others: Names and engines for further responses on the same body and mounts, at the same
+            speeds.
         name: Name of the file, for messages.
-        tell: Function that is called with the share of the responses that is done.
+        tell: Called with the share of the responses computed so far.
         options: Options of the scheme.
-        ranged: Whether the speeds stand for all between the first and the last.
+        ranged: Whether the speeds represent a whole range, so that resonances between them count.
 
     Raises:
         InputError: Tables of the file do not fit together.
-        BalcliError: The scheme cannot be fitted, or as of `respond`.
+        BalcliError: The scheme cannot be fitted, or `respond` fails.
     """
     mounted, title = build_mounted_body(model, name), model.name
     if engine is None and others:
@@ -138,12 +141,13 @@ def analyze_mounts(
 
     Args:
         source: Engine whose file has [body] and [[mount]]; or the path of such a file, its text or
-            a dict of its tables, which may also describe the body and mounts alone.
-        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this. Three
-            or more at equal steps are a range, in which no mode without damping may be driven.
+            a dict of its tables. A file may also describe body and mounts without an engine.
+        speeds_rpm: Speeds in any order; default: from an eighth of the file's speed to this speed.
+            Three or more speeds at equal steps are a range, in which no undamped mode may be
+            driven.
         orders: Orders of the load; default: all that contribute to the response.
-        scheme: Balance scheme; with its devices the response is `fitted`.
-        others: Engines by name that are put on the same mounts.
+        scheme: Balance scheme; `fitted` is the response with its devices.
+        others: Further engines on the same mounts, by name.
 
     Returns:
         The document of `balcli mounts` as records: `modes` (`frequency_Hz`, `motion`, ...),
@@ -151,8 +155,8 @@ def analyze_mounts(
         `worst` of the range; None without an engine), `fitted`, `others`.
 
     Raises:
-        BalcliError: A mode without damping is driven within the range; the scheme cannot be fitted.
-        InputError: The file has mistakes, or a motion is held by no mount.
+        BalcliError: An undamped mode is driven within the range, or the scheme cannot be fitted.
+        InputError: The file has mistakes, or no mount restrains a motion of the body.
         TypeError: The source or an argument has a wrong type.
 
     Example:

@@ -1,7 +1,8 @@
-"""Tables of an engine file -> a rigid body on its mounts, SI, checked; its natural modes.
+"""Build a rigid body on its mounts, in SI units, from the tables of an engine file; find its
+natural modes.
 
-Engine files with a body on mounts, or with these alone, are read and checked, and all mistakes are
-reported.
+The file may describe an engine, or only body and mounts. `read_mounted` checks it and reports all
+mistakes.
 """
 
 from __future__ import annotations
@@ -57,8 +58,9 @@ class MountedBody(NamedTuple):
         static, dynamic: Mounts with their stiffness at rest and in vibration.
         names: Names of the mounts.
         weight: Weight of the body, N, shape (3,).
-        point_names, points: Names and positions, m, shape (points, 3), of points with motion.
-        carries_load: Whether the machine that takes the engine's torque is on the body as well.
+        point_names, points: Names and positions (m, shape (points, 3)) of the points whose motion
+            is computed.
+        carries_load: Whether the driven machine is part of the body.
     """
 
     body: Body
@@ -79,18 +81,18 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
         name: Name of the file, for messages.
 
     Raises:
-        InputError: Tables are missing or do not fit together; no mount holds a motion.
+        InputError: Tables are missing or contradictory, or no mount restrains a motion.
     """
     problems, table, mounts = list(find_mounting_faults(model)), model.body, model.mount
     if problems or table is None:
         raise InputError(problems, name)
     xx, yy, zz, xy, yz, zx = table.inertia
-    tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg m2 of kg mm2
+    tensor = 1e-6 * np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])  # kg mm2 to kg m2
     body, down = Body(table.mass, _MM * np.array(table.cg), tensor), np.array(table.gravity)
     static = Mounts(
         _MM * np.array([mount.at for mount in mounts]),
         np.array([_find_axes(mount) for mount in mounts]),
-        1e3 * np.array([mount.stiffness for mount in mounts]),  # N/m of N/mm
+        1e3 * np.array([mount.stiffness for mount in mounts]),  # N/mm to N/m
         np.array([[mount.loss] * 3 for mount in mounts]),
         1e3 * np.array([mount.damping for mount in mounts]),
     )
@@ -124,7 +126,7 @@ def _find_axes(mount: Mount) -> Real:
 def find_mounting_faults(
     model: EngineFile, legible: frozenset[str] = frozenset({"body", "mount", "point"})
 ) -> Iterator[Problem]:
-    """Yield missing tables of a body on its mounts, and repeated names.
+    """Yield problems: missing tables of body and mounts, repeated names.
 
     Args:
         model: Engine file.
@@ -147,11 +149,11 @@ def find_mounting_faults(
 
 # ------------------------------------------------------------------ equations of motion
 class Meeting(NamedTuple):
-    """An order meets a natural frequency.
+    """Crank speed at which an order has the natural frequency of a mode.
 
     Attributes:
         order: Order.
-        speed_rpm: Crank speed at which it meets the frequency.
+        speed_rpm: Crank speed.
     """
 
     order: float
@@ -163,10 +165,10 @@ class BodyMode(NamedTuple):
 
     Attributes:
         frequency_Hz: Natural frequency without damping, with dynamic stiffness.
-        energy_percent: Shares of the kinetic energy in the motions x, y, z, rx, ry, rz.
-        shape: Motion of the centre of gravity, m and rad, shape (6,), of unit modal mass.
+        energy_percent: Shares of the motions x, y, z, rx, ry, rz in the kinetic energy.
+        shape: Motion of the centre of gravity for unit modal mass, m and rad, shape (6,).
         motion: The mode in words.
-        loss_factor: Loss factor; at resonance the mode is magnified by its inverse.
+        loss_factor: Loss factor; its inverse is the magnification at resonance.
         meets: Orders that meet the mode within the range of speeds.
     """
 
@@ -183,9 +185,9 @@ class BodyModes(NamedTuple):
 
     Attributes:
         stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).
-        modes: Modes without damping, lowest first.
+        modes: Undamped modes, lowest first.
         loss: Loss factor of each mode, shape (6,).
-        each: Each mode with its figures, without orders that meet it.
+        each: Records of the modes, still without the orders that meet them.
     """
 
     stiffness: Complex
@@ -219,24 +221,25 @@ def find_mounted_modes(mounted: MountedBody) -> BodyModes:
 
 
 def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
-    """Return the forces on the mounts, N, and their travel, m, shape (mounts, 3) each, of the body
-    at rest under its weight, with static stiffness.
+    """Return the forces on the mounts (N) and their travel (m), shape (mounts, 3) each, for the
+    body at rest under its weight, with static stiffness.
 
     Args:
-        torque: Mean torque about the crankshaft's axis on the body, N m; it has no effect where the
-            body carries the load, for then it acts between parts of the body.
+        torque: Mean torque on the body about the crankshaft's axis, N m. It has no effect if the
+            body carries the driven machine: then it acts between parts of the body.
     """
     leaning = 0.0 if mounted.carries_load else torque
     load = np.concatenate([mounted.weight, [0.0, 0.0, leaning]])
     return settle_body(mounted.body, mounted.static, load)
 
 
-SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber gives way by 1 to 20
+SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber mounts sag by 1 to 20
 SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
 
 
 def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
-    """Return the file at a path, or standard input for "-", its engine if it has one, and warnings.
+    """Return the file at a path (or standard input for "-"), its engine if it has one, and
+    warnings.
 
     Raises:
         BalcliError: The file cannot be read.
@@ -247,7 +250,7 @@ def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str
 
 
 def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:
-    """Check the readable part of a file.
+    """Check the readable part of a file, and build its engine if it has one.
 
     Args:
         draft: Readable part, with the mistakes of the text.
@@ -270,7 +273,7 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
-    """Yield warnings of impossible figures of body and mounts, most likely in another unit."""
+    """Yield warnings of impossible figures of body and mounts; most likely their unit is wrong."""
     body, mounts = model.body, model.mount
     if body is None:
         return

@@ -1,4 +1,4 @@
-"""`balcli mounts`"""
+"""The command `balcli mounts`: its options."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def mounts(
     """Vibration of an engine on its mounts: natural modes, rest, forces of the mounts on the frame
     and motion of points over a range of speeds.
 
-    The file has [body], [[mount]] and, if motion of points is wanted, [[point]]; `balcli new
-    mounts` writes one to start from. Without an engine in it, only modes and rest are printed.
-    Engines of further files are put on the same mounts and shown next to it.
+    The file has [body], [[mount]] and, for the motion of points, [[point]]; `balcli new mounts`
+    writes one to start from. If it has no engine, only modes and rest are printed. Engines of
+    further files are placed on the same mounts and compared.
 
     \b
     Example:

@@ -1,8 +1,8 @@
-"""Load of an engine on a body on mounts: free forces, moments and gas torque about the center of
-gravity, by order.
+"""Load that an engine puts on its body on mounts: free forces, moments and gas torque about the
+center of gravity, by order.
 
-At uneven speed, orders of the time excite vibration. An order of the crank angle, cycles in a turn,
-is then no frequency: a force of order 1 over the angle has sidebands over the time.
+At uneven speed, an order of the crank angle (cycles in a turn) is not one frequency: a force of
+order 1 over the angle has sidebands over time. The loads are then computed by orders of time.
 """
 
 from __future__ import annotations
@@ -38,26 +38,27 @@ from ..forces.spectrum import (
 from ..limits import MOST_SAMPLES
 from .rigid_body import ROLL, load_at_centre
 
-_MOST_COUNTED = 1 << 26  # samples, each for every order: seconds
+_MOST_COUNTED = 1 << 26  # most samples times orders, which take seconds
 
 
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
-    """Return the spectra of an engine with uneven speed by orders of the time; arguments as for
-    `compute_spectra`.
+    """Return the spectra of an engine with uneven speed by orders of time. The arguments are those
+    of `compute_spectra`.
 
     Returns:
-        The spectra, and the mean speed over the time, as a multiple of that over the angle.
+        The spectra, and the mean speed over time divided by the mean speed over the angle.
 
     Raises:
-        BalcliError: The crank almost stops; a kind of gas for an engine without gas.
+        BalcliError: The crank almost stops, or a kind needs gas that the engine does not have.
     """
     mixed = [*(line.order for line in engine.ripple), *orders]
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))  # enough where it is slowest
+    # enough samples where the crank is slowest
+    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
@@ -68,7 +69,7 @@ def compute_spectra_in_time(
     timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
     reach = find_reach(timetable, highest)
     in_time: dict[str, Phasors] = {}
-    for name in kinds:  # gas has orders without end: all that are felt in those of the time
+    for name in kinds:  # the series of gas is infinite: all orders that reach the orders of time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
         ((kind, phasors),) = found.items()
@@ -82,13 +83,14 @@ class BodyLoads:
 
     Attributes:
         orders: Orders, all above 0, shape (orders,).
-        inertia: Force (N) and moment about the centre of gravity (N m) at `omega`, shape
-            (orders, 6); they grow with the square of the speed.
-        omega: Speed of `inertia`, rad/s, mean over the time, as all speeds here are.
-        gas: Roll that the gas torque leaves, the same at every speed, shape (orders, 6).
-        mean: Steady torque about the crankshaft's axis on the body, N m: the reaction to a constant
-            load, which takes the mean of the gas torque over the crank angle, at uneven speed as
-            well, less the share that goes into friction, which acts between parts of the body.
+        inertia: Force (N) and moment about the centre of gravity (N m) at the speed `omega`, shape
+            (orders, 6); both grow with the square of the speed.
+        omega: Speed of `inertia`, rad/s. All speeds here are means over time.
+        gas: Load of the gas torque, a roll moment that is the same at every speed, shape (orders,
+            6).
+        mean: Steady torque on the body about the crankshaft's axis, N m: the reaction to a constant
+            load. The load is the mean gas torque over the crank angle, minus friction, which acts
+            between parts of the body.
         fired: Whether the file has gas.
         silent: Cylinders that do not fire.
     """
@@ -119,13 +121,13 @@ def find_loads(
     """Return the free forces and moments of an engine as a load on the body.
 
     Args:
-        engine: Engine without trailing axes.
+        engine: Single engine (no trailing axes).
         centre: Center of gravity of the body, m, shape (3,).
-        orders: Orders of the load; default: all that are considerable.
-        gas_orders: Orders of the gas torque among these; default: as of `list_gas_orders`.
+        orders: Orders of the load; default: all relevant orders.
+        gas_orders: Default orders of the gas torque; None: those of `list_gas_orders`.
 
     Raises:
-        BalcliError: The file does not say where the throws stand.
+        BalcliError: The file does not give the positions of the throws.
     """
     if not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
@@ -135,7 +137,7 @@ def find_loads(
     wanted = np.array(usual if orders is None else orders, np.float64)
     wanted = wanted[wanted > 0]
     kinds = ("force", "moment", "roll", *["gas"] * fired)
-    if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle
+    if engine.ripple:  # by orders of time; the mean speed over time is higher than over the angle
         found, turns = compute_spectra_in_time(engine, wanted, kinds)
     else:
         found, turns = compute_spectra(engine, wanted, kinds), 1.0

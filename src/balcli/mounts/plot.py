@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 _WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
-_SWING = 0.22  # of the body's size, by which its farthest corner moves in a picture of a mode
+_SWING = 0.22  # travel of the farthest corner over the body's size, in pictures of modes
 
 
 def make_mounts(result: MountReport, system: System) -> Figure:
@@ -60,8 +60,8 @@ def make_mounts(result: MountReport, system: System) -> Figure:
 
 
 def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
-    """Draw a curve over speed for each mount or point; those of schemes and of other engines are
-    thin, in the same colour.
+    """Draw a curve over speed for each mount or point. Curves with schemes or of other engines are
+    thin and have the same colour.
     """
     labels = ["", *(f", {fit_name(other.name, 20)}" for other in result.beside)]
     for label, response in zip(labels, result.responses, strict=True):
@@ -78,7 +78,9 @@ def _draw_curves(ax: Axes, result: MountReport, kind: Kind) -> None:
 
 
 def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> None:
-    """Draw orders over speed, as wide as the force of the mount with the largest, and modes."""
+    """Draw the frequencies of modes, and of orders over speed. The width of an order is its force
+    on the mount with the largest force.
+    """
     mount = max(response.mounts, key=lambda mount: round(mount.worst.force_N, 6))
     largest = max(each.force_N.max() for each in mount.orders) or 1.0
     rpm, highest = response.speeds_rpm, 2.5 * result.modes[-1].frequency_Hz
@@ -97,7 +99,9 @@ def _draw_meetings(ax: Axes, result: MountReport, response: BodyResponse) -> Non
 
 
 def _draw_mode(ax: Axes, k: int, mode: BodyMode, result: MountReport) -> None:
-    """Draw a block of the body's mass and inertia with its mounts, at rest and displaced."""
+    """Draw a block with the body's mass and inertia, and the mounts, at rest and displaced in a
+    mode.
+    """
     body = result.mounted.body
     corners, places = find_corners(body), result.mounted.dynamic.at - body.centre
     turned, carried = (mode.shape[:3] + np.cross(mode.shape[3:], p) for p in (corners, places))

@@ -1,5 +1,5 @@
-"""Single figures of an engine on its mounts, for variants: `mode.3.Hz`, `mode.roll.share`,
-`mount.left.force`, `point.lever.motion`.
+"""Quantities of an engine on its mounts that sweeps, searches and tolerances evaluate: `mode.3.Hz`,
+`mode.roll.share`, `mount.left.force`, `point.lever.motion`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .rigid_body import AXES
 _PARTS = {"mode": ("Hz", "share", "damping"), "mount": ("force", "static"), "point": ("motion",)}
 _MOTIONS = (*AXES, "roll")
 _MODES = (*"123456", *_MOTIONS)
-_TABLES = ("body", "mount", "point")  # of the file, which no engine has
+_TABLES = ("body", "mount", "point")  # tables of the file that do not change the engine
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -53,7 +53,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities of variants of a file one by one; constant parts are computed once.
+    """Evaluates quantities for one variant of a file after another; constant parts are computed
+    once.
 
     Args:
         model: File with [body] and [[mount]].
@@ -65,12 +66,13 @@ class Variants:
         places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
         self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
-        # The mean torque of the gas, less friction, leans on the mounts at rest.
+        # Whether the mean gas torque, minus friction, loads the mounts at rest.
         self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """Return the value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for one variant; `values` are its varied figures by
+        path.
 
         Raises:
             InputError, BalcliError: No engine can have these figures.

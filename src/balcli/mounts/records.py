@@ -1,8 +1,8 @@
-"""The figures of a body on its mounts, each declared once: JSON, CSV and the schema derive from
-these records (`core.records`).
+"""Records of the results of `balcli mounts`. JSON, CSV and the schema derive from them
+(`core.records`).
 
-Forces are those of the body on its mounts, along the engine's axes. Arrays over speeds have the
-shape (speeds,).
+Forces act from the body on its mounts, along the engine's axes. Arrays over speeds have the shape
+(speeds,).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..sizing.remedy import Remedy
 from .build import BodyMode, MountedBody
 from .loads import BodyLoads
 
-TRAVEL_MOST = 0.05  # m, of a mount that vibrates
+TRAVEL_MOST = 0.05  # m; amplitude of a mount beyond which to warn
 
 
 class MountAtRest(NamedTuple):
@@ -64,9 +64,9 @@ class MetMode(NamedTuple):
     """An order that meets a mode at, or close to, the speed of the largest value.
 
     Attributes:
-        order: Order with the largest amplitude of those that meet a mode there.
+        order: Order; among several, the one with the largest amplitude.
         mode: Number of the mode, from 1.
-        speed_rpm: Speed at which the order has the frequency of the mode.
+        speed_rpm: Speed at which the order and the mode have the same frequency.
     """
 
     order: float
@@ -75,15 +75,15 @@ class MetMode(NamedTuple):
 
 
 class WorstForce(NamedTuple):
-    """The largest force of a mount over all speeds, found between the given speeds as well.
+    """The largest force of a mount over all speeds; it may lie between given speeds.
 
     Attributes:
         force_N: Largest force, all orders together.
         speed_rpm: Speed at which it is reached.
         order: Largest single order at this speed.
         order_force_N: Force of this order.
-        mode: Number of the mode that makes most of the force, from 0.
-        resonance: Order in resonance there; left out without a resonance.
+        mode: Number, from 0, of the mode that contributes most to the force.
+        resonance: Order in resonance at this speed; left out if there is none.
     """
 
     force_N: float
@@ -123,15 +123,15 @@ class MotionOfOrder(NamedTuple):
 
 
 class WorstMotion(NamedTuple):
-    """The largest motion of a point over all speeds, found between the given speeds as well.
+    """The largest motion of a point over all speeds; it may lie between given speeds.
 
     Attributes:
         motion_mm: Largest motion, all orders together.
         speed_rpm: Speed at which it is reached.
         order: Largest single order at this speed.
         order_motion_mm: Motion of this order.
-        mode: Number of the mode that makes most of the motion, from 0.
-        resonance: Order in resonance there; left out without a resonance.
+        mode: Number, from 0, of the mode that contributes most to the motion.
+        resonance: Order in resonance at this speed; left out if there is none.
     """
 
     motion_mm: float
@@ -159,12 +159,12 @@ class PointMotion(NamedTuple):
 
 
 class Passed(NamedTuple):
-    """Load on the frame of one order: amplitudes by speed of the force (`force_x_N` ...) and of the
-    moment about the centre of gravity (`moment_x_Nm` ...), as far as there are any.
+    """Load of one order on the frame: amplitudes of the force (`force_x_N` ...) and of the moment
+    about the centre of gravity (`moment_x_Nm` ...) by speed. Components that are 0 are left out.
 
     Attributes:
         order: Order.
-        rigid: Load that the same engine puts on a frame in which it stands rigidly.
+        rigid: Load if the engine were mounted rigidly.
         on_mounts: Load through the mounts.
     """
 
@@ -180,7 +180,7 @@ class BodyResponse:
     Attributes:
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
-        orders: Orders that the response has: those asked for, or all that contribute to it.
+        orders: Orders in the response: those requested, or all that contribute.
         speeds_rpm: Crank speeds.
         mounts: Force of each mount.
         points: Motion of each point.
@@ -228,20 +228,20 @@ class Other(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MountReport(Result):
-    """An engine on its mounts, or a body on mounts alone.
+    """An engine on its mounts, or a body on mounts without an engine.
 
     Attributes:
-        format: Name and version of this document.
+        format: Name and version of the document.
         name: Name of the engine, or of the body.
-        assumed: Values taken because the file leaves them out.
+        assumed: Values assumed because the file leaves them out.
         modes: The six natural modes, lowest first.
-        roll_axis: Torque roll axis: unit vector through the centre of gravity about which a torque
-            about the crankshaft turns the body where nothing holds it.
+        roll_axis: Torque roll axis, a unit vector: the axis through the centre of gravity about
+            which the free body turns under a torque about the crankshaft.
         elastic_centre_mm: Point x, y, z at which forces move the body with the least turning.
         static: The body at rest.
-        stiffness_N_per_m: Dynamic stiffness about the centre of gravity, N/m, N, N·m.
+        stiffness_N_per_m: Dynamic stiffness matrix about the centre of gravity, N/m, N, N·m.
         response: Response to the engine; left out without an engine.
-        fitted: Response with a balance scheme, if one was asked for.
+        fitted: Response with a balance scheme, if requested.
         others: Responses to other engines.
         mounted: The body on its mounts.
     """
@@ -267,19 +267,19 @@ class MountReport(Result):
 
     @property
     def beside(self) -> tuple[Other, ...]:
-        """Responses that are shown next to that of the engine: with a scheme, of other engines."""
+        """Responses to compare with the engine's: with a scheme, and of other engines."""
         fitted = self.fitted and Other(self.fitted.scheme, self.fitted.response)
         return (*([fitted] if fitted else []), *(self.others or ()))
 
     @property
     def responses(self) -> tuple[BodyResponse, ...]:
-        """All responses, that of the engine first."""
+        """All responses; the engine's own is the first."""
         own = [] if self.response is None else [self.response]
         return (*own, *(other.response for other in self.beside))
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warning about the mount that travels most, if no mount travels as far."""
+        """Warning about the mount that travels most, if its travel is implausibly large."""
         if self.response is None:
             return ()
         stiffness, loss, damping = self.mounted.dynamic[2:]

@@ -1,5 +1,5 @@
-"""An engine that runs on its mounts: forces on them and motion of points, order by order and added
-up in time, at every speed.
+"""Vibration of an engine that runs on its mounts: forces on mounts and motion of points at every
+speed, order by order and with all orders added up in time.
 """
 
 from __future__ import annotations
@@ -44,27 +44,27 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds looked at about a resonance, in widths
-RESONANT = 0.05  # distance of the frequency of an order from that of the mode that it meets
-_PART = 0.25  # of the largest order at a speed: what a resonance there must have to be named
-_AT = 1e-9  # of a speed: those that differ by less are the same
-_BEYOND = 3e-4  # of the largest order: what all higher orders may add
-_LOOKED_AT, _FREQUENCIES, _WIDE = 24, 800, 1.02  # speeds, frequencies, ratio of neighbours at least
-_NEAR = 0.8  # of the highest at the speeds looked at: what a peak beside them may exceed
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds about a resonance, in its widths
+RESONANT = 0.05  # relative distance of an order's frequency from a mode's that counts as resonance
+_PART = 0.25  # a resonance is reported if it has this share of the largest order
+_AT = 1e-9  # relative difference below which speeds are equal
+_BEYOND = 3e-4  # share of the largest order that the sum of neglected higher orders may have
+_LOOKED_AT, _FREQUENCIES, _WIDE = 24, 800, 1.02  # speeds, frequencies, least ratio of neighbours
+_NEAR = 0.8  # of the highest at these speeds: a higher peak may lie between two of them
 _OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
 _OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
 _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
 
 
 class RunningBody(NamedTuple):
-    """A body on its mounts that an engine shakes. Its curves are the forces of mounts (N) and after
-    them the motion of points (m), of three components each.
+    """A body on its mounts, shaken by an engine. Its curves are the forces of mounts (N), then the
+    motions of points (m); each has three components.
 
     Attributes:
         modes: Equations of motion and natural modes.
         loads: Load of the engine.
-        couplings: Curves for a unit of each motion of the body and of each of its speeds, shape
-            (curves, 3, 12).
+        couplings: Curves for a unit of each of the body's 6 motions and of each of its 6
+            velocities, shape (curves, 3, 12).
     """
 
     modes: BodyModes
@@ -84,20 +84,20 @@ class RunningBody(NamedTuple):
     ) -> RunningBody:
         """Return the running body with the curves of all mounts and points.
 
-        Without `orders`, it has all that contribute to the response: gas orders that are higher
-        than the usual ones count where all of these together may exceed _BEYOND of the largest
-        order of some curve at some speed.
+        By default it has all orders that contribute. Gas orders above the usual ones are added if
+        their sum might exceed _BEYOND times the largest order in some curve at some speed.
 
         Args:
             mounted: Body on its mounts.
             modes: Its equations of motion and modes.
             engine: Engine that shakes it.
-            omega: Range of speeds, rad/s, rising, shape (speeds,).
+            omega: Rising speeds, rad/s, shape (speeds,).
             orders: Orders of the load.
-            ranged: Whether the speeds stand for all between the first and the last.
+            ranged: Whether the speeds represent a whole range, so that resonances between them
+                count.
 
         Raises:
-            BalcliError: As of `refuse_resonance`.
+            BalcliError: An undamped mode is driven; see `refuse_resonance`.
         """
         centre = mounted.body.centre
         mounts = np.concatenate(couple_mounts(mounted.body, mounted.dynamic), axis=-1)
@@ -113,7 +113,7 @@ class RunningBody(NamedTuple):
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
         roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
-        beyond = sizes[::-1].cumsum(axis=0)[::-1]  # of an order and all higher ones
+        beyond = sizes[::-1].cumsum(axis=0)[::-1]  # sum of an order and all higher ones
         needed = (beyond > _BEYOND * own).any(axis=(1, 2))
         highest = every[needed].max(initial=HIGHEST_GAS_ORDER_UNASKED)
         if highest > HIGHEST_GAS_ORDER_UNASKED:
@@ -122,8 +122,9 @@ class RunningBody(NamedTuple):
         return running
 
     def bound_response(self, orders: Real, omega: Real) -> Real:
-        """Return the largest length of each curve for a roll moment of 1 N m of each order, shape
-        (orders, speeds, curves), at a speed or between it and its neighbours, resonances included.
+        """Return an upper bound of each curve's length for a roll moment of 1 N m of each order,
+        shape (orders, speeds, curves). The bound holds at a speed and between it and its
+        neighbours, including resonances.
         """
         own, places = self.modes, np.multiply.outer(orders, omega).ravel()
         w = np.geomspace(places.min(), places.max(), _FREQUENCIES)
@@ -139,7 +140,7 @@ class RunningBody(NamedTuple):
         return highest.reshape(len(orders), len(omega), -1)
 
     def move(self, omega: Real) -> Complex:
-        """Return the motion of the body and its rate, shape (orders, *speeds, 12).
+        """Return the motion of the body and its velocity, shape (orders, *speeds, 12).
 
         Args:
             omega: Speeds, rad/s, any shape.
@@ -147,7 +148,7 @@ class RunningBody(NamedTuple):
         w, own, load = frequencies(self.loads.orders, omega), self.modes, self.loads.at(omega)
         try:
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
-        except UndampedResonanceError as error:  # resonances are refused before
+        except UndampedResonanceError as error:  # true resonances were rejected before
             raise BalcliError(
                 f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
                 "rounding errors, so far apart are stiffness and damping of the mounts: is damping "
@@ -156,8 +157,8 @@ class RunningBody(NamedTuple):
         return _with_rate(motion, w)
 
     def read(self, motion: Complex, curve: Indices | slice = slice(None)) -> Complex:
-        """Return curves, shape (..., curves, 3), of a motion with its rate, shape (..., curves, 12)
-        or (..., 1, 12).
+        """Return the curves, shape (..., curves, 3), for a motion and its velocity, shape (...,
+        curves, 12) or (..., 1, 12).
         """
         return np.asarray(np.einsum("cij,...cj->...ci", self.couplings[curve], motion))
 
@@ -167,9 +168,9 @@ class RunningBody(NamedTuple):
         return find_longest(self.loads.orders, curves).value
 
     def refuse_resonance(self, omega: Real, *, ranged: bool = True) -> bool:
-        """Raise BalcliError if the engine drives an undamped mode at its own frequency at some of
-        these speeds (rad/s, rising), or between them if they are a range, with mode, order and
-        speed. Return whether the motion has a bound at all speeds between them.
+        """Raise BalcliError if the engine drives an undamped mode at its own frequency at one of
+        the rising speeds (rad/s), or between two of them if they are a range. Return whether the
+        motion is bounded at all speeds between the first and the last.
         """
         modes, loads = self.modes, self.loads
         driven = find_resonances(modes.modes, modes.loss, loads.orders, omega, loads.at(omega))
@@ -187,8 +188,8 @@ class RunningBody(NamedTuple):
 
 
 def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[int, float, float]]:
-    """Return modes (from 0), orders that meet them within a range of speeds (rpm, rising), and
-    the speeds (rpm) at which they do, by mode and order.
+    """Return (mode, order, speed) wherever an order meets a mode within the range of rising speeds
+    (rpm), sorted by mode and order. Modes count from 0; speeds are in rpm.
     """
     orders = loads.orders[loads.there]
     met = np.divide.outer(modes.modes.omega, orders) / RPM
@@ -199,17 +200,17 @@ def list_meetings(modes: BodyModes, loads: BodyLoads, rpm: Real) -> list[tuple[i
 def find_worst(
     running: RunningBody, omega: Real, peaks: Real, *, between: bool = True
 ) -> tuple[Real, Real]:
-    """Return the speed (rad/s) at which each curve is highest and its value there, shape (curves,),
-    between the given speeds as well.
+    """Return the speed (rad/s) at which each curve is highest, and its value there, shape (curves,)
+    each. The speed may lie between the given speeds.
 
-    Every peak that may be the highest is approached. A resonance with little damping is narrower
-    than the step of the speeds: the speeds at which an order meets a mode are looked at as well,
-    and speeds next to them as far as the resonance is wide.
+    Every peak that may be the highest is refined. Since a resonance with little damping may be
+    narrower than the step of the speeds, the speeds at which an order meets a mode are added, with
+    further speeds within the width of the resonance.
 
     Args:
         running: Running body with its curves.
         omega: Speeds, rad/s, rising, shape (speeds,).
-        peaks: Largest lengths over the cycle at these speeds, shape (speeds, curves).
+        peaks: Largest length of each curve over the cycle at these speeds, shape (speeds, curves).
         between: Whether to look between the speeds.
     """
     if not between:
@@ -232,9 +233,9 @@ def find_worst(
 def _find_causes(
     running: RunningBody, omega: Real
 ) -> Iterator[tuple[float, float, int, MetMode | None]]:
-    """Yield for each curve at its own speed (rad/s), shape (curves,): the largest single order, its
-    value (N or m), the number of the mode that makes most of it, from 0, and the order with the
-    largest amplitude of those that meet a mode there, None where none does.
+    """Yield for each curve, at its own speed (rad/s, shape (curves,)), the largest single order,
+    its value (N or m), the number (from 0) of the mode that contributes most to it, and the
+    resonance: the largest of the orders that meet a mode at this speed, or None.
     """
     own, orders, motion = running.modes, running.loads.orders, running.move(omega)
     alone, w = largest_of_ellipse(running.read(motion)), frequencies(orders, omega)
@@ -255,7 +256,7 @@ def _find_causes(
 
 
 def _with_rate(motion: Complex, w: Real) -> Complex:
-    """Return motions, shape (..., 6), at frequencies w (rad/s), with their rates, (..., 12)."""
+    """Return motions (..., 6) at frequencies w (rad/s) followed by their velocities, (..., 12)."""
     return np.concatenate([motion, 1j * w[..., None] * motion], axis=-1)
 
 
@@ -266,13 +267,13 @@ def respond(
 
     Args:
         mounted: Body on its mounts.
-        running: The same with the load of the engine.
-        rpm: Speeds, rising, shape (speeds,).
-        ranged: Whether they stand for all speeds between the first and the last.
+        running: The body with the load of the engine.
+        rpm: Rising speeds, shape (speeds,).
+        ranged: Whether the speeds represent a whole range, so that resonances between them count.
 
     Raises:
-        BalcliError: There are too many results; the engine drives an undamped mode at its own
-            frequency at one of the speeds, or within their range.
+        BalcliError: There are too many results, or the engine drives an undamped mode at its own
+            frequency at one of the speeds or within their range.
     """
     loads, mounts, points = running.loads, mounted.names, mounted.point_names
     omega = rpm * RPM
@@ -289,7 +290,7 @@ def respond(
     peak = find_longest(loads.orders, curves).value
     at, highest = find_worst(running, omega, peak, between=bounded)
     numbers = [order_number(order) for order in loads.orders]
-    scale = np.repeat([1.0, 1e3], [len(mounts), len(points)])  # N, and mm of m
+    scale = np.repeat([1.0, 1e3], [len(mounts), len(points)])  # N, and m to mm
     by_order, peak, highest = scale * largest_of_ellipse(curves), scale * peak, scale * highest
     places = []
     causes = zip((*mounts, *points), _find_causes(running, at), strict=True)
@@ -318,8 +319,9 @@ def respond(
 
 
 def _name_components(load: Real, arm: float) -> dict[str, Real]:
-    """Return the amplitudes by speed of a load (speeds, 6), as far as there is more than rounding;
-    the forces have arms (m) up to this.
+    """Return the amplitudes of the components of a load (speeds, 6), by speed. Components that are
+    only rounding errors are left out; the rounding of moments depends on `arm`, the longest arm of
+    the forces (m).
     """
     force, moment = (part.max(axis=1, keepdims=True) for part in (load[:, :3], load[:, 3:]))
     size = np.repeat(np.hstack([force, np.maximum(moment, arm * force)]), 3, axis=1)

@@ -1,11 +1,11 @@
 """A rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
 
-Motion is six numbers about the centre of gravity along the engine's axes: displacement x, y, z (m)
-and rotation about x, y, z (rad). Loads match: forces (N) and moments about the centre of gravity
-(N m). By order both are complex, frequencies in rad/s of any shape; see `vibration`.
+A motion is a vector of six numbers along the engine's axes: displacement of the centre of gravity
+(m) and rotation (rad). A load has the corresponding forces (N) and moments about the centre of
+gravity (N m). Motions and loads of an order are phasors; see `vibration`.
 
-`name_motion` puts motions of a rigid body into words. Pictures show the body as an even block with
-its mass and moments of inertia.
+`name_mode` describes a mode in words. Pictures show the body as a block of even density with its
+mass and moments of inertia.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike
 from ..core.vibration import ROUNDING, Complex, Modes, Real, find_modes
 from ..file.fields import join_words
 
-_NO_SHARE = 1e-14  # of a mode's energy, which is 1
-_UNCOUPLED = 1e-14  # share of the stiffness of both motions: a smaller coupling is rounding
-_FREE = 1e-9  # singular values below this share of the largest mean a motion that nothing holds
+_NO_SHARE = 1e-14  # smaller shares of a mode's energy are rounding
+_UNCOUPLED = 1e-14  # smaller couplings, relative to both motions' stiffness, are rounding
+_FREE = 1e-9  # a singular value below this share of the largest means a free motion
 
 
 class Body(NamedTuple):
@@ -30,7 +30,8 @@ class Body(NamedTuple):
     Attributes:
         mass: Mass, kg.
         centre: Centre of gravity, m, shape (3,).
-        inertia: Inertia tensor about it, kg m2, shape (3, 3), products of inertia negative.
+        inertia: Inertia tensor about the centre, kg m2, shape (3, 3); off-diagonal terms are
+            negative products of inertia.
     """
 
     mass: float
@@ -39,12 +40,12 @@ class Body(NamedTuple):
 
 
 class Mounts(NamedTuple):
-    """Springs along three axes each, that hold a body to the ground.
+    """Mounts between a body and the ground; each has springs along three axes.
 
     Attributes:
-        at: Positions in the coordinates of the body's centre, m, shape (mounts, 3).
+        at: Positions in the same coordinates as the body's centre, m, shape (mounts, 3).
         axes: Axes of each mount as columns, shape (mounts, 3, 3).
-        stiffness: Static or dynamic stiffness along these, N/m, shape (mounts, 3).
+        stiffness: Static or dynamic stiffness along the axes, N/m, shape (mounts, 3).
         loss: Loss factors, shape (mounts, 3).
         damping: Damping along the axes, N s/m, shape (mounts, 3).
     """
@@ -58,15 +59,15 @@ class Mounts(NamedTuple):
 
 # ------------------------------------------------------------------ geometry
 def complete_axes(first: ArrayLike, second: ArrayLike) -> Real:
-    """Return unit vectors along two perpendicular axes of any length, and the third by the
-    right-hand rule, as columns (3, 3).
+    """Return unit vectors along two perpendicular vectors and, by the right-hand rule, along the
+    third axis, as columns (3, 3).
     """
     one, two = (np.asarray(axis) / np.linalg.norm(axis) for axis in (first, second))
     return np.stack([one, two, np.cross(one, two)], axis=1)
 
 
 def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
-    """Return axes turned by these angles (rad) about x, then y, then z, `Rz Ry Rx`, as columns."""
+    """Return axes turned by angles (rad) about x, then y, then z, as columns: `Rz Ry Rx`."""
 
     def turn(angle: float, axis: int) -> Real:
         c, s = np.cos(angle), np.sin(angle)
@@ -76,8 +77,8 @@ def turn_axes(about_x: float, about_y: float, about_z: float) -> Real:
 
 
 def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
-    """Return the displacement of points of the body for a unit of each of its motions, shape
-    (points, 3, 6): `[1, -(p - c) x]`. The transpose turns forces at the points into a load.
+    """Return the displacement of points p of the body for a unit of each motion, shape (points, 3,
+    6): `[1, -(p - c) x]` with the centre c. The transpose converts forces at the points to a load.
     """
     arms = np.atleast_2d(np.asarray(points, float)) - np.asarray(centre, float)
     still = np.broadcast_to(np.eye(3), (len(arms), 3, 3))
@@ -87,24 +88,25 @@ def carry_points(points: ArrayLike, centre: ArrayLike) -> Real:
 def load_at_centre(
     force: Complex, moment: Complex, reference: ArrayLike, centre: ArrayLike
 ) -> Complex:
-    """Return the load (..., 6) of a force (..., 3) through a reference point and a moment (..., 3)
-    about it: about the centre of gravity the moment is `M + (reference - centre) x F`.
+    """Return the load (..., 6) of a force F (..., 3) through a reference point and a moment M (...,
+    3) about that point. The moment about the centre of gravity is `M + (reference - centre) x F`.
     """
     arm = np.asarray(reference, float) - np.asarray(centre, float)
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
 def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
-    """Return the axis about which a small motion of a body turns it; a slide along it is left out.
+    """Return the screw axis of a small motion of a body, about which it turns. The displacement
+    along the axis is ignored.
 
     Args:
         motion: Motion, shape (6,).
         centre: Centre of gravity, m, shape (3,).
 
     Returns:
-        Unit vector along the axis, its largest component positive, and the point of the axis that
-        is closest to the centre of gravity, m. Where nothing turns, the direction of the
-        displacement and None.
+        Unit vector along the axis, with a positive largest component, and the point of the axis
+        closest to the centre of gravity, m. Without rotation: the direction of the displacement,
+        and None.
     """
     shift, turn = motion[:3], motion[3:]
     turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
@@ -117,19 +119,19 @@ def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
 
 # ------------------------------------------------------------------ matrices
 def mass_matrix(body: Body) -> Real:
-    """Return the mass matrix (6, 6) about the centre of gravity: kg, kg m2."""
+    """Return the mass matrix (6, 6) about the centre of gravity, kg and kg m2."""
     zeros = np.zeros((3, 3))
     return np.block([[body.mass * np.eye(3), zeros], [zeros, body.inertia]])
 
 
 def stretch_mounts(body: Body, mounts: Mounts) -> Real:
-    """Return the travel of every mount along its axes for a unit of each motion, (mounts, 3, 6)."""
+    """Return the travel of each mount along its axes for a unit of each motion, (mounts, 3, 6)."""
     return np.swapaxes(mounts.axes, 1, 2) @ carry_points(mounts.at, body.centre)
 
 
 def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
-    """Return the force on every mount along the engine's axes for a unit of each motion of the
-    body: of springs with their loss, and of dashpots, for a unit of each speed; (mounts, 3, 6).
+    """Return the force on every mount along the engine's axes, shape (mounts, 3, 6) each: of
+    springs with loss for a unit of each motion, and of dashpots for a unit of each velocity.
     """
     travel = stretch_mounts(body, mounts)
     springs = mounts.axes @ ((mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel)
@@ -137,20 +139,21 @@ def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
 
 
 def stiffness_matrix(body: Body, mounts: Mounts) -> Complex:
-    """Return the stiffness (6, 6) about the centre of gravity, complex where mounts have loss."""
+    """Return the stiffness matrix (6, 6) about the centre of gravity; losses make it complex."""
     return _add_up(body, mounts, couple_mounts(body, mounts)[0])
 
 
 def damping_matrix(body: Body, mounts: Mounts) -> Real:
-    """Return the damping (6, 6) of the dashpots about the centre of gravity."""
+    """Return the damping matrix (6, 6) of the dashpots about the centre of gravity."""
     return _add_up(body, mounts, couple_mounts(body, mounts)[1]).real
 
 
 def _add_up(body: Body, mounts: Mounts, forces: Complex | Real) -> Complex:
-    """Return the load (6, 6) about the centre of gravity of forces (mounts, 3, 6) on the mounts.
+    """Return the matrix (6, 6) of loads about the centre of gravity from forces (mounts, 3, 6) on
+    the mounts.
 
-    Couplings of two motions are 0 where they are rounding: else a mount that nothing moves would
-    have a force of 1e-17 N.
+    Couplings of two motions that are rounding errors become 0; otherwise a mount at rest would have
+    a force of 1e-17 N.
     """
     matrix = np.einsum("mij,mik->jk", carry_points(mounts.at, body.centre), forces)
     own = np.sqrt(np.abs(np.diag(matrix)))
@@ -159,8 +162,8 @@ def _add_up(body: Body, mounts: Mounts, forces: Complex | Real) -> Complex:
 
 # ------------------------------------------------------------------ properties
 def find_free_motions(body: Body, mounts: Mounts) -> Real:
-    """Return independent motions that no mount holds, shape (count, 6); empty for a body that is
-    held.
+    """Return independent motions that no mount restrains, shape (count, 6); empty if the body is
+    fully restrained.
     """
     springs = np.sqrt(mounts.stiffness)[..., None] * stretch_mounts(body, mounts)
     _, values, rows = np.linalg.svd(np.concatenate([springs.reshape(-1, 6), np.zeros((6, 6))]))
@@ -168,8 +171,8 @@ def find_free_motions(body: Body, mounts: Mounts) -> Real:
 
 
 def find_body_modes(body: Body, mounts: Mounts) -> Modes:
-    """Return the six natural modes without damping of a body that is held in every way; shapes
-    (6, 6) about the centre of gravity.
+    """Return the six undamped natural modes of a fully restrained body, with shapes (6, 6) about
+    the centre of gravity.
     """
     travel = stretch_mounts(body, mounts).reshape(-1, 6)
     stiff = mounts.stiffness.reshape(-1) > 0
@@ -177,28 +180,30 @@ def find_body_modes(body: Body, mounts: Mounts) -> Modes:
 
 
 def share_energy(modes: Modes, body: Body) -> Real:
-    """Return the share of each mode's kinetic energy in each motion, `x_i (M x)_i`, shape (modes,
-    6); sums are 1. Products of inertia may make some negative; rounding errors are 0.
+    """Return the share of each motion in each mode's kinetic energy, `x_i (M x)_i`, shape (modes,
+    6); the shares of a mode add up to 1. Products of inertia may make some negative; rounding
+    errors become 0.
     """
     shares = modes.shapes * (modes.shapes @ mass_matrix(body))
     return np.where(np.abs(shares) < _NO_SHARE, 0.0, shares)
 
 
 def roll_axis(body: Body, crank: ArrayLike = (0.0, 0.0, 1.0)) -> Real:
-    """Return the unit vector (3,) of the axis through the centre of gravity about which a torque
-    about the crankshaft turns a free body.
+    """Return the torque roll axis, a unit vector (3,): the axis through the centre of gravity about
+    which a free body turns under a torque about the crankshaft.
     """
     axis = np.linalg.solve(body.inertia, np.asarray(crank, float))
     return axis / np.linalg.norm(axis)
 
 
 def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
-    """Return the point (3,) about which the spring forces of pure displacements have the smallest
-    moments, in mean square over the directions of a unit force, m, by the stiffness (6, 6) about
-    the centre of gravity.
+    """Return the elastic centre, m, shape (3,), from the stiffness (6, 6) about the centre of
+    gravity: the point about which the spring forces of pure displacements have the smallest
+    moments, in mean square over all directions of a unit force.
 
-    A displacement u needs the force `K_uu u` and the moment `K_ru u` = `N F`. A force at p has the
-    moment `p x F`. So p is the antisymmetric part of N; the symmetric part remains for any point.
+    A displacement u needs the force `F = K_uu u` and the moment `K_ru u = N F` with `N = K_ru
+    K_uu^-1`. A force at the point p has the moment `p x F`. Hence p is the antisymmetric part of N;
+    the symmetric part is the same for any point.
     """
     moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
     skew = (moments - moments.T) / 2
@@ -207,7 +212,7 @@ def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
 
 # ------------------------------------------------------------------ loads
 def settle_body(body: Body, mounts: Mounts, load: Real) -> tuple[Real, Real]:
-    """Return the rest of a body that is held in every way, under a steady load (6,).
+    """Return forces and travel of the mounts of a fully restrained body under a steady load (6,).
 
     Returns:
         Forces of the body on its mounts along the engine's axes, N, and travel of its mounting
@@ -219,11 +224,11 @@ def settle_body(body: Body, mounts: Mounts, load: Real) -> tuple[Real, Real]:
 
 
 def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
-    """Return values as an array; those that are rounding next to a size are 0.
+    """Return values as an array in which rounding errors, relative to a size, are replaced by 0.
 
     Args:
         values: Values, any shape.
-        size: Size, of a shape to which that of the values is broadcast; default: the largest value.
+        size: Size, which broadcasts against the values; default: the largest magnitude.
     """
     magnitudes = np.abs(values)
     whole = magnitudes.max(initial=0.0) if size is None else np.asarray(size)
@@ -232,20 +237,20 @@ def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
-_ALONE = 0.8  # share of the energy with which a motion counts as one alone
-_PART = 0.15  # share with which it is named beside another
-_STEEP = 0.8  # cosine: an axis farther from the vertical is not up and down
-_EXACT = 1e-9  # of a direction: what is less is rounding
+_ALONE = 0.8  # share of the energy from which a motion alone names a mode
+_PART = 0.15  # share from which a motion is named with others
+_STEEP = 0.8  # least cosine between an axis and the vertical to call it up and down
+_EXACT = 1e-9  # smaller components of a direction are rounding
 
 
 def name_motions(up: Real) -> tuple[str, ...]:
     """Return the names of the motions along x, y, z and about them.
 
-    Turns about z, the crankshaft's axis, are always roll. Where no axis is near the vertical, none
-    is up and down.
+    Rotation about z, the crankshaft's axis, is always roll. If no axis is near the vertical, no
+    motion is called up and down.
 
     Args:
-        up: Vector against the weight, shape (3,).
+        up: Vector opposite to the weight, shape (3,).
     """
     upright = int(np.argmax(np.abs(up)))
     steep = abs(up[upright]) >= _STEEP * np.linalg.norm(up)
@@ -258,11 +263,11 @@ def name_motions(up: Real) -> tuple[str, ...]:
 
 
 def name_mode(shares: Real, names: tuple[str, ...]) -> str:
-    """Return a mode in words, by its largest motions, at most three.
+    """Return a description of a mode by its largest motions, at most three.
 
     Args:
         shares: Shares of the energy, shape (6,).
-        names: As of `name_motions`.
+        names: Names of the motions, from `name_motions`.
     """
     falling = np.argsort(-shares, kind="stable")
     if shares[falling[0]] >= _ALONE:
@@ -271,7 +276,9 @@ def name_mode(shares: Real, names: tuple[str, ...]) -> str:
 
 
 def describe_free_motion(motion: Real, centre: Real) -> str:
-    """Return a motion (6,) that nothing holds in words: a displacement, or a turn about a line."""
+    """Return a description of an unrestrained motion (6,): a displacement, or a rotation about a
+    line.
+    """
     direction, point = find_screw(motion, centre)
     direction = np.where(np.abs(direction) < _EXACT, 0.0, direction)
     along = "({:.3g}, {:.3g}, {:.3g})".format(*direction)
@@ -283,8 +290,8 @@ def describe_free_motion(motion: Real, centre: Real) -> str:
     return f"turning about {along} through ({x:.4g}, {y:.4g}, {z:.4g}) mm"
 
 
-_FLATTEST = 0.05  # square of a side, of the largest, below which a block is not drawn
-# On the page x of the engine is up, z runs to the right, y to the left and towards the reader.
+_FLATTEST = 0.05  # least square of a block's side, relative to the largest
+# On the page, x points up, z to the right, y to the left and towards the reader.
 PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 
 
@@ -292,7 +299,7 @@ def find_corners(body: Body) -> Real:
     """Return the corners of the block, m, about the centre of gravity, shape (8, 3); corners whose
     numbers differ in one bit share an edge.
 
-    Sides lie along the engine's axes; products of inertia are left out.
+    Edges are parallel to the engine's axes; products of inertia are ignored.
     """
     moments = np.diagonal(body.inertia)
     squares = 1.5 * (moments.sum() - 2 * moments) / body.mass

@@ -1,4 +1,4 @@
-"""An engine on its mounts as tables, JSON and CSV."""
+"""Show an engine on its mounts as tables and CSV."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstFo
 from .rigid_body import AXES
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
-_COLUMNS = 6  # of orders and speeds in a table of a page's width
-_ROWS = 9  # speeds of a table
-_SHARE = 1e-3  # of the largest free load: less is not worth a line
+_COLUMNS = 6  # columns of orders or speeds that fit a table
+_ROWS = 9  # rows of speeds in a table
+_SHARE = 1e-3  # of the largest free load: smaller loads get no row
 
 
 class Kind(NamedTuple):
-    """Kind of figure by place: the force of mounts, or the motion of points.
+    """Kind of result at places: the force of mounts, or the motion of points.
 
     Attributes:
         part, figure: "mount" and "force", or "point" and "motion".
-        unit: Unit in which they are shown, of values in the unit of the records.
+        unit: Unit in which values are shown, relative to the unit of the records.
     """
 
     part: str
@@ -51,16 +51,16 @@ class Kind(NamedTuple):
         return response.mounts if self.part == "mount" else response.points
 
     def show(self, value: float) -> str:
-        """Return a value of a record as a table shows it."""
+        """Return a value of a record as text for a table."""
         return number(self.unit.of(value), 4)
 
     def find_highest(self, response: BodyResponse) -> MountForce | PointMotion:
-        """Return the place with the largest value, of equal ones the first."""
+        """Return the place with the largest value; the first of equal ones."""
         places = self.places(response)
         return places[int(find_first_largest([place.worst[0] for place in places]))]
 
     def tell_worst(self, place: MountForce | PointMotion) -> str:
-        """Return the largest value of a place in words."""
+        """Return a place's largest value and its speed as text."""
         value, rpm, *_ = place.worst
         return f"{self.show(value)} {self.unit.name} at {number(rpm, 4)} rpm"
 
@@ -72,7 +72,7 @@ def list_kinds(system: System) -> tuple[Kind, Kind]:
 
 
 def sheet(result: MountReport, system: System) -> Sheet:
-    """Return the sheet: loads on the frame first, then modes, rest and the range of speeds."""
+    """Return the sheet: the answer (forces on the frame), modes, rest, and tables over speed."""
     parts: list[Grid | Facts | Text] = [*assumed_facts(result.assumed)]
     response, (force, motion) = result.response, list_kinds(system)
     if response is not None:
@@ -89,7 +89,7 @@ def sheet(result: MountReport, system: System) -> Sheet:
 
 
 def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) -> Iterator[str]:
-    """Yield sentences: where force and motion are largest, why, and what a scheme changes."""
+    """Yield sentences on the largest force and motion, their cause, and the effect of a scheme."""
     force = kinds[0]
     place = force.find_highest(response)
     value, _, order, alone, *_ = worst = place.worst
@@ -112,7 +112,7 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
 
 
 def _tell_gas(response: BodyResponse) -> str:
-    """Return in words whether gas counts, and the cylinders that do not fire."""
+    """Return a sentence on whether gas is included, and on cylinders that do not fire."""
     if not response.loads.fired:
         return "Inertia only: gas torque, which also rolls an engine, is not included."
     silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
@@ -120,7 +120,7 @@ def _tell_gas(response: BodyResponse) -> str:
 
 
 def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
-    """Return the largest value of another response in words, and how much more it is."""
+    """Return the largest value of another response as text, with the change in percent."""
     before, place = kind.find_highest(own).worst[0], kind.find_highest(other)
     of = "force of any mount" if kind.part == "mount" else f"motion at {place.name}"
     more = f" ({place.worst[0] / before - 1:+.0%})" if before else ""
@@ -128,7 +128,7 @@ def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
 
 
 def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | WorstMotion) -> str:
-    """Return the reason why a value is largest at its speed."""
+    """Return a sentence on why a value is largest at its speed."""
     speeds, hertz, met = response.speeds_rpm, worst.order * worst.speed_rpm / 60, worst.resonance
     k = met.mode - 1 if met else worst.mode
     mode = result.modes[k]
@@ -143,7 +143,7 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
-    """Return a row for each mount or point: its largest value, then those of other responses."""
+    """Return a table of the largest value of each mount or point, in this and other responses."""
     columns = [(kind.part, [place.name for place in kind.places(result.responses[0])])]
     heads = ["all orders", *(f"with {other.name}" for other in result.beside)]
     for head, response in zip(heads, result.responses, strict=True):
@@ -221,7 +221,7 @@ def _grid_meetings(result: MountReport) -> Grid:
 
 
 def _pick(count: int, most: int) -> list[int]:
-    """Return at most so many of a range, evenly, both ends included."""
+    """Return at most `most` indices of `range(count)`, evenly spaced, including both ends."""
     return sorted({round(k * (count - 1) / (most - 1)) for k in range(most)})
 
 
@@ -262,7 +262,7 @@ def _grid_passed(response: BodyResponse, system: System) -> Grid:
 
 # ------------------------------------------------------------------ CSV
 def rows(result: MountReport, system: System) -> Rows:
-    """Return a figure a line."""
+    """Return CSV with one figure in each line."""
     return Rows(_HEADER, _list_lines(result, system))
 
 
@@ -292,7 +292,7 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
 
 
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:
-    """Yield every mount, or point, by speed and order."""
+    """Yield the lines of every mount or point, by speed and order."""
     figure, unit = kind.figure, kind.unit
     for name, orders, peak, _ in kind.places(response):
         head = (f"{label}{kind.part}", name_cell(name))

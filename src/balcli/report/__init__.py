@@ -1,1 +1,1 @@
-"""Pictures and the page: results of all chapters, drawn."""
+"""Pictures, and a self-contained HTML page with the results of all chapters."""

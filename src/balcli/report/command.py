@@ -1,4 +1,4 @@
-"""The commands `report` and `plot`."""
+"""The commands `balcli report` and `balcli plot`."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from .names import OF_TORSION, PAGES, check_page
 
 PAGE = "Write the page here; - is standard output."
 PICTURE = "Write here; .svg, .png or .pdf."
-SPEEDS = "Of torsion, rpm; default: half to one and a half times the file's speed."
+SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
-    "overview: locus of the force, or of the moment where no force is left, and spectrum; "
-    "polar: loci; orders: the two vectors of each; spectrum: bars; curves: over the "
+    "overview: locus of the force (of the moment if the force is balanced), and spectrum; "
+    "polar: loci; orders: both vectors of each order; spectrum: bars; curves: over the "
     "crank angle; all: loci, bars and curves on one page; "
-    "ladder: loci with what balances the engine, step by step; "
+    "ladder: loci with the devices of each balancing step; "
     "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
     "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
-    "main (polar diagrams of bearing loads); modes, campbell, response, waterfall: of its "
-    "torsion. Several: pages of one PDF, or a file each (v8-pin.svg)."
+    "main (polar diagrams of bearing loads); with [torsion]: modes, campbell, response, "
+    "waterfall. Several pages form one PDF, or one file each (v8-pin.svg)."
 )
 
 
@@ -61,8 +61,8 @@ def report(
     orders: Orders = None,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Write one self-contained page: the engine in motion, its free forces and moments, and a
-    balance scheme before and after.
+    """Write a self-contained page: the engine in motion, and its free forces and moments without
+    and with a balance scheme.
 
     \b
     Example:
@@ -90,7 +90,7 @@ def report(
 
 
 def complete_pages(typed: str) -> list[str]:
-    """Return page names after the last comma of what was typed."""
+    """Return completions of the page name after the last comma of the typed text."""
     before, comma, _ = typed.rpartition(",")
     return [f"{before}{comma}{page}" for page in PAGES]
 
@@ -126,7 +126,7 @@ def plot(
     refuse_overwriting(reads=[path], writes={"OUT": target, "--output": output})
     output = choose_target(target, output, "X.svg")
     form, pages = picture_form(output), parse_pages(what)
-    files = [output]  # of one page, and of a PDF
+    files = [output]  # one page, or a PDF
     if len(pages) > 1 and form != "pdf":
         files = [output.with_stem(f"{output.stem}-{page}") for page in pages]
     readings = len({page in OF_TORSION for page in pages})
@@ -142,6 +142,6 @@ def plot(
 
 
 def parse_pages(text: str) -> tuple[str, ...]:
-    """Return the pages of `--what`, each once; raise BalcliError if there is no such page."""
+    """Return the pages of `--what` without repetition; raise BalcliError for an unknown page."""
     words = dict.fromkeys(word.strip().lower() for word in text.split(",") if word.strip())
     return tuple(check_page(word) for word in words or ("",))

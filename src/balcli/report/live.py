@@ -1,10 +1,9 @@
-"""An engine for the live page: its numbers, and how cylinders and devices follow from them.
+"""Describe an engine for the live page, on which the reader changes its numbers.
 
-The page computes an engine itself (`assets/engine.js`). Axes, crank pins and positions of the
-cylinders are linear in the numbers of the file (throws, splay, bank angle, spacing, stagger), so
-that the page needs no plan of the engine: it gets a constant and coefficients for each, which are
-found by adding 1 to one number after the other. All other figures of a cylinder are numbers of the
-file by their dotted names.
+The page computes the engine itself (`assets/engine.js`). Axes, crank pins and positions of the
+cylinders are linear functions of numbers of the file (throws, splay, bank angle, spacing, stagger).
+The page gets the constant and the coefficients of each; coefficients are found by adding 1 to one
+number after the other. All other figures of a cylinder are given by dotted names of numbers.
 """
 
 from __future__ import annotations
@@ -58,11 +57,11 @@ _TABLES = (
     "layout",
     "operation",
     "cylinder",
-)  # with numbers to change
+)  # tables with numbers to change
 _DEVICES = ("counterweight", "shaft", "slider")
 _UNUSED = ("crank.inertia", "operation.speed_ripple")
-_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # move axes, pins or places
-_UNITS = {  # spellings that the page reads, by dimension
+_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # axes, pins or positions
+_UNITS = {  # further units that the page reads, by dimension
     LENGTH: ("cm", "m", "in", "inch", "ft"),
     MASS: ("g", "lb", "oz"),
     UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
@@ -70,7 +69,7 @@ _UNITS = {  # spellings that the page reads, by dimension
     SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
     INERTIA: ("kg m^2", "lb in^2"),
 }
-_NEW = {  # keys of a new device with their dimensions and usual values
+_NEW = {  # keys of a new device with their dimensions and initial values
     "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
     "shaft": {
         "ratio": (PLAIN, -1),
@@ -81,12 +80,12 @@ _NEW = {  # keys of a new device with their dimensions and usual values
         "position": (LENGTH, 0),
     },
 }
-_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # ratios and orders
+_WHOLE = {"unit": "", "whole": True, "least": -1000, "most": 1000}  # limits of ratios and orders
 _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 
 def explain_still(engine: Engine) -> str:
-    """Return why the page cannot compute an engine itself; empty if it can."""
+    """Return the reason why the page cannot compute an engine itself; empty if it can."""
     if isinstance(engine.cylinders.linkage, Rotary):
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
@@ -105,17 +104,18 @@ def explain_still(engine: Engine) -> str:
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
-    """Return the engine as `assets/engine.js` takes it: plain slider-cranks at steady speed.
+    """Return the input of `assets/engine.js` for an engine with plain slider-cranks at steady
+    speed.
 
     Args:
         model: Engine file.
         engine: Engine of the file.
-        text: Text of the file, to be written anew with other numbers.
+        text: Text of the file, which the page rewrites with changed numbers.
     """
     parts = Parts(model)
     numbers = list(_list_numbers(model))
     speed = float(engine.speed_rpm)
-    throws: dict[int, int] = {}  # throw: the cylinder whose firing sets its angle
+    throws: dict[int, int] = {}  # cylinder whose firing determines the angle of a throw
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
@@ -154,14 +154,14 @@ def describe_one(
     name: str = "",
     small: float = SMALL,
 ) -> Node | None:
-    """Return what the panel of an engine's page needs; None if the page cannot compute it.
+    """Return the data of the panel on an engine's page; None if the page cannot compute the engine.
 
     Args:
         model: Engine file.
         engine: Engine of the file.
         system: Units of the drawings.
         text: Text of the file.
-        name: Name of the file; empty: not known.
+        name: Name of the file; empty if unknown.
         small: Share of one cylinder's first order below which a part is small.
     """
     if explain_still(engine):
@@ -178,13 +178,13 @@ def make_book(
     choice: str = "",
     small: float = SMALL,
 ) -> Node:
-    """Return all that the panel of the page needs.
+    """Return the data of the panel for one or more engines.
 
     Args:
-        engines: Engines as of `describe_engine`, by key.
+        engines: Engines from `describe_engine`, by key.
         system: Units of the drawings.
-        file: Name of the file; empty: not known.
-        choice: Engine to begin with, where the reader chooses; empty: there is one engine.
+        file: Name of the file; empty if unknown.
+        choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a part is small.
     """
     units = {"force": system.force, "moment": system.moment}
@@ -217,7 +217,7 @@ def make_book(
 
 
 def make_examples() -> Node:
-    """Return what the panel needs for the choice among all example engines."""
+    """Return the data of the panel for a choice among all example engines."""
     engines = {}
     for name in examples.names():
         written = examples.text(name)
@@ -229,7 +229,7 @@ def make_examples() -> Node:
 
 
 def _describe_new(dimension: Dimension, usual: float) -> Node:
-    """Return unit, limits and usual value of a key of a new device."""
+    """Return unit, limits and initial value of a key of a new device."""
     if dimension is PLAIN:
         return {**_WHOLE, "usual": usual}
     least = {"least": 0} if dimension is UNBALANCE else {}
@@ -251,14 +251,14 @@ def _list_numbers(model: EngineFile) -> Iterator[Node]:
 
 
 def _describe_limits(number: Number) -> Node:
-    """Return unit and limits of a number, as far as it has some."""
+    """Return the unit and the finite limits of a number."""
     limits = {"above": number.above, "least": number.least, "most": number.most}
     given = {key: value for key, value in limits.items() if value is not None}
     return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
 
 
 def _find_value(tables: Mapping[str, object], name: str) -> float | None:
-    """Return the value of a number by its dotted name, in the unit of the file; None: not given."""
+    """Return the value of a number (dotted name) in the unit of the file; None if not given."""
     path, _, key = name.rpartition(".")
     if path not in tables and key.isdigit():  # a member of a list
         path, _, outer = path.rpartition(".")
@@ -270,8 +270,8 @@ def _find_value(tables: Mapping[str, object], name: str) -> float | None:
 
 # ------------------------------------------------------------------ the text of the file
 def _is_plain(text: str) -> bool:
-    """Return whether each table has a header and each of its keys a line, so that the page can
-    change them line by line.
+    """Return whether each table has a header and each of its keys a line of its own. The page can
+    then change the text line by line.
     """
     data, lines = tomllib.loads(text), text.splitlines()
     starts = [k for k, line in enumerate(lines) if HEADER.match(line)]
@@ -296,7 +296,7 @@ def _says(line: str, wanted: Node) -> bool:
 
 
 def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node, int]]:
-    """Yield the tables of a file that the page may change: name, content, and place in a list."""
+    """Yield the tables of a file that the page may change: name, content, and index in a list."""
     for name in (*_TABLES, *_DEVICES):
         found = data.get(name, {})
         if name == "cylinder":
@@ -328,8 +328,9 @@ def _write_plainly(text: str) -> str:
 
 
 def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
-    """Return what has to be written into [layout] with other throws, banks or splay: a firing order
-    that fits the given throws alone is left out, and the numbering that it implied is given.
+    """Return the keys of [layout] that the page must change when the reader changes throws, banks
+    or splay; None if no change is needed. A firing order that fits only the given throws is removed
+    ("none"); the numbering that it implied is written.
     """
     layout = model.layout
     if model.crank.throws is None or layout.firing_order is None or model.gas is not None:
@@ -339,15 +340,16 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     return keys | ({} if layout.numbering is not None else {"numbering": format_value(rows)})
 
 
-# ------------------------------------------------------------------ axes, pins and places
+# ------------------------------------------------------------------ axes, pins and positions
 def _find_forms(
     model: EngineFile, parts: Parts, throws: Mapping[int, int], names: list[str]
 ) -> dict[str, list[Node]]:
-    """Return the linear forms of axes, crank pins (deg) and positions (mm) of the cylinders, and of
-    the positions of the throws: a constant, and coefficients by the name of a number.
+    """Return the linear functions for axes and crank pins (deg) and positions (mm) of the
+    cylinders, and for positions of the throws. Each has a constant, and coefficients by the names
+    of numbers.
 
-    Where the firing of a cylinder sets the throw, pins exclude the angle of top dead centre that
-    is due to its offset.
+    If the firing of a cylinder determines the throw, the angle of its pin does not include the
+    shift of top dead centre by the piston offset: the page adds it.
     """
     start = _measure(parts, throws)
     moving = [
@@ -370,7 +372,7 @@ def _find_forms(
 
 
 def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
-    """Return axes, leads of the crank pins (deg), positions of cylinders and throws (mm)."""
+    """Return axes and leads of crank pins (deg), and positions of cylinders and throws (mm)."""
     cells, pins, places = parts.plan.cells, parts.pins, parts.places
     tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
     first = next(cell for cell in cells if cell.number == 1)
@@ -389,16 +391,16 @@ def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
 
 
 def _find_leader(parts: Parts, cell: Cell, throws: Mapping[int, int]) -> int | None:
-    """Return the cylinder at whose top dead centre the crank pin of a cylinder stands; None where
-    the file gives its angle.
+    """Return the cylinder whose top dead centre determines the crank pin of a cylinder; None if the
+    file gives the pin's angle.
     """
     return None if parts.override(cell.number, "throw") is not None else throws.get(cell.throw)
 
 
 # ------------------------------------------------------------------ masses
 def _list_masses(model: EngineFile, parts: Parts, cell: Cell) -> Node:
-    """Return the figures of piston, rod and throw of a cylinder: names of numbers, or plain values
-    in the units of the file.
+    """Return the masses and rod of a cylinder: names of numbers, or values in the units of the
+    file.
     """
     number, own = cell.number, model.cylinder.get(cell.number)
     weighed = parts.weighed[number]

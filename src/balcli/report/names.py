@@ -1,4 +1,4 @@
-"""Names of the pages of pictures that an engine has; loads no library."""
+"""Names of the pages of pictures, for options and completion; no library is loaded."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..file.fields import nearest
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
-    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # those of a balance
+    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also for a Balance
     *("ladder", "factor", "bank", "inner"),
     *OF_GAS,
     *OF_TORSION,
@@ -21,11 +21,11 @@ def check_page(what: str, known: Sequence[str] = PAGES) -> str:
     """Return the name of a page.
 
     Args:
-        what: The name as given.
-        known: Names of the pages that there are.
+        what: Name from the user.
+        known: Names of the existing pages.
 
     Raises:
-        BalcliError: The name is none of these.
+        BalcliError: There is no page of this name.
     """
     if what not in known:
         near = nearest(what, known)

@@ -1,6 +1,6 @@
-"""A self-contained page on an engine, with pictures, tables and animation. It loads nothing from
-elsewhere. Its scripts get plain figures: the mechanism and its vectors (mm, deg), the body on its
-mounts (mm, rad), torque and pressure over the cycle.
+"""Write a self-contained HTML page on an engine, with pictures, tables and animation; it loads
+nothing from elsewhere. Its scripts get the mechanism and its vectors (mm, deg), the body on its
+mounts (mm, rad), and torque and pressure over the cycle.
 """
 
 from __future__ import annotations
@@ -56,13 +56,13 @@ if TYPE_CHECKING:
 
 
 _YOKE = 3  # crank radii from the pin to the piston that is drawn in harmonic motion
-_SHAFT_WIDTH = 1.6  # crank radii that a shaft takes in the picture
-ASSUMED_BORE = 0.95  # of the stroke, where a file gives none: pistons have to be drawn
+_SHAFT_WIDTH = 1.6  # width of a shaft in the picture, in crank radii
+ASSUMED_BORE = 0.95  # of the stroke, for drawing pistons if the file gives no bore
 
 
 def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
-    """Return the mechanism, and the forces and moments of each engine shown, by their labels;
-    turned upright if the file gives `frame.up`.
+    """Return the mechanism, and forces and moments of each shown engine by label. All are turned
+    upright if the file gives `frame.up`.
     """
     engine = now.engine
     stroke, bore = 2e3 * float(engine.cylinders.radius.max()), clean(engine.bore_m * 1e3)
@@ -78,7 +78,7 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
             kind.name: {
                 "name": (unit := system.unit(kind)).name,
                 "thousand": f"k{unit.name}" if unit.size == 1 else "",
-                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # that counts
+                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # not negligible
             }
             for kind in VECTORS
         },
@@ -133,7 +133,7 @@ def _variant_entry(label: str, result: Analysis, system: System, bore: float) ->
 
 
 def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
-    """Return a row an order: the order, forward x and y, backward x and y."""
+    """Return a row for each order: the order, forward x and y, backward x and y."""
     forward, backward = phasors.forward / unit.size, phasors.backward / unit.size
     parts = (phasors.orders, forward.real, forward.imag, backward.real, backward.imag)
     rows: list[list[float]] = (np.stack(parts, axis=-1) + 0.0).tolist()
@@ -141,9 +141,9 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Return places on the page for shafts whose place is within the circle of the crank pins, by
-    rows of the devices: upwards + i to the right, m. Shafts that turn with the crank are to the
-    right of the engine, the others to its left.
+    """Return positions beside the engine for shafts that would be drawn within the circle of the
+    crank pins, by device index, m: real upwards, imaginary to the right. Shafts that turn with the
+    crank are to the right of the engine, the others to its left.
 
     Args:
         bore: Cylinder bore, m.
@@ -155,7 +155,7 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
     across, reach = np.sin(leans), c.radius + rods + bore
     width = float(np.max(np.abs(across) * reach + (1 - np.abs(across)) * bore, initial=1.5 * r))
     found: dict[int, complex] = {}
-    rows: dict[tuple[int, bool], int] = {}  # of each shaft on its side of the engine
+    rows: dict[tuple[int, bool], int] = {}  # row on its side, by order and sense
     for k, device in enumerate(engine.devices):
         if device.kind is not DeviceKind.SHAFT or abs(complex(device.place)) >= r:
             continue
@@ -166,8 +166,8 @@ def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
 
 
 def _device_entry(device: Device, drawn: complex | None, turn_deg: float) -> Node:
-    """Return a device for the page, turned: unbalance in g mm, places in mm; `drawn` is the place
-    at which it is shown instead.
+    """Return a device for the page, turned by an angle: unbalance in g mm, position in mm. `drawn`
+    replaces its position in the picture.
     """
     vectors = np.array([device.forward, device.backward, device.place])
     forward, backward, place = (unit(turn_deg) * vectors).tolist()
@@ -193,7 +193,7 @@ _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
 
 
 class Answers(NamedTuple):
-    """Results in a report on an engine; None for a chapter that its file does not have."""
+    """Results in a report on an engine. Chapters that its file does not have are None."""
 
     result: Analysis
     balanced: Balance
@@ -215,8 +215,8 @@ def find_answers(
     Args:
         model: Tables of the file.
         engine: Engine of the file.
-        orders: Orders to show; None: the usual ones.
-        scheme: Scheme of the devices to fit.
+        orders: Orders to show; None: the default.
+        scheme: Balance scheme.
         options: Options of the scheme.
         name: Name of the file, for messages.
 
@@ -227,7 +227,7 @@ def find_answers(
     balanced = balance_engine(engine, scheme, options, orders)
     mounted = twisted = None
     if model.body:
-        fitted = scheme if balanced.remedy.reasons else None  # without devices nothing is compared
+        fitted = scheme if balanced.remedy.reasons else None  # no devices, no comparison
         with _warning("mounts"):
             mounted = report_mounts(model, engine, scheme=fitted, name=name, options=options)
     if model.torsion:
@@ -249,14 +249,14 @@ def _warning(chapter: str) -> Iterator[None]:
 def page(
     found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
-    """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
-    gas. All text from the engine file is escaped.
+    """Return the page on an engine: its analysis, a balance scheme, vibration on mounts, torsion,
+    and gas. All text from the engine file is escaped.
 
     Args:
         found: Results to show.
         system: Units of figures and pictures.
-        tell: Called with the share of the pictures of forces and moments that is drawn.
-        live: Numbers to change on the page, as of `live.make_book`; None: none.
+        tell: Called with the share of the pictures of forces and moments drawn so far.
+        live: Data of the panel for changing numbers, from `live.make_book`; None: no panel.
     """
     result, balanced, mounted, twisted, turning = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
@@ -322,7 +322,7 @@ def explore(engine: Engine) -> Explorer:
 
 
 def make_play_page() -> str:
-    """Return a page on which one chooses among the example engines and changes their numbers."""
+    """Return a page on which the reader chooses an example engine and changes its numbers."""
     return _template().render(
         whole=False,
         live=make_examples(),
@@ -336,8 +336,8 @@ def make_play_page() -> str:
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
-    """Return the engine with the devices of each step of its ladder, and with those of a scheme
-    that is no step, by their labels.
+    """Return the analyses to show, by label: with the devices of each step of the ladder, and with
+    those of a scheme that is not a step.
     """
     remedy, ladder = balanced.remedy, balanced.ladder
     shown = {"as in the file": result}
@@ -358,8 +358,8 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
 def _choose_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
 ) -> list[tuple[PageSubject, str, str]]:
-    """Return the panels of the shown quantities, and last the first panel of each quantity without
-    a picture.
+    """Return the panels to draw. For a quantity without a picture, only its first panel is
+    returned, at the end, for the words in its place.
     """
     words = {quantity: subject.find_words(quantity) for quantity in told}
     shown = [(subject, what, name) for name, what in panels if name in told and not words[name]]
@@ -381,12 +381,12 @@ def _template() -> Template:
     return environment.get_template("report.html")
 
 
-_SPEEDS = 48  # of the range, that the page has
+_SPEEDS = 48  # most speeds on the page
 
 
 def rocking(result: MountReport) -> Node | None:
-    """Return the block and its mounts about the centre of gravity, and its motion by speed and
-    order: six cosines, then six sines (mm, rad). None without a running engine.
+    """Return the block and its mounts relative to the centre of gravity, and the block's motion by
+    speed and order: six cosine parts, then six sine parts (mm, rad). None without an engine.
     """
     response = result.response
     if response is None:
@@ -410,7 +410,7 @@ _STEP = 2.0  # deg
 
 
 def running(engine: Engine, system: System) -> Node:
-    """Return curves over one cycle at even crank angles, each with its name and unit."""
+    """Return torque and pressure over one cycle, at equal steps of the crank angle, with units."""
     gas, curves = take_gas(engine), find_torque_curves(replace(engine, ripple=()))
     at = np.radians(np.arange(0.0, gas.cycle_deg + _STEP / 2, _STEP))
     total = curves.total.at(at)

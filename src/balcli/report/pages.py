@@ -1,9 +1,10 @@
-"""The pages of an engine: the pictures on each page, and their layout.
+"""Draw the pages of pictures of an engine: the pictures on each page, and their layout.
 
-A force or moment that is balanced, negligible or unknown has no picture; a line below the page says
-so.
+A force or moment that is balanced, negligible or unknown has no picture; a line below the page
+reports it.
 
-Pictures of a vee over its bank angle: the path of the force's tip, and its two vectors.
+The page `bank` shows the force of a vee over its bank angle: the path of its tip, and its two
+rotating vectors.
 """
 
 from __future__ import annotations
@@ -68,8 +69,8 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
 
 
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
-    """Draw the sizes of both rotating vectors as radii in the directions of the two banks, whose
-    angle is varied.
+    """Draw the magnitudes of both rotating vectors over the bank angle in polar coordinates: the
+    radius is the magnitude, and the directions are those of the two banks.
     """
     ahead, against = np.abs(banks.force.forward[0]), np.abs(banks.force.backward[0])
     largest = float(max(ahead.max(), against.max()))
@@ -95,14 +96,14 @@ def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
 
 
 _VECTORS = tuple(kind.name for kind in VECTORS)
-ABOUT = "about"  # couple, torque and roll about the crank, in one picture
+ABOUT = "about"  # one picture of couple, torque and roll
 PICTURED = (*_VECTORS, ABOUT)
 _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the crank"}
 
 
 @dataclass(frozen=True)
 class PageSubject:
-    """The engine of a page, and the units in which it is drawn."""
+    """The engine of a page, and the units of its pictures."""
 
     study: Study
     system: System = SI
@@ -113,8 +114,8 @@ class PageSubject:
         return self.study.now
 
     def phasors(self, quantity: str) -> tuple[Phasors, Phasors | None]:
-        """Return a force, a moment or the roll now, and before the devices were fitted; forces and
-        moments along the axes of the picture.
+        """Return the phasors of a force, a moment or the roll now, and before devices were fitted
+        (None without a scheme). Forces and moments are along the axes of the picture.
         """
         name = ROLL.name if quantity == ABOUT else quantity
         turn = 0.0 if quantity == ABOUT else -(self.now.engine.up_deg or 0.0)
@@ -123,7 +124,7 @@ class PageSubject:
         return now, None if before is None else before.spectra[name].turn(turn)
 
     def name_components(self, quantity: str) -> tuple[str, str]:
-        """Return names of the components of a force or moment upwards and to the right."""
+        """Return the names of the upward and rightward components of a force or moment."""
         return KINDS[quantity].name_components(self.now.engine.up_deg)
 
     def unit(self, quantity: str) -> ShownUnit:
@@ -138,8 +139,8 @@ class PageSubject:
         return {EVERY_KIND[kind.name].label: self.now.spectra[kind.name] for kind in kinds}
 
     def find_words(self, quantity: str) -> str:
-        """Return a word for a quantity without a picture, which is unknown, balanced or negligible;
-        empty if there is a picture.
+        """Return a text for a quantity without a picture (unknown, balanced or negligible); empty
+        if there is a picture.
         """
         if quantity == "moment" and not self.now.moments_known:
             return "not known: crank.spacing is missing"
@@ -154,7 +155,7 @@ class PageSubject:
         return ""
 
     def find_pictured(self, quantities: Sequence[str]) -> tuple[list[str], str]:
-        """Return the quantities that have a picture, and a line about the others."""
+        """Return the quantities with a picture, and a line on the others."""
         words = {quantity: self.find_words(quantity) for quantity in quantities}
         line = "; ".join(f"{_TITLES[each]}: {said}" for each, said in words.items() if said)
         return [quantity for quantity, said in words.items() if not said], line
@@ -168,13 +169,15 @@ class PageSubject:
 
 
 def _divide_cycle(*curves: Phasors | None) -> Array:
-    """Return the crank angles of a curve, rad, every degree: to 720 degrees with half orders."""
+    """Return the crank angles of a curve, rad, in steps of a degree: to 360 degrees, or to 720 with
+    half orders.
+    """
     halves = any(np.any(c.orders[~c.balanced] % 1) for c in curves if c is not None)
     return np.radians(np.arange((720 if halves else 360) + 1))
 
 
 def make_page(subject: PageSubject, what: str) -> Figure:
-    """Return a page of pictures; `what` is one of `PAGES` that is not of torsion."""
+    """Return a page of pictures; `what` is one of `PAGES` except those of torsion."""
     width, height, lay_out = _LAYOUTS[what]
     engine, remedy = subject.now.engine, subject.study.remedy
     title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
@@ -234,7 +237,7 @@ def _draw(ax: Axes, subject: PageSubject, what: str, quantity: str) -> None:
 
 
 def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
-    """The locus of the force, or of the moment where no force is left, and the orders."""
+    """Draw the locus of the force, or of the moment if the force is balanced, and the spectra."""
     shown, words = subject.find_pictured(PICTURED)
     loci = [quantity for quantity in shown if quantity in _VECTORS][:1]
     fig.set_size_inches(5.2 + 5.6 * len(loci), max(3.4, 2.2 * len(shown) + 0.4, 6.0 * len(loci)))
@@ -247,7 +250,7 @@ def _lay_out_overview(fig: Figure, subject: PageSubject) -> str:
 
 
 def _lay_out_rows(fig: Figure, subject: PageSubject, *, whats: Sequence[str], height: float) -> str:
-    """A row of pictures for each quantity; what acts about the crank has no locus."""
+    """Draw a row of pictures for each quantity; moments about the crank have no locus."""
     shown, words = subject.find_pictured(PICTURED)
     fig.set_figheight(0.5 + height * len(shown))
     grid = fig.add_gridspec(len(shown) or 1, 6)
@@ -268,7 +271,7 @@ def _lay_out_loci(fig: Figure, subject: PageSubject, *, what: str, height: float
 
 
 def _lay_out_orders(fig: Figure, subject: PageSubject) -> str:
-    """The largest four orders of force and of moment."""
+    """Draw the first four visible orders of force and of moment."""
     shown, words = subject.find_pictured(_VECTORS)
     found = []
     for quantity in shown:
@@ -306,10 +309,12 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
 
 
 def _lay_out_inner(fig: Figure, subject: PageSubject) -> str:
-    """Shear, bending and bearings along the crankshaft; with gas bending of both, and bearings."""
+    """Draw shear, bending and bearing loads along the crankshaft; with gas, bending of crankshaft
+    and block, and bearing loads.
+    """
     bent, system = subject.study.bent, subject.system
     gas = [inner.with_gas for inner in bent if inner.with_gas is not None]
-    # Curves by title, and how points are joined.
+    # By title: the curves, and how their points are joined.
     pictures: dict[str, tuple[Sequence[AlongCrank], str]] = {
         "Shear force along the crankshaft": ([b.shear for b in bent], "steps-post"),
         "Bending moment": ([b.bending for b in bent], "default"),
@@ -338,7 +343,7 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
     draw_gas(fig, subject.now.engine, what, subject.system)
 
 
-# Width and height in inches, which some layouts change.
+# Width and height in inches (some layouts change them), and the drawing function.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
     "all": (11.7, 8, partial(_lay_out_rows, whats=("polar", "spectrum", "curves"), height=3.6)),

@@ -1,4 +1,4 @@
-"""`plot` in Python, and the pages of `balcli plot`, drawn and written."""
+"""The function `plot`, and the drawing and writing of the pages of `balcli plot`."""
 
 from __future__ import annotations
 
@@ -66,27 +66,28 @@ def plot(
     speeds_rpm: ArrayLike | None = None,
     small: float = SMALL,
 ) -> Figure:
-    """Draw an engine or an answer, as `balcli plot` does, as a figure of matplotlib.
+    """Draw an engine or a result as a figure of matplotlib; see also `balcli plot`.
 
-    Nothing global is touched and no display is needed: a notebook shows the figure where it is the
-    last line of a cell, `figure.savefig("a.svg")` writes it, `figure.axes` can be changed.
+    Global state is unchanged and no display is needed. A notebook shows the figure if it is the
+    last line of a cell; `figure.savefig("a.svg")` writes it; `figure.axes` can be changed.
 
     Args:
-        shown: an engine, or the answer of a function that has a picture.
-        what: page of an engine, its analysis or balance: "overview" (default: one locus, and the
-            spectrum), "polar" (loci of force and moment), "orders" (the two vectors of each),
+        shown: Engine, or result of a function such as `analyze` or `sweep`.
+        what: Page of an engine, its analysis or balance: "overview" (default: one locus, and the
+            spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "ladder" (loci, step by step), "bank" (a vee over its bank angle), "factor" (over the
-            balance factor); with gas "pressure", "p-v", "torque", "pin", "main"; of torsion "all",
-            "modes", "campbell", "response", "waterfall". Other answers have one picture.
-        orders: of an engine, which are drawn; default: all that are not negligible.
-        scheme: of an engine, a balance scheme to compare with.
-        speeds_rpm: of an engine and its torsion; default: half to one and a half times its speed.
-        small: of an engine, the share of one cylinder's first order below which the ladder leaves a
+            "ladder" (loci of each balancing step), "bank" (a vee over its bank angle), "factor"
+            (over the balance factor); with gas "pressure", "p-v", "torque", "pin", "main"; for
+            torsion "all", "modes", "campbell", "response", "waterfall". Other results have one
+            picture.
+        orders: Orders of an engine to draw; default: all that are not negligible.
+        scheme: Balance scheme of an engine to compare with.
+        speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.
+        small: Share of one cylinder's first order below which the ladder of an engine ignores a
             part.
 
     Raises:
-        BalcliError: There is no such picture; the error lists those there are.
+        BalcliError: There is no such picture; the error lists the existing ones.
         TypeError: `shown` has no picture.
 
     Example:
@@ -148,11 +149,11 @@ _SHOWN = {
     "inner": "inner",
     "bank": "force",
     "ladder": "ladder",
-}  # the only results that these pages need
+}  # the only results that pages need
 
 
 class Asked(NamedTuple):
-    """Options as typed; options of a balance scheme as they were read."""
+    """Options as typed, except the parsed options of a balance scheme."""
 
     speed: str | None
     orders: str | None
@@ -163,11 +164,11 @@ class Asked(NamedTuple):
 
 
 def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
-    """Return a figure for each page of an engine file, which is read once for pages of torsion and
-    once for all others.
+    """Return a figure for each page of an engine file. The file is read once for pages of torsion
+    and once for all others.
 
     Raises:
-        BalcliError: an option does not suit a page, or the file lacks the subject of a page.
+        BalcliError: an option does not suit a page, or the file lacks data for a page.
     """
     found: dict[str, Figure] = {}
     of_torsion = [page for page in pages if page in OF_TORSION]
@@ -177,11 +178,11 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
         drawn = make_figures_of_torsion(path, of_torsion, asked.speeds, asked.orders, asked.units)
         found |= zip(of_torsion, drawn, strict=True)
     elif asked.speeds is not None:
-        warn("--speeds counts for pages of torsion alone; the speed of the others is --speed")
+        warn("--speeds has an effect only on pages of torsion; for other pages use --speed")
     if others:
         found |= zip(others, _make_pages(path, others, asked), strict=True)
     elif asked.speed is not None:
-        warn("--speed counts for nothing here; pages of torsion take a range, --speeds A:B")
+        warn("--speed has no effect on pages of torsion; give a range, --speeds A:B")
     return [found[page] for page in pages]
 
 

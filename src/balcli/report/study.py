@@ -1,5 +1,5 @@
-"""Data of pictures: an engine as it is or with a scheme's devices, over the balance factor, or over
-the bank angle.
+"""Compute the data of a page of pictures: an engine without or with a scheme's devices, over the
+balance factor, or over the bank angle.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ from ..sizing.sizing import size
 from .names import OF_GAS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("ladder", "bank", *OF_GAS)  # studies of the engine as it is
+_ALONE = ("ladder", "bank", *OF_GAS)  # pages of the engine without a scheme
 
 
 class Banks(NamedTuple):
-    """Free force of one order over the bank angle of a vee, all else unchanged.
+    """Free force of one order over the bank angle of a vee; all else is unchanged.
 
     Attributes:
         angles_deg: Bank angles, shape (angles,).
@@ -49,11 +49,11 @@ class Study(NamedTuple):
     """Data of a page.
 
     Attributes:
-        now, before: Analysis of the engine, and of the engine without fitted devices, if any.
+        now, before: Analysis of the engine with fitted devices, if any, and without them.
         remedy: Fitted devices.
-        factors: Rows of peaks over the balance factor, ascending, with the best of all.
-        banks: One order over the bank angle.
-        bent: Loads along the crankshaft now, and before.
+        factors: Peaks over the balance factor, ascending, including the best factor.
+        banks: Force of one order over the bank angle.
+        bent: Loads along the crankshaft with fitted devices, and without.
         steps: Engine with the devices of each step of the ladder, by name.
     """
 
@@ -69,8 +69,8 @@ class Study(NamedTuple):
 def analyze_steps(
     engine: Engine, ladder: Ladder, orders: Iterable[float] | None
 ) -> dict[str, Analysis]:
-    """Return free forces and moments of an engine with the devices of each listed step, by number
-    and name of the step.
+    """Return free forces and moments of an engine with the devices of each step of a ladder, by
+    number and name of the step.
     """
     return {
         f"{k} {step.step}": analyze(
@@ -90,14 +90,14 @@ def compute_study(
     """Return the data of the page `what`.
 
     Args:
-        engine: without trailing axes.
-        orders: orders to show; "bank" shows the first one.
-        scheme: the balance scheme to compare with, if any.
-        options: of the scheme; "factor" takes planes alone, "ladder" small.
+        engine: Single engine (no trailing axes).
+        orders: Orders to show; "bank" shows the first one.
+        scheme: Balance scheme to compare with, if any.
+        options: Options of the scheme; "factor" uses only planes, "ladder" only small.
 
     Raises:
-        BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page; the engine
-            is no vee and "bank" is asked for.
+        BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page, or "bank"
+            is requested for an engine that is not a vee.
     """
     if what == "factor":
         return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
@@ -122,7 +122,7 @@ def compute_study(
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:
-    """Raise BalcliError if there is a scheme: the page shows the engine as it is."""
+    """Raise BalcliError if a scheme is given for a page that shows the engine without one."""
     if scheme is not None:
         raise BalcliError(
             f"--what {what} shows the engine as it is: leave --scheme and its options out"
@@ -132,7 +132,7 @@ def refuse_scheme(scheme: str | None, what: str) -> None:
 def _sweep_factors(
     engine: Engine, scheme: str | None, options: SchemeOptions | None
 ) -> tuple[FactorPeaks, ...]:
-    """Return the peaks over the balance factor, ascending, with the best factor among them."""
+    """Return the peaks over the balance factor, ascending, including the best factor."""
     asked = options or SchemeOptions()
     if scheme not in (None, "factor"):
         raise BalcliError(f"--what factor is of the scheme factor: leave --scheme {scheme} out")
@@ -144,11 +144,11 @@ def _sweep_factors(
 
 
 def swing_banks(engine: Engine, order: float) -> Banks:
-    """Return the free force of an order while the two banks of a vee are swung apart from 0 to 180
-    degrees, the crankshaft unchanged.
+    """Return the free force of an order for bank angles of a vee from 0 to 180 degrees, with an
+    unchanged crankshaft.
 
     Raises:
-        BalcliError: the engine is no vee.
+        BalcliError: the engine is not a vee.
     """
     c = engine.cylinders
     axes = np.ravel(c.axis_deg)

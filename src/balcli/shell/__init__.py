@@ -1,1 +1,1 @@
-"""What commands and Python functions share: typed values, files read, results written, progress."""
+"""Code shared by commands and Python functions: typed values, input, output, progress."""

@@ -1,4 +1,4 @@
-"""Arguments of public functions, checked and converted; errors describe the mistake in words."""
+"""Check and convert arguments of public functions; errors name the argument and the remedy."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from ..file.fields import shorten
 from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
-Words = str | Iterable[str]  # names, or a text of them with commas between
-_MOST_GIVEN = 1_000_000  # speeds of a list, equal ones included
+Words = str | Iterable[str]  # names, or one text with names separated by commas
+_MOST_GIVEN = 1_000_000  # longest list of speeds, including equal ones
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
 
 
 def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P, Answer]]:
-    """Decorate a function so that errors that name options of the command line name its arguments
-    instead: `damper_inertia` for `--damper-inertia`.
+    """Decorate a function so that its errors name arguments in place of command-line options:
+    `damper_inertia` in place of `--damper-inertia`.
 
     Args:
-        others: Arguments by options with another name (`speeds="speeds_rpm"`).
+        others: Arguments whose option has another name, by option (`speeds="speeds_rpm"`).
     """
 
     def decorate(function: Callable[P, Answer]) -> Callable[P, Answer]:
         names = {**{name: name for name in signature(function).parameters}, **others}
 
         def name_argument(option: re.Match[str]) -> str:
-            name = (option[1] or "").replace("-", "_")  # none within a command: `balcli new`
+            name = (option[1] or "").replace("-", "_")  # empty for a command in backquotes
             return names.get(name, option[0])
 
         @wraps(function)
@@ -60,14 +60,14 @@ def tell_arguments(**others: str) -> Callable[[Callable[P, Answer]], Callable[P,
 
 
 def join_names(function: str, words: Words | None) -> str | None:
-    """Return names as the command line has them, with commas between them; None stays None.
+    """Return names as one text, separated by commas as on the command line; None for None.
 
     Args:
         function: Name of the public function, for messages.
         words: Names, or a text with commas.
 
     Raises:
-        TypeError: They are no names.
+        TypeError: They are not names.
     """
     if words is None or isinstance(words, str):
         return words
@@ -75,15 +75,15 @@ def join_names(function: str, words: Words | None) -> str | None:
 
 
 def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
-    """Return speeds as an array that rises, rpm; None stays None.
+    """Return speeds as a rising array without repetition, rpm; None for None.
 
     Args:
         function: Name of the public function, for messages.
         speeds_rpm: Speeds, rpm, shape () or (speeds,).
 
     Raises:
-        BalcliError: One is not above 0; too many; more than one axis.
-        TypeError: They are no numbers.
+        BalcliError: A speed is not above 0, or there are too many speeds or axes.
+        TypeError: They are not numbers.
     """
     if speeds_rpm is None:
         return None
@@ -92,7 +92,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     )
     try:
         given = np.asarray(speeds_rpm)
-        if given.dtype.kind not in "iufO":  # numpy would read numbers out of texts
+        if given.dtype.kind not in "iufO":  # numpy would convert texts to numbers
             raise TypeError
         found = np.unique(given.astype(float).ravel())
     except (TypeError, ValueError):
@@ -109,11 +109,11 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
 
 
 def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
-    """Return orders that excite torsional vibration, ascending, each once; None as it is.
+    """Return orders of a torsional excitation, ascending and without repetition; None for None.
 
     Raises:
-        BalcliError: there are none, some are no multiples of 1/2, not above 0, or too high.
-        TypeError: they are no numbers.
+        BalcliError: there are no orders, or one is not a multiple of 1/2, not above 0, or too high.
+        TypeError: they are not numbers.
     """
     if orders is None:
         return None
@@ -124,7 +124,7 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
 
 
 def check_inertia(name: str, value: object) -> float | None:
-    """Return a moment of inertia, kg m2; None stays None.
+    """Return a moment of inertia, kg m2; None for None.
 
     Args:
         name: Name of the argument, for messages.
@@ -132,7 +132,7 @@ def check_inertia(name: str, value: object) -> float | None:
 
     Raises:
         BalcliError: It is not above 0, or too large to compute with.
-        TypeError: It is no number.
+        TypeError: It is not a number.
     """
     if value is None:
         return None
@@ -149,11 +149,11 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
         name: Name of the argument, for messages.
         value: Value to check.
         least: Smallest allowed number.
-        most: Largest allowed number; None: none.
+        most: Largest allowed number; None: no limit.
 
     Raises:
         BalcliError: It is too small or too large.
-        TypeError: It is no whole number.
+        TypeError: It is not a whole number.
     """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
@@ -165,7 +165,7 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
 
 
 def read_position(name: str, value: object) -> tuple[float, float, float]:
-    """Return an argument that must be a place: x, y and z, m.
+    """Return an argument that must be a position: x, y and z, m.
 
     Args:
         name: Name of the argument, for messages.

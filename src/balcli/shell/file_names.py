@@ -1,4 +1,4 @@
-"""Names of files and formats: `-` is standard output; the ending determines the format."""
+"""Names of output files and their formats: `-` is standard output; endings determine formats."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ VARIANTS = {
 
 
 class Place(NamedTuple):
-    """Target of a sweep: a file, or a folder of several."""
+    """Target of a sweep: a file, or a folder of files."""
 
     path: Path
     is_folder: bool
@@ -73,7 +73,7 @@ def read_place(text: str) -> Place | None:
 
 
 def parse_output(path: Path | None) -> Path | None:
-    """Return the file to write, None for standard output."""
+    """Return the file to write, or None for standard output."""
     return None if str(path) in ("-", "/dev/stdout", "/dev/fd/1") else path
 
 
@@ -96,11 +96,12 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
 
 
 def format_option(formats: type[StrEnum], text: str) -> object:
-    """Declare an option `--format`, `-f` for these formats, by name or by ending, in any case.
+    """Declare an option `--format`, `-f`. Formats may be typed by name or ending, in upper or lower
+    case.
 
     Args:
-        formats: the formats, by the names that users type.
-        text: the help of the option.
+        formats: Formats; their values are the names.
+        text: Help of the option.
     """
 
     def parse(name: str) -> StrEnum:
@@ -132,17 +133,17 @@ def format_of(
     default: F | None = None,
     option: str = "--output",
 ) -> F:
-    """Return the format of a file: by its ending, or `--format` if the ending says nothing.
+    """Return the format of a file: by its ending, or by `--format` if the ending does not tell.
 
     Args:
-        output: the file; None: standard output.
-        asked: the value of `--format`, if it was given.
-        endings: the formats that can be written, by ending (`.csv`).
-        default: the format of standard output, and of a file without an ending.
-        option: the option that names the file, for messages.
+        output: File; None: standard output.
+        asked: Value of `--format`; None: not given.
+        endings: Formats that can be written, by ending (`.csv`).
+        default: Format of standard output and of files without an ending.
+        option: Option that names the file, for messages.
 
     Raises:
-        BalcliError: format and ending contradict each other, or the ending is none of these.
+        BalcliError: format and ending contradict each other, or the ending is not among these.
     """
     ending = "" if output is None else output.suffix.lower()
     written = endings.get(ending)
@@ -171,14 +172,14 @@ def picture_form(output: Path, option: str = "--output") -> Form:
 
 
 def require_ending(output: Path | None, ending: str, option: str = "--output") -> None:
-    """Raise an error for a file name with another ending.
+    """Check the ending of a file name.
 
     Args:
-        output: File to write; None: none.
-        ending: Wanted ending, such as .html.
+        output: File to write; None: no file.
+        ending: Required ending, such as .html.
         option: Option that names the file.
 
     Raises:
-        BalcliError: It has another ending.
+        BalcliError: The file has another ending.
     """
     format_of(output, None, {ending: ending}, ending, option)

@@ -1,4 +1,4 @@
-"""Engine files as commands read them: good ones are computed, and bad ones are named."""
+"""Find and read the engine files of a command, with warnings of suspicious values."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..file.model import EngineFile
 
 
-# What can be asked for and includes moments, among other things.
+# Words of --only whose results include moments, among other things.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
@@ -39,7 +39,7 @@ T = TypeVar("T")
 
 
 class LoadedEngine(NamedTuple):
-    """An engine file that has been read: its text, its model, and the engine."""
+    """Text, model and engine of an engine file."""
 
     text: bytes
     model: EngineFile
@@ -52,16 +52,16 @@ def read_engine(
     asked: Collection[str] | None = None,
     prepare: Callable[[EngineFile], EngineFile] = lambda model: model,
 ) -> LoadedEngine:
-    """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
+    """Read one engine file (`-`: standard input), and print warnings of suspicious values.
 
     Args:
-        speed_rpm: crank speed of the engine instead of the file's.
-        asked: names of requested quantities and tables; None: all that the command shows. Without
-            moments among them, no warning of unknown moments is printed.
-        prepare: Changes the file before the engine is built.
+        speed_rpm: Crank speed that replaces the file's.
+        asked: Names of requested quantities and tables; None: all that the command shows. If no
+            moments are among them, no warning of unknown moments is printed.
+        prepare: Function that changes the model before the engine is built.
 
     Raises:
-        BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
+        BalcliError: the file has mistakes, or a requested moment or gas is unknown.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
         raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
@@ -88,8 +88,8 @@ def read_engine(
 
 
 def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
-    """Warn that moments are not known if some were requested; an error if one was requested by
-    name.
+    """Warn that moments are unknown if results with moments are requested; raise an error if
+    moments are requested by name.
     """
     words = ABOUT_MOMENTS if asked is None else asked
     if by_name := [quantity for quantity in ("moment", "inner") if quantity in words]:
@@ -99,15 +99,15 @@ def _tell_unknown(name: str, asked: Collection[str] | None) -> None:
 
 
 def warn_of_unknown_moments(name: str) -> None:
-    """Print on standard error that the moments of this file are not known, and why."""
+    """Warn that the moments of this file are unknown, with the reason."""
     warn(f"{name}: {MOMENTS_UNKNOWN}")
 
 
 def warn_each(doubts: Iterable[str], name: str) -> None:
-    """Print the doubts about a file on standard error.
+    """Print warnings about a file on standard error.
 
     Args:
-        doubts: Doubts in words.
+        doubts: Texts of the warnings.
         name: Name of the file.
     """
     for doubt in doubts:
@@ -117,13 +117,13 @@ def warn_each(doubts: Iterable[str], name: str) -> None:
 def try_each(
     paths: Iterable[P], work: Callable[[P], T], found: Collection[P] = ()
 ) -> tuple[list[T], list[str]]:
-    """Return the results of all good files, in order, and the messages of the bad ones.
+    """Return the results of all valid files, in order, and the error messages of the others.
 
     Args:
         paths: Files to work on.
-        work: Function of one file.
-        found: Files that were found in a folder: those of another kind are passed over, with a
-            note.
+        work: Function that returns the result of a file.
+        found: Files that were found in a folder. If they are of another kind, they are skipped with
+            a note.
     """
     results, errors = [], []
     for path in paths:
@@ -138,7 +138,7 @@ def try_each(
 
 
 def exit_on_errors(errors: Sequence[str]) -> None:
-    """End with exit status 2 after these messages on standard error, if there are any."""
+    """Print these messages on standard error and end with exit status 2, if there are any."""
     for text in errors:
         say(f"balcli: {text}")
     if errors:
@@ -146,15 +146,15 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Return engine files as named, and all that are in a folder or in folders within it; those
-    whose name begins with a dot, and files of settings, are passed over.
+    """Return the named files, and all engine files in named folders and their subfolders. Hidden
+    folders and pyproject.toml are skipped.
 
     Raises:
-        BalcliError: a path that is not there, a folder without engine files.
+        BalcliError: a path does not exist, or a folder has no engine files.
     """
     files: list[Path] = []
     for path in paths:
-        # Unlike Path.is_dir, this is false where one may not look, or the name is too long.
+        # Unlike Path.is_dir, this is false for forbidden paths and for names that are too long.
         folder = os.path.isdir(path)
         found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
         if not found or not os.path.exists(path):
@@ -167,15 +167,15 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
 
 
 def find_expected(paths: Sequence[Path]) -> list[Path]:
-    """Return the files of records of `check` in those paths that are folders, and in their
-    subfolders.
+    """Return the files with expected results of `check` in those paths that are folders, and in
+    their subfolders.
     """
     files = chain.from_iterable(_walk(path) for path in paths if os.path.isdir(path))
     return sorted({f for f in files if f.parent.name == "expected" and f.suffix == ".json"})
 
 
 def _walk(folder: Path) -> Iterator[Path]:
-    """Yield all files in a folder and those within it that are not hidden."""
+    """Yield all files in a folder and its subfolders, except hidden ones."""
     for path in folder.rglob("*"):
         if not any(part.startswith(".") for part in path.relative_to(folder).parts[:-1]):
             yield path
@@ -186,14 +186,14 @@ def _is_engine(path: Path) -> bool:
 
 
 def require_gas(engine: Engine, path: str) -> None:
-    """Raise an error for an engine without gas.
+    """Check that an engine has gas.
 
     Args:
         engine: Engine to check.
-        path: Its file, for messages.
+        path: File of the engine, for messages.
 
     Raises:
-        BalcliError: It has none; the error names the missing table.
+        BalcliError: The engine has no gas; the error names the missing table.
     """
     if engine.gas is None:
         raise BalcliError(f"{name_file(path)}: {NO_GAS}")
@@ -208,12 +208,12 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
         path: File of the engine, for messages.
 
     Raises:
-        BalcliError: It has no gas, or no such cylinder.
+        BalcliError: The engine has no gas or no such cylinder.
     """
     if not numbers:
         return engine
     require_gas(engine, path)
-    from ..forces.curves import silence  # for those who ask
+    from ..forces.curves import silence  # rarely needed
 
     for number in numbers:
         engine = silence(engine, number)
@@ -221,22 +221,22 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
 
 
 def named_by_file(engine: Engine, path: str) -> Engine:
-    """Return the engine, named by its file if it has no name.
+    """Return the engine; if it has no name, its file's name is used.
 
     Args:
         engine: Engine.
-        path: Its file.
+        path: File of the engine.
     """
     return engine if engine.name else replace(engine, name=legible(Path(name_file(path)).stem))
 
 
 def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """Return names that distinguish engines: the name of each, or its file if it has no name or
-    shares it with another.
+    """Return distinct names of engines: the name of each, or its file if it has no name or shares
+    the name with another.
 
     Args:
         names: Names of the engines; may be empty.
-        paths: Their files.
+        paths: Files of the engines.
     """
     return [
         name if name and names.count(name) == 1 else legible(name_file(path))

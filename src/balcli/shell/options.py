@@ -1,4 +1,4 @@
-"""Options that several commands share."""
+"""Options that several commands share, and the parsers of their values."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from ..sizing.options import check_small
 from .file_names import format_option, parse_output
 from .values import optional, read_length, read_share, read_speed
 
-# words of `analyze --only` that name a table or text of what is computed anyway
+# words of `analyze --only` for tables and texts of quantities that are computed anyway
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses")  # computed only when they are named
+CLOSER = ("inner", "guide", "journals", "masses")  # computed only if named
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -82,7 +82,7 @@ Orders = Annotated[
     str | None,
     optional(
         "1-8|0.5-8|1,2,4",
-        "Orders to show; default: 1, 2 and all that are not negligible; with gas all up to 12.",
+        "Orders to show; default: 1, 2 and others that are not negligible; with gas, all to 12.",
         "--orders",
     ),
 ]
@@ -110,13 +110,13 @@ Small = Annotated[
     optional("5%", "Ignore parts below this share of one cylinder's order 1."),
 ]
 Whole = Annotated[
-    bool, typer.Option("--all", help="Every table and every order that is not rounding.")
+    bool, typer.Option("--all", help="Show every table and every order above rounding errors.")
 ]
 Misfire = Annotated[
     list[int] | None,
     optional(
         "N",
-        "A cylinder without gas pressure, may be given again. If it still compresses, give "
+        "Cylinder without gas pressure; may be given again. If it still compresses, give "
         "[cylinder.N] heat = 0 in the file.",
     ),
 ]
@@ -124,18 +124,18 @@ GuideHeight = Annotated[
     str | None,
     optional(
         "MM",
-        "With --only guide: from the crankshaft to the middle of the guides, in mm or as "
-        "'80 in'; default: length of the rod.",
+        "With --only guide: distance of the guides' middle from the crankshaft, mm or "
+        "'80 in'; default: rod length.",
         "--guide-height",
     ),
 ]
 
 
 def parse_orders(text: str | None) -> list[float] | None:
-    """Return orders as in `1-8`, `1,2,4`, `1-4,8`, or in halves `0.5-8`.
+    """Return the orders in a text such as `1-8`, `1,2,4`, `1-4,8`, or `0.5-8` in steps of a half.
 
     Raises:
-        BalcliError: anything else, with the text.
+        BalcliError: the text has another form.
     """
     if text is None:
         return None
@@ -144,15 +144,15 @@ def parse_orders(text: str | None) -> list[float] | None:
 
 
 def read_orders(text: str, right: str, bounds: str, least: float, most: float) -> list[float]:
-    """Return orders and ranges of them with commas between; a range that begins or ends with a half
-    has halves.
+    """Return orders from a text of orders and ranges, separated by commas. A range that begins or
+    ends with a half order includes half orders.
 
     Args:
-        right: what to give, for messages.
-        bounds: that ranges rise from the least to the most, for messages.
+        right: Hint on the right form, for messages.
+        bounds: Hint that ranges must rise between the bounds, for messages.
 
     Raises:
-        BalcliError: anything else, with the text.
+        BalcliError: the text has another form.
     """
     start = f'--orders "{text[:LONGEST_SHOWN]}": '
     orders: list[float] = []
@@ -170,20 +170,18 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
 
 
 def _count_halves(text: str) -> int | None:
-    """Return twice an order that is written with digits, such as `8` or `0.5`; None for anything
-    else.
-    """
+    """Return twice the order in a text such as `8` or `0.5`; None for other texts."""
     if not re.fullmatch(r"\s*[0-9]{1,12}(\.[05]0*)?\s*", text, re.ASCII):
         return None
     return round(2 * float(text))
 
 
 def parse_only(text: str | None) -> list[str] | None:
-    """Return the quantities of `--only`, by name, with commas or blanks between; a plural names the
-    same.
+    """Return the names in the value of `--only`, which are separated by commas or blanks; plurals
+    are allowed.
 
     Raises:
-        BalcliError: all of them.
+        BalcliError: the word "all" is among them.
     """
     if text is None:
         return None
@@ -194,13 +192,13 @@ def parse_only(text: str | None) -> list[str] | None:
 
 
 def parse_parts(text: str | None) -> tuple[list[str] | None, frozenset[str]]:
-    """Return the quantities that `--only` of `analyze` names, and all words of it.
+    """Return the quantities to compute for `analyze --only`, and all its words.
 
-    A word that names a table alone (`PARTS`) is computed from force and moment, unless quantities
-    are named with it.
+    If a word names only a table (`PARTS`), force and moment are computed for it, unless one of them
+    is named.
 
     Raises:
-        BalcliError: Words that are none of these.
+        BalcliError: A word is unknown.
     """
     words = parse_only(text)
     if words is None:
@@ -219,7 +217,7 @@ def parse_small(text: str | None) -> float:
     """Return the share of `--small`.
 
     Raises:
-        BalcliError: no share from 0 to MOST_SMALL.
+        BalcliError: the value is not a share from 0 to MOST_SMALL.
     """
     wanted = "a share of one cylinder's first order, such as 2%"
     return check_small(SMALL if text is None else read_share("--small", text, wanted))
@@ -229,7 +227,7 @@ def parse_speed(text: str | None) -> float | None:
     """Return the speed of `--speed`, rpm.
 
     Raises:
-        BalcliError: unless it is positive and finite.
+        BalcliError: it is not positive and finite.
     """
     if text is None:
         return None
@@ -240,7 +238,7 @@ def parse_speed(text: str | None) -> float | None:
 
 
 def parse_guide_height(text: str | None, units: Units) -> float | None:
-    """Return the height of `--guide-height`, m; None without it.
+    """Return the height of `--guide-height`, m; None if not given.
 
     Args:
         text: Value of the option.

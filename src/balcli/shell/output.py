@@ -1,4 +1,4 @@
-"""Output of results: to standard output or into a file, never onto a file that a command reads."""
+"""Write results to standard output or into files; protect files that a command reads."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 R = TypeVar("R")
-_OF_RESULTS = ("OUT", "--output")  # where - is standard output
+_OF_RESULTS = ("OUT", "--output")  # here - means standard output
 
 
 def show(
@@ -36,7 +36,7 @@ def show(
     output: Path | None,
     units: Units = Units.SI,
 ) -> None:
-    """Print results in a format, or write them into a file.
+    """Print results in a format or write them into a file.
 
     Args:
         results: Results of one kind.
@@ -52,19 +52,19 @@ def show(
 
 
 def is_seen(output: Path | None) -> bool:
-    """Whether the output is printed to a terminal."""
+    """Return whether the output is printed to a terminal."""
     return output is None and sys.stdout.isatty()
 
 
 def emit(text: str, output: Path | None = None) -> None:
-    """Print a text, or write it into a file; it ends in a newline.
+    """Print a text or write it into a file, with a final newline.
 
     Args:
         text: Text.
         output: File to write; None: standard output.
 
     Raises:
-        BalcliError: The file cannot be written; an older one is left as it was.
+        BalcliError: The file cannot be written; an older one is unchanged.
     """
     text = text if text.endswith("\n") else text + "\n"
     if output is not None:
@@ -76,7 +76,7 @@ def emit(text: str, output: Path | None = None) -> None:
 
 @contextmanager
 def standard_output() -> Iterator[TextIO]:
-    """Yield standard output. A pipe that its reader has closed is no error.
+    """Yield standard output. A closed pipe is not an error.
 
     Raises:
         BalcliError: standard output cannot be written.
@@ -85,7 +85,7 @@ def standard_output() -> Iterator[TextIO]:
         yield sys.stdout
         sys.stdout.flush()
     except OSError as error:
-        # What is left in the buffer goes nowhere, else the end of Python would fail again.
+        # Discard the rest of the buffer; otherwise the exit of Python would fail again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not has_no_reader(error):
             reason = error.strerror or error
@@ -100,7 +100,7 @@ def write_file(content: str | bytes, target: Path) -> None:
         target: File to write.
 
     Raises:
-        BalcliError: The file cannot be written; an older one is left as it was.
+        BalcliError: The file cannot be written; an older one is unchanged.
     """
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
@@ -115,16 +115,16 @@ def write_figure(figure: Figure, form: Form, target: Path) -> None:
         form: Format of the file.
         target: File to write.
     """
-    from ..show.plot_style import save_figure  # few draw
+    from ..show.plot_style import save_figure  # rarely needed
 
     write_file(save_figure(figure, form), target)
 
 
 def make_folder_of(path: Path) -> Path:
-    """Make the folder of a file, unless it is there; returns the file's path.
+    """Create the folder of a file unless it exists; return the file's path.
 
     Raises:
-        BalcliError: the folder cannot be made.
+        BalcliError: the folder cannot be created.
     """
     try:
         path.parent.mkdir(exist_ok=True)
@@ -135,14 +135,14 @@ def make_folder_of(path: Path) -> Path:
 
 # ------------------------------------------------------------------ refusals
 def refuse_existing(path: Path | None, force: bool) -> None:
-    """Raise an error if a file exists that may not be overwritten.
+    """Check that a file may be written.
 
     Args:
         path: File to write; None: standard output.
-        force: Whether it may be overwritten.
+        force: Whether an existing file may be overwritten.
 
     Raises:
-        BalcliError: It exists.
+        BalcliError: The file exists and `force` is false.
     """
     if path is not None and os.path.lexists(path) and not force:
         raise BalcliError(f"{path}: already exists; choose another name, or --force")
@@ -152,12 +152,13 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
     """Check the targets of a command before it computes anything.
 
     Args:
-        reads: paths of the files that are read; `-` is standard input.
-        writes: target of every option (`--output`); None: nothing is written.
+        reads: Paths of the files that are read; `-` is standard input.
+        writes: Target by option (`--output`); None: the option is not given.
 
     Raises:
-        BalcliError: a target is a file that is read, or that an engine file names, or another
-            target, or has no folder; standard input is read twice; `-` is not for results.
+        BalcliError: a target is also a file that is read or that an engine file names, or the
+            target of another option, or its folder does not exist; standard input is read twice;
+            `-` is given for an option that does not allow it.
     """
     if list(reads).count("-") > 1:
         raise BalcliError("standard input (-) is named twice, and can be read only once")
@@ -190,22 +191,22 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
 
 
 def _is_same_file(one: Path, other: Path) -> bool:
-    """Whether two paths are one file, whether it exists or not; a device may be used twice."""
+    """Return whether two paths mean the same (perhaps future) file; devices may be used twice."""
     if not os.path.exists(one):
         return os.path.realpath(one) == os.path.realpath(other)
     return os.path.isfile(one) and os.path.exists(other) and os.path.samefile(one, other)
 
 
 def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
-    """Check that an engine file that is written into another folder finds the files that it names.
+    """Check that an engine file, written into another folder, still finds the files that it names.
 
     Args:
-        text: the text of the engine or chain file, which is valid.
-        source: its path; `-` is standard input, in the working folder.
-        target: the path of the new file.
+        text: Text of a valid engine or chain file.
+        source: Path of the file; `-` is standard input, in the working folder.
+        target: Path of the new file.
 
     Raises:
-        BalcliError: the target's folder lacks a file, or has another one of that name.
+        BalcliError: the target's folder lacks a named file, or has a different one of that name.
     """
     folder = Path(source).parent
     if folder.resolve() == target.parent.resolve():
@@ -218,7 +219,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
 
 
 def _list_named_files(source: Path) -> list[Path]:
-    """Return the files that an engine file names; an unreadable one, reported later, names none."""
+    """Return the files that an engine file names; empty for an unreadable file, reported later."""
     try:
         data = parse_toml(read_bytes(source), str(source)) if os.path.isfile(source) else {}
         return [source.parent / name for name in _list_names(data)]

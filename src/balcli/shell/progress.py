@@ -1,4 +1,4 @@
-"""Progress of long computations: a bar on a terminal, and how far it was after Ctrl-C."""
+"""Report the progress of long computations: a bar on a terminal, and a message after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_SILENT_S, _EVERY_S = 2.0, 0.5  # before the bar appears, and between two updates
+_SILENT_S, _EVERY_S = 2.0, 0.5  # time before the bar appears, and between updates
 
 
 class Progress:
-    """Callback that counts the work done and shows it on a terminal.
+    """Callback that receives the work done so far and shows it on a terminal.
 
     Attributes:
-        done: the work done so far.
-        stopped: whether Ctrl-C asks the computation to end with what there is.
+        done: Work done so far.
+        stopped: Whether Ctrl-C asks the computation to end with the results so far.
     """
 
     def __init__(self, what: str, total: float | None, at_once: bool, shown: bool) -> None:
@@ -39,7 +39,7 @@ class Progress:
         self._bar = _make_bar(what, total) if wanted else None
 
     def __call__(self, done: float) -> bool:
-        """Report the work done; returns whether to stop."""
+        """Report the work done so far; return whether to stop."""
         self.done = done
         if self._bar is not None and time.monotonic() >= self._next:
             self._next = time.monotonic() + _EVERY_S
@@ -53,7 +53,7 @@ class Progress:
         return self.stopped and self.done < (self._total or 1.0)
 
     def describe(self) -> str:
-        """Return the work done, such as "20000 of 4000000 variants" or "0.50% of the work"."""
+        """Return a text such as "20000 of 4000000 variants" or "0.50% of the work"."""
         if self._total is None:
             return f"{self.done:.2%} of the {self._what}"
         return f"{count_name(self.done)} of {count_name(self._total)} {self._what}"
@@ -65,7 +65,7 @@ class Progress:
 
 
 def _make_bar(what: str, total: float | None) -> Bar:
-    """Return a bar on standard error that has not been started; messages are printed above it."""
+    """Return a bar on standard error, not yet started; messages are printed above it."""
     from rich import progress
     from rich.console import Console
 
@@ -88,13 +88,13 @@ def _make_bar(what: str, total: float | None) -> Bar:
 def reporting(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
-    """Yield a callback for the work done. Ctrl-C ends the command and prints how far it was.
+    """Yield a callback for the work done so far. Ctrl-C ends the command and prints the progress.
 
     Args:
-        what: the noun for the work, such as "samples".
-        total: the number of them; None: the callback gets the share of all, from 0 to 1.
-        at_once: show the bar from the start, not after two seconds.
-        shown: False where results are written to the terminal meanwhile.
+        what: Noun for the work, such as "samples".
+        total: Total number; None: the callback receives the share of the work, from 0 to 1.
+        at_once: Whether the bar appears at the start, not after two seconds.
+        shown: Whether to show a bar; false if results are written to the terminal meanwhile.
     """
     progress = Progress(what, total, at_once, shown)
     try:
@@ -111,15 +111,15 @@ def reporting(
 def reporting_until_stopped(
     what: str, total: float | None = None, at_once: bool = False, shown: bool = True
 ) -> Iterator[Progress]:
-    """Report progress as `reporting` does, for a computation that can end early with a smaller
-    result: the first Ctrl-C only sets `stopped`, the second one ends the command. An ignored Ctrl-C
-    (`nohup`) stays ignored.
+    """Report progress as `reporting` does, for a computation that can end early with a partial
+    result: the first Ctrl-C only sets `stopped`, the second one ends the command. If the process
+    ignores Ctrl-C (`nohup`), it continues to do so.
 
     Args:
-        what: Name of the work.
-        total: Number of its steps; None: not known.
+        what: Noun for the work.
+        total: Total number; None: the callback receives the share of the work, from 0 to 1.
         at_once: Whether the bar appears without delay.
-        shown: Whether there is a bar.
+        shown: Whether to show a bar.
     """
     before = signal.getsignal(signal.SIGINT)
     with reporting(what, total, at_once, shown) as progress:
@@ -137,11 +137,11 @@ def reporting_until_stopped(
 
 
 def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
-    """End with the status of an interruption, and print how far the work was, if it was cut short.
+    """If the work was cut short, print its progress and end with the status of an interruption.
 
     Args:
         progress: Progress of the work.
-        what_there_is: Words on the result so far.
+        what_there_is: Remark on the result so far.
     """
     if progress.cut_short:
         tail = f"; {what_there_is}" if what_there_is else ""
@@ -150,7 +150,7 @@ def exit_if_cut_short(progress: Progress, what_there_is: str = "") -> None:
 
 
 def each_until_stopped(items: Sequence[T], progress: Progress) -> Iterator[T]:
-    """Yield the items until Ctrl-C; each one is counted when the next is requested.
+    """Yield the items until Ctrl-C; an item counts as done when the next one is requested.
 
     Args:
         items: Items of the work.

@@ -1,4 +1,4 @@
-"""Options of a balance scheme: for `balance`, and for commands that show an engine with and without
+"""Options of a balance scheme, for `balance` and for commands that show an engine with and without
 devices.
 """
 
@@ -17,7 +17,7 @@ from .values import optional, read_lengths, read_mass_on_scales, read_share
 
 
 def complete_schemes(incomplete: str) -> list[str]:
-    """Return the balance schemes that begin with this text."""
+    """Return the names of balance schemes that begin with this text."""
     return [name for name in NAMES if name.startswith(incomplete)]
 
 
@@ -25,16 +25,16 @@ Scheme = Annotated[
     str | None,
     optional(
         "NAME",
-        "Also with the devices of a balance scheme, such as auto.",
+        "Also show the engine with the devices of a scheme, such as auto.",
         autocompletion=complete_schemes,
     ),
 ]
 Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Place of a shaft, mm; for two, the one at -N first."),
+    optional("X,Y", "Position of a shaft, mm; of two shafts, the one at -N first."),
 ]
-Position = Annotated[str | None, optional("Z", "Axial place of new devices, mm.")]
+Position = Annotated[str | None, optional("Z", "Axial position of new devices, mm.")]
 Planes = Annotated[
     str | None,
     optional(
@@ -46,7 +46,7 @@ Factor = Annotated[
     str | None,
     optional("K|K:K:STEP", "Balance factor, such as 51% or 50%:54%:1%."),
 ]
-Measured = Annotated[str | None, optional("MASS", 'Mass that balances a pin now: "812 g".')]
+Measured = Annotated[str | None, optional("MASS", 'Mass that now balances a pin: "812 g".')]
 Roll = Annotated[str | None, optional("zero", "Place two shafts so that they cancel roll.")]
 
 
@@ -61,21 +61,21 @@ def parse_scheme_options(
     units: Units,
     small: str | None = None,
 ) -> SchemeOptions:
-    """Return the options of a balancing scheme, in SI; each argument is an option as typed, or
+    """Return the options of a balance scheme in SI units; each argument is an option as typed, or
     None.
 
     Args:
         order: Order to balance.
-        at: Places of shafts, each as `x,y`.
-        position: Axial place of new devices.
-        planes: "ends", "throws", or axial places of new devices.
+        at: Positions of shafts, each as `x,y`.
+        position: Axial position of new devices.
+        planes: "ends", "throws", or axial positions of new weights.
         factor: Share of the reciprocating mass, or a range of shares.
         measured: Mass that balances a bare pin.
         roll: "zero" to cancel the roll of inertia.
         units: System of units of bare numbers.
 
     Raises:
-        BalcliError: A text that cannot be read.
+        BalcliError: A text cannot be read.
     """
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
@@ -93,12 +93,12 @@ def parse_scheme_options(
 
 
 def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto") -> str:
-    """Return the given scheme; without one, `factor` where a factor is given, else the usual one.
+    """Return the given scheme; without one, `factor` if a factor is given, otherwise `usual`.
 
     Args:
         asked: Value of `--scheme`; None: not given.
         options: Options of the scheme.
-        usual: Scheme without any of these.
+        usual: Scheme if neither is given.
     """
     if asked is not None:
         return asked
@@ -107,7 +107,7 @@ def choose_scheme(asked: str | None, options: SchemeOptions, usual: str = "auto"
 
 
 def choose_beside(asked: str | None, options: SchemeOptions) -> str | None:
-    """Return the scheme to show next to the engine as it is; None if none was given.
+    """Return the scheme to compare with the engine; None if neither scheme nor options are given.
 
     Args:
         asked: Value of `--scheme`; None: not given.

@@ -1,11 +1,11 @@
-"""Lengths, angles, speeds, masses and shares as users type them on the command line: as in an
-engine file, `40`, `2.5 in`, `1/7 turn`, `9000 rpm`, and shares as `0.51` or `51%`.
+"""Read lengths, angles, speeds, masses and shares from the command line. They are written as in an
+engine file (`40`, `2.5 in`, `1/7 turn`, `9000 rpm`), and shares as `0.51` or `51%`.
 
-A bare number is in mm, kg, degrees or rpm. With `--units imperial` bare numbers for mm, kg and
-kg mm2 are ambiguous and need a unit.
+A bare number is in mm, kg, kg mm2, degrees or rpm. With `--units imperial`, lengths, masses and
+inertias need a unit, because bare numbers would be ambiguous.
 
-Also the declaration of optional options, and ranges of crank speeds (`--speeds`, `analyze
---speed`).
+The module also declares optional options (`optional`), and reads ranges of crank speeds
+(`--speeds`, `analyze --speed`).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: It is no length.
+        BalcliError: It is not a length.
     """
     return _read(option, text, LENGTH, units) / 1e3
 
@@ -63,14 +63,14 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
 def read_lengths(
     option: str, text: str, needed: str, count: int | None = None, units: Units = Units.SI
 ) -> tuple[float, ...]:
-    """Return lengths with commas between them, in m.
+    """Return the lengths in a text, separated by commas, m.
 
     Args:
-        needed: the wanted value, for the message: `one place along z in mm, such as 40`.
-        count: how many there have to be; None: any number from one.
+        needed: Description of the right value, for messages: `one place along z in mm, such as 40`.
+        count: Required number of lengths; None: one or more.
 
     Raises:
-        BalcliError: anything else; lengths of which only some have a unit.
+        BalcliError: the text has another form, or only some of the lengths have a unit.
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(any(map(str.isdigit, part)) for part in parts) or (
@@ -87,13 +87,13 @@ def read_lengths(
 
 
 def read_mass(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a mass in kg; BalcliError with the option and its text."""
+    """Return a mass, kg; raise BalcliError with the option and its text."""
     return _read(option, text, MASS, units)
 
 
 def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a mass as `read_mass` does, but a bare number is in g, as on the scales of a shop, and
-    finite.
+    """Return a finite mass, kg. Unlike in `read_mass`, a bare number is in g, as on a shop's
+    scales.
     """
     found = _read(option, text, _SCALES, units) / 1e3
     if not math.isfinite(found):
@@ -102,8 +102,8 @@ def read_mass_on_scales(option: str, text: str, units: Units = Units.SI) -> floa
 
 
 def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
-    """Return a moment of inertia in kg m2; BalcliError with the option and its text, or for one
-    that is not above 0.
+    """Return a moment of inertia, kg m2; raise BalcliError with the option and its text, also if it
+    is not above 0.
     """
     found = _read(option, text, INERTIA, units) / 1e6
     if not 0 < found < LARGEST_INERTIA:
@@ -112,15 +112,15 @@ def read_inertia(option: str, text: str, units: Units = Units.SI) -> float:
 
 
 def read_angle(option: str, text: str) -> float:
-    """Return an angle in degrees; BalcliError with the option and its text."""
+    """Return an angle, deg; raise BalcliError with the option and its text."""
     return _read(option, text, ANGLE, Units.SI)
 
 
 def as_bare_angles(option: str, text: str) -> str:
-    """Return a range or list such as `0 deg:0.5 turn:5 deg` in bare degrees: `0:180:5`. What has no
-    unit stays as it is.
+    """Return a range or list of angles converted to bare degrees: `0:180:5` for `0 deg:0.5 turn:5
+    deg`. Angles without a unit are unchanged.
 
-    Raises: BalcliError: It names the option and the text that is no angle.
+    Raises: BalcliError: A text is not an angle; the error names it and the option.
     """
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
@@ -131,12 +131,14 @@ def as_bare_angles(option: str, text: str) -> str:
 
 
 def read_speed(option: str, text: str) -> float:
-    """Return a speed in rpm; BalcliError with the option and its text."""
+    """Return a speed, rpm; raise BalcliError with the option and its text."""
     return _read(option, text, SPEED, Units.SI)
 
 
 def read_number(option: str, text: str, needed: str) -> float:
-    """Return a plain number; BalcliError with the option, its text and the wanted value."""
+    """Return a finite plain number; raise BalcliError with the option, its text and the right
+    value.
+    """
     value = _as_bare(text)
     if value is None or not math.isfinite(value):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
@@ -152,9 +154,7 @@ def read_share(option: str, text: str, needed: str) -> float:
 
 
 def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
-    """Return a figure in the dimension's bare unit; whether it is finite is for the caller to
-    judge.
-    """
+    """Return a figure in the unit of bare numbers of its dimension; it may be infinite."""
     value = _as_bare(text)
     if units is Units.IMPERIAL and value and dimension in _IMPERIAL_AND_SI:
         ways = " or ".join(f'"{text.strip()} {name}"' for name in _IMPERIAL_AND_SI[dimension])
@@ -171,7 +171,7 @@ def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:
 
 
 def _as_bare(text: str) -> float | None:
-    """Return the number, if there is no unit to it."""
+    """Return the number in a text without a unit; None for other texts."""
     try:
         return float(re.sub(FORTRAN, r"e\1", text))
     except ValueError:
@@ -183,12 +183,12 @@ def _shown(option: str, text: str) -> str:
 
 
 def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
-    """Return an option whose help shows no default, because it is normally left out.
+    """Return an option whose help shows no default.
 
     Args:
         metavar: Placeholder of its value in help.
         text: Help of the option.
-        names: Names as typed, such as --scheme; default: that of the parameter.
+        names: Names as typed, such as --scheme; default: the parameter's name.
         more: Further arguments of `typer.Option`.
     """
     return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
@@ -198,7 +198,7 @@ Speeds = Annotated[
     str | None,
     optional(
         "RPM:RPM:STEP|RPM,...",
-        "Crank speeds; default: from an eighth of the file's speed to this.",
+        "Crank speeds; default: 1/8 to 1 times the file's speed.",
         "--speeds",
         "--speed",
     ),
@@ -208,15 +208,15 @@ Speeds = Annotated[
 def parse_speeds(
     text: str | None, option: str = "--speeds", most: int = MOST_SPEEDS
 ) -> Real | None:
-    """Return speeds of `1000:2500:25` (first, last, step), `1000:2500` (100 steps) or `1500,2000`,
-    rpm, rising.
+    """Return rising speeds, rpm, from a text such as `1000:2500:25` (first, last, step),
+    `1000:2500` (100 steps) or `1500,2000`.
 
     Args:
-        option: by which they were given, for messages.
-        most: how many there may be.
+        option: Name of the option, for messages.
+        most: Largest number of speeds.
 
     Raises:
-        BalcliError: anything else, with the text.
+        BalcliError: the text has another form.
     """
     if text is None:
         return None

@@ -1,1 +1,1 @@
-"""A result in, text out. One file a format; nothing here computes."""
+"""Convert results to text, HTML, CSV, JSON and pictures; nothing is computed here."""

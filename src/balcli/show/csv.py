@@ -1,4 +1,4 @@
-"""Rows under a header as CSV in full precision, and documents as JSON."""
+"""Write rows as CSV in full precision, and documents as JSON."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-# Beginnings of what is run, in full width as in small.
+# Beginnings of cells that spreadsheets run as formulas, in ASCII and full width.
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _PARTED = re.compile(r'[",;\t\r\n]')
 
@@ -26,8 +26,8 @@ class Columns(NamedTuple):
     """A result as columns of one length, for DataFrames.
 
     Attributes:
-        values: by name, each a list or an array.
-        units: of some of them.
+        values: Lists or arrays, by column name.
+        units: Units of some columns, by column name.
     """
 
     values: Mapping[str, Column]
@@ -35,27 +35,27 @@ class Columns(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """CSV of a result: names of the columns, and lines of as many cells."""
+    """CSV of a result: names of the columns, and lines with a cell for each column."""
 
     header: Sequence[str]
     lines: Iterable[Sequence[object]]
 
 
 def csv_text(results: Sequence[Rows]) -> str:
-    """Return the lines of all results under the header of the first; None is an empty cell."""
+    """Return the lines of all results under the header of the first; None becomes an empty cell."""
     lines = [results[0].header, *(line for rows in results for line in rows.lines)]
     return "".join(",".join(map(_cell, line)) + "\n" for line in lines)
 
 
 def name_cell(name: str) -> str:
-    """Return a name that a user has given, with an apostrophe before it where a spreadsheet would
-    take it for a formula and run it.
+    """Return a name from a user, with an apostrophe in front if a spreadsheet would run it as a
+    formula.
     """
     return f"'{name}" if name.startswith(FORMULA) else name
 
 
 def _cell(value: object) -> str:
-    """Return a cell, between quotes where any program might part it."""
+    """Return a cell, in quotes if a program might split it."""
     if value is None:
         return ""
     if isinstance(value, bool):
@@ -65,12 +65,14 @@ def _cell(value: object) -> str:
 
 
 def json_text(document: object) -> str:
-    """Return one document on one line; ValueError for a nan or infinity in it, a fault of ours."""
+    """Return a document on one line; raise ValueError if it has a nan or infinity (a bug)."""
     return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
 
 
 def stamp(document: object) -> Any:
-    """Return a result with the version that wrote it, after its format; anything else as it is."""
+    """Return a document with the version of balcli inserted after its format; return anything else
+    unchanged.
+    """
     if not isinstance(document, dict) or "format" not in document:
         return document
     return {"format": document["format"], "version": __version__} | document

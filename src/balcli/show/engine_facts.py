@@ -1,4 +1,4 @@
-"""An engine in a few lines, as it stands at the head of an analysis."""
+"""Describe an engine in a few lines, for the head of an analysis."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from .figures import silent_entries
 from .sheet import Facts, get_digits, given, number, tell_assumed
 from .units import System
 
-AXES_SHOWN = 9  # of banks
+AXES_SHOWN = 9  # most axes of banks in a line
 THROWS_SHOWN = 12
-EVEN_DEG = 0.05  # intervals of firing that differ by less are shown as one
+EVEN_DEG = 0.05  # firing intervals that differ by less count as equal
 
 
 def speed_facts(engine: Engine, *, steady: bool = False) -> Facts:
-    """Return the crank speed, and which cylinders have no gas, or burn nothing.
+    """Return the crank speed, and the cylinders that have no gas or burn nothing.
 
     Args:
         engine: Engine at this speed.
-        steady: Whether the figures are those in which an uneven speed does not count.
+        steady: Whether the figures ignore an uneven speed.
     """
     return Facts((("speed", tell_speed(engine, steady=steady)), *list_silent(engine.silent)))
 
 
 def name_cylinders(numbers: Sequence[int]) -> str:
-    """Return cylinders in words, such as "cylinders 1 and 4"."""
+    """Return a text for cylinders, such as "cylinders 1 and 4"."""
     return f"cylinder{'s' * (len(numbers) > 1)} {join_words([*map(str, numbers)])}"
 
 
 def tell_pivot(engine: Engine) -> str:
-    """Return the axis of couple and roll, in words."""
+    """Return the name of the axis of couple and roll."""
     return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
 
 
@@ -50,12 +50,12 @@ _TURNING = '"with the crank" is with the cylinders here, and counterweights stan
 def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
-    """Return cylinders, crank, firing, speed, masses that the figures include, devices; and, if the
-    whole engine is shown, the highest order, the reference of moments and the source.
+    """Return cylinders, crank, firing, speed, included masses, and devices. If the whole engine is
+    shown, highest order, reference of moments and source follow.
 
     Args:
-        higher: Whether there may be orders above those that are shown by default.
-        speeds_rpm: Speeds of the figures, ascending, where there are several.
+        higher: Whether there may be orders above the default range.
+        speeds_rpm: Ascending speeds of the figures, if there are several.
     """
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     reference = f"moments about x, y, z = {about} {system.length.name}"
@@ -87,8 +87,8 @@ def engine_facts(
 
 
 def _tell_inferred(engine: Engine) -> str:
-    """Return keys that the file leaves out; throws and intervals without their values, which stand
-    in lines of their own.
+    """Return the assumed values of keys that the file leaves out. Throws and intervals are named
+    without values, because other lines show these.
     """
     shown = {"crank.throws", "layout.firing_intervals"}
     pairs = (line.split(" = ") for line in engine.list_assumed("gas") or ())
@@ -96,11 +96,11 @@ def _tell_inferred(engine: Engine) -> str:
 
 
 def tell_speed(engine: Engine, *, steady: bool = False) -> str:
-    """Return the mean speed, and whether it is uneven.
+    """Return the mean speed, with a remark if the speed is uneven.
 
     Args:
         engine: Engine at this speed.
-        steady: Whether the figures are those in which an uneven speed does not count.
+        steady: Whether the figures ignore an uneven speed.
     """
     counts = "uneven: figures are those of the uneven speed"
     counts = "the file's uneven one does not count" if steady else counts
@@ -115,8 +115,9 @@ def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
 
 
 def _throws(engine: Engine) -> str:
-    """Return angles of the throws after cylinder 1's pin, free end to flywheel end; of split pins,
-    first those of one bank. Empty of one throw with one pin.
+    """Return the angles of the throws relative to cylinder 1's pin, from the free end to the
+    flywheel end. With split pins, the angles are those of one bank, followed by the lead of the
+    next. Empty for one throw with one pin.
     """
     pins: dict[int, list[float]] = {}
     for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
@@ -144,7 +145,7 @@ def _banks(engine: Engine) -> str:
 
 
 def _bore(engine: Engine, system: System) -> str:
-    """Return bore, stroke and displacement, where the file gives the bore."""
+    """Return bore, stroke and displacement; empty if the file gives no bore."""
     bore_m = float(engine.bore_m)
     if math.isnan(bore_m):
         return ""
@@ -159,7 +160,7 @@ def _bore(engine: Engine, system: System) -> str:
 
 
 def _crank(engine: Engine, system: System) -> str:
-    """Return the crank radius, rod length and their ratio, of cylinder 1."""
+    """Return crank radius, rod length and their ratio for cylinder 1."""
     c, unit = engine.cylinders, system.length
     first = engine.numbers.index(1)
     radius, lam = float(c.radius_of_each[first]), float(c.lam[first if len(c.lam) > 1 else 0])
@@ -181,8 +182,8 @@ def _list_strokes(engine: Engine, system: System) -> str:
 
 
 def _masses(engine: Engine, system: System, *, whole: bool) -> str:
-    """Return reciprocating and rotating masses of cylinder 1, and the mass that turns with its pin
-    where that carries several rods.
+    """Return the reciprocating and rotating masses of cylinder 1, and the whole rotating mass of
+    its pin if the pin carries several rods.
     """
     row, unit = engine.numbers.index(1), system.mass
     weighed = engine.weighed[row]
@@ -192,7 +193,7 @@ def _masses(engine: Engine, system: System, *, whole: bool) -> str:
 
     text = f"reciprocating {shown(weighed.reciprocating)} {unit.name} per cylinder"
     text += " (piston, rod's small end)" * whole
-    if not engine.rotary:  # else the pins stand still
+    if not engine.rotary:  # in a rotary engine the pins stand still
         shells = ", shells and oil" if weighed.rod_bearing or weighed.oil else ""
         text += f", rotating {shown(weighed.rotating + weighed.share)} {unit.name} per rod"
         text += f" (big end{shells}, share of the throw)" * whole
@@ -209,12 +210,12 @@ def _unequal(engine: Engine) -> str:
 
 
 def _firing(engine: Engine) -> str:
-    """Return the firing order, the intervals between firings, and the strokes of a cycle, as far as
-    the file says or implies them.
+    """Return the firing order, the intervals between firings, and the strokes of a cycle; without a
+    firing order, only strokes that are not assumed.
     """
     if not engine.fires_deg:
         said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
-        return tell_strokes(engine) if said or engine.gas is not None else ""  # else assumed
+        return tell_strokes(engine) if said or engine.gas is not None else ""  # not if assumed
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
     intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing
@@ -231,7 +232,7 @@ def tell_strokes(engine: Engine) -> str:
 
 
 def list_silent(silent: SilentCylinders) -> list[tuple[str, str]]:
-    """Return lines of the cylinders without gas, and of those that compress and burn nothing."""
+    """Return lines on cylinders without gas and on cylinders that compress but burn nothing."""
     return [
         (key.replace("_", " "), ", ".join(map(str, numbers)))
         for key, numbers in silent_entries(silent).items()

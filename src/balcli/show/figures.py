@@ -1,4 +1,4 @@
-"""The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
+"""Records of an engine's figures (orders, peaks, size and state), and their lines of CSV."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -26,7 +26,7 @@ class Component(NamedTuple):
 
     Attributes:
         amplitude: Amplitude.
-        phase_deg: Phase; null for a mean and where there is no amplitude.
+        phase_deg: Phase; null for a mean and for an amplitude of 0.
     """
 
     amplitude: float
@@ -35,18 +35,18 @@ class Component(NamedTuple):
 
 @dataclass(frozen=True)
 class Vector:
-    """One order of a force or moment: F = forward e^(i order angle) + backward e^(-i order angle),
-    whose tip runs round an ellipse.
+    """One order of a force or moment, F = forward e^(i order angle) + backward e^(-i order angle);
+    its tip describes an ellipse.
 
     Attributes:
-        forward: Part that turns with the crank: real and imaginary part.
-        backward: Part that turns against the crank: real and imaginary part.
-        major: Longer semi-axis of the ellipse: the largest value.
+        forward: Vector that turns with the crank: real and imaginary part.
+        backward: Vector that turns against the crank: real and imaginary part.
+        major: Longer semi-axis of the ellipse, the largest value.
         minor: Shorter semi-axis; 0 for a straight line.
-        axis_deg: Direction of the major axis from x; null for a circle and a point.
+        axis_deg: Direction of the major axis, from x; null for a circle and a point.
         x: Component along x.
         y: Component along y.
-        balanced: Whether nothing is left but rounding.
+        balanced: Whether the value is 0 except for rounding errors.
     """
 
     forward: complex
@@ -64,7 +64,7 @@ class FreeForce(Vector):
     """One order of a free force.
 
     Attributes:
-        vertical: Component along `frame.up`; left out where the file does not give it.
+        vertical: Component along `frame.up`; left out if the file does not give `frame.up`.
         horizontal: Component 90 deg ahead of `frame.up`; left out without `frame.up`.
     """
 
@@ -77,7 +77,7 @@ class FreeMoment(Vector):
     """One order of a free moment.
 
     Attributes:
-        yawing: Component about `frame.up`; left out where the file does not give it.
+        yawing: Component about `frame.up`; left out if the file does not give `frame.up`.
         pitching: Component about the axis 90 deg ahead of `frame.up`; left out without `frame.up`.
     """
 
@@ -93,7 +93,7 @@ class Harmonic(NamedTuple):
         sin: Sine part, N·m.
         amplitude: Amplitude, N·m.
         peak_deg: First crank angle of the largest value; null for a mean and a zero amplitude.
-        balanced: Whether nothing is left but rounding.
+        balanced: Whether the value is 0 except for rounding errors.
     """
 
     cos: float
@@ -105,15 +105,15 @@ class Harmonic(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class OrderFigures:
-    """Computed figures of one order, as far as they are known.
+    """Computed and known figures of one order.
 
     Attributes:
-        order: Times the crank speed; halves of four-stroke engines.
+        order: Order, in multiples of the crank speed; four-stroke engines have half orders.
         force_N: Free force.
         moment_Nm: Free moment about the point of reference.
         couple_Nm: Free couple about the crank's axis.
         inertia_torque_Nm: Torque of the inertia on the crank.
-        roll_Nm: Roll of the frame: couple less inertia torque.
+        roll_Nm: Roll of the frame: couple minus inertia torque.
         gas_torque_Nm: Torque of the gas on the crank.
         torque_Nm: Torque of inertia and gas on the crank.
         roll_total_Nm: Roll of the frame with gas.
@@ -131,7 +131,7 @@ class OrderFigures:
 
 
 class Peaks(NamedTuple):
-    """Largest values over a revolution, all orders together, and the first crank angles at which
+    """Largest values of all orders together over a revolution, and the first crank angles at which
     they are reached.
 
     Attributes:
@@ -148,12 +148,12 @@ class Peaks(NamedTuple):
 
 
 class EngineSize(NamedTuple):
-    """An engine.
+    """Name and size of an engine.
 
     Attributes:
         name: Name of the engine.
         cylinders: Number of cylinders.
-        displacement_m3: Displacement; null where the file gives no bore.
+        displacement_m3: Displacement; null if the file gives no bore.
     """
 
     name: str
@@ -162,7 +162,7 @@ class EngineSize(NamedTuple):
 
 
 class EngineName(NamedTuple):
-    """An engine by its name.
+    """Name of an engine.
 
     Attributes:
         name: Name of the engine.
@@ -189,8 +189,8 @@ class EngineState:
 
 
 class OrdersAndPeaks(Protocol):
-    """A result with orders and peaks, of an engine whose file may say where its throws stand: an
-    analysis, or the sum of two engines.
+    """A result with orders and peaks: an analysis, or the sum of two engines. Its moments are known
+    if the file gives the positions of the throws.
     """
 
     @property
@@ -204,7 +204,7 @@ class OrdersAndPeaks(Protocol):
 
 
 class FigureRow(NamedTuple):
-    """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
+    """One figure of a result. Cylinder 0 is the engine; order None means all orders together."""
 
     cylinder: int
     quantity: str
@@ -215,12 +215,12 @@ class FigureRow(NamedTuple):
 
 
 def find_peaks(spectra: Spectra) -> Peaks:
-    """Return the peaks of force and moment, of all orders that they have."""
+    """Return the peaks of force and moment, all orders together."""
     return Peaks(find_peak(spectra["force"]), find_peak(spectra["moment"]))
 
 
 def measure_engine(engine: Engine) -> EngineSize:
-    """Return name and size of an engine without trailing axes."""
+    """Return name and size of a single engine (no trailing axes)."""
     return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
 
 
@@ -230,7 +230,7 @@ def name_engine(engine: Engine | EngineFile) -> EngineName:
 
 
 def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
-    """Return a place given in m."""
+    """Return a position in m converted to mm."""
     return tuple(1e3 * float(v) for v in place_m)
 
 
@@ -246,13 +246,13 @@ def describe_state(engine: Engine) -> EngineState:
 def list_assumed(
     names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
 ) -> tuple[str, ...] | None:
-    """Return values taken because the files of several engines leave them out: first those common
-    to all, then those of single engines, with their names; None: no value.
+    """Return the values assumed because the files of several engines leave them out: first values
+    common to all, then values of single engines with their names; None if there are none.
 
     Args:
         names: Names of the engines.
         engines: Engines to compare.
-        chapters: Chapters of the file that count.
+        chapters: Chapters of the file to include.
     """
     each = [engine.list_assumed(*chapters) or () for engine in engines]
     common = [line for line in each[0] if all(line in lines for lines in each)]
@@ -262,20 +262,20 @@ def list_assumed(
 
 
 def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
-    """Return numbers of the cylinders without gas, and of those that compress and burn nothing."""
+    """Return the cylinders without gas, and those that compress but burn nothing, by number."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: numbers for key, numbers in each.items() if numbers}
 
 
 def clean(value: Figure) -> float | None:
-    """Return a plain float; None for nan, and no negative zero."""
+    """Return a plain float, with None for nan and 0.0 for -0.0."""
     number = float(value)
     return None if math.isnan(number) else number + 0.0
 
 
 # ------------------------------------------------------------------ order by order
 def list_orders(spectra: Spectra) -> list[OrderFigures]:
-    """Return one record an order, with the kinds that were computed."""
+    """Return one record for each order, with the computed kinds."""
     free: dict[Kind, type[Vector]] = {FORCE: FreeForce, MOMENT: FreeMoment}
     columns: Node = {
         kind.key: list_vectors(phasors, free[kind], spectra.up_deg)
@@ -291,7 +291,9 @@ def list_orders(spectra: Spectra) -> list[OrderFigures]:
 def list_vectors(
     phasors: Phasors, record: type[Vector] = Vector, up_deg: float | None = None
 ) -> list[Vector]:
-    """Return forces or moments, one an order, with components by `up_deg` if it is known."""
+    """Return a force or moment for each order, with vertical and horizontal components if `up_deg`
+    is known.
+    """
     p = phasors
     columns = (column.tolist() for column in (p.forward, p.backward, p.major, p.minor, p.axis_deg))
     upright = () if up_deg is None else _list_components(p.turn(-up_deg))
@@ -299,31 +301,31 @@ def list_vectors(
 
 
 def _list_components(phasors: Phasors) -> Iterator[list[Component]]:
-    """Yield the components along x, one an order, and those along y."""
+    """Yield the components of all orders along x, then those along y."""
     for c in (phasors.x, phasors.y):
         phases = np.where((c != 0) & (phasors.orders > 0), phase_deg(c), np.nan)
         yield list(map(Component, np.abs(c).tolist(), phases.tolist()))
 
 
 def list_harmonics(phasors: Phasors) -> list[Harmonic]:
-    """Return couples, torques or rolls, one an order."""
+    """Return a couple, torque or roll for each order."""
     return list_coefficients(phasors.orders, phasors.x, phasors.balanced)
 
 
 def list_coefficients(orders: Array, c: Complex, balanced: NDArray[np.bool_]) -> list[Harmonic]:
-    """Return the orders of `Re sum c_n e^{i n theta}`, one record each.
+    """Return a record for each order of `Re sum c_n e^{i n theta}`.
 
     Args:
         orders: Orders n, shape (orders,).
         c: Coefficients c_n, shape (orders,).
-        balanced: Whether each order is below rounding, shape (orders,).
+        balanced: Whether each order is 0 except for rounding errors, shape (orders,).
     """
     columns = (c.real, -c.imag, np.abs(c), peak_deg(c, orders), balanced)
     return list(map(Harmonic, *(column.tolist() for column in columns)))
 
 
 def size_or_mean(c: complex, order: float) -> float:
-    """Return the amplitude of `Re(c e^{i n theta})`; of order 0 the mean, with its sign.
+    """Return the amplitude of `Re(c e^{i n theta})`; for order 0 the mean with its sign.
 
     Args:
         c: Coefficient.
@@ -334,11 +336,11 @@ def size_or_mean(c: complex, order: float) -> float:
 
 def peak_deg(c: complex | Complex, orders: ArrayLike) -> Array:
     """Return the first crank angle in [0, 360/order) at which `Re(c e^{i n theta})` is largest,
-    deg; nan if it vanishes or is a mean.
+    deg; nan for a mean or an amplitude of 0.
 
     Args:
         c: Coefficients, any shape.
-        orders: Orders n, of that shape.
+        orders: Orders n, of the same shape.
     """
     there = np.not_equal(c, 0) & np.greater(orders, 0)
     n = np.where(there, orders, 1.0)
@@ -356,8 +358,7 @@ def phase_deg(c: complex | Complex) -> Array:
 def figure_rows(
     result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
 ) -> Iterator[FigureRow]:
-    """Yield every figure of the orders and the peaks, one a row; none of moments that are not
-    known.
+    """Yield one row for each figure of the orders and peaks; unknown moments have no rows.
 
     Args:
         result: Analysis, or sum of two engines.
@@ -397,9 +398,9 @@ def order_rows(
     Args:
         quantity: Name of the quantity.
         order: Order.
-        entry: Figures in SI, as JSON has them.
+        entry: Figures of the order in SI units, as in JSON.
         unit: Unit of the rows.
-        cylinder: Number of the cylinder; 0: the engine.
+        cylinder: Number of the cylinder; 0 for the engine.
     """
     for figure in _flattened(entry, unit):
         yield FigureRow(cylinder, quantity, order_number(order), *figure)
@@ -408,8 +409,8 @@ def order_rows(
 def _flattened(
     entry: Node, unit: ShownUnit, prefix: str = ""
 ) -> Iterator[tuple[str, float | bool | None, str]]:
-    """Yield name, value and unit of every figure of an entry: `x_amplitude` from `x` and
-    `amplitude`.
+    """Yield name, value and unit of every figure of an entry. Nested names are joined:
+    `x_amplitude`.
     """
     for name, value in entry.items():
         if isinstance(value, dict):

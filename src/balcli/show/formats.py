@@ -1,4 +1,4 @@
-"""Formats and documents of results, and the text of a result in each."""
+"""Formats of results, renderers, and the text of results in each format."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Format(StrEnum):
-    """How a result is written."""
+    """Format of a written result."""
 
     TABLE = "table"
     JSON = "json"
@@ -29,7 +29,7 @@ class Format(StrEnum):
 
 
 class Units(StrEnum):
-    """Units of tables, CSV and Markdown; JSON stays SI."""
+    """System of units of tables, CSV and Markdown; JSON is always in SI units."""
 
     SI = "si"
     IMPERIAL = "imperial"
@@ -39,17 +39,17 @@ Shown = TypeVar("Shown")
 
 
 def write_named(one: NamedResult[Shown]) -> Node:
-    """Return the JSON document of a result, which has the engine's own name."""
+    """Return the JSON document of a named result; the document has the engine's name already."""
     return to_document(one.result)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Columnar(Generic[Shown]):
-    """How results of one kind become documents and columns.
+    """Conversion of one kind of result to documents and columns.
 
     Attributes:
-        document: Makes the JSON document, in SI units; default: the record's.
-        columns: Makes the columns of DataFrames; None: those of the rows of CSV.
+        document: Function that returns the JSON document, in SI units; default: the record's.
+        columns: Function that returns the columns of DataFrames; None: the columns of CSV.
     """
 
     document: Callable[[Shown], object] = to_document
@@ -58,11 +58,11 @@ class Columnar(Generic[Shown]):
 
 @dataclass(frozen=True, kw_only=True)
 class Renderer(Columnar[Shown]):
-    """How results of one kind are shown.
+    """Conversion of one kind of result to sheets and CSV as well.
 
     Attributes:
-        sheet: Makes the sheet in these units.
-        rows: Makes the rows of CSV in these units.
+        sheet: Function that returns the sheet in given units.
+        rows: Function that returns the rows of CSV in given units.
     """
 
     sheet: Callable[[Shown, System], Sheet]
@@ -77,11 +77,11 @@ def render(
     *,
     seen: bool = False,
 ) -> str:
-    """Return the text of one or more results in one format: sheets one after the other, one JSON
-    document a line, all rows of CSV under one header.
+    """Return the text of one or more results in one format: sheets one after the other, a JSON
+    document on each line, or all rows of CSV under one header.
 
     Args:
-        seen: whether a person will see it in a terminal, with colours and at its width.
+        seen: Whether a terminal shows the text, so that its colours and width are used.
     """
     match form:
         case Format.TABLE | Format.MARKDOWN:
@@ -101,7 +101,7 @@ def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:
     Args:
         sheets: Sheets to write.
         form: Table or Markdown.
-        seen: Whether a terminal shows them, as for `render`.
+        seen: Whether a terminal shows the text, as in `render`.
     """
     if form is Format.MARKDOWN:
         return markdown(sheets)

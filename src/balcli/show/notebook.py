@@ -1,4 +1,4 @@
-"""A sheet as HTML for the output of a notebook's cell."""
+"""Write a sheet as HTML, for the output of a notebook's cell."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from .engine_facts import engine_facts
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
 from .units import SI
 
-ENDS = 5  # rows of a long table that are shown, at its head and at its foot
+ENDS = 5  # shown rows at the head and the foot of a long table
 
 
 def show_engine(engine: Engine) -> str:
-    """Return an engine as a person reads it, in SI units, and its doubtful figures."""
+    """Return the description of an engine in SI units, with its doubtful figures, as HTML."""
     facts = engine_facts(engine, SI, higher=False, whole=False)
     return html_text(Sheet(engine.name or NAMELESS, (facts,)), engine.doubts)
 
 
 def outline(columns: Columns) -> Grid:
-    """Return the first and the last rows of columns."""
+    """Return a table of the first and last rows of columns."""
     heads = [
         f"{name}, {columns.units[name]}" if columns.units.get(name) else name
         for name in columns.values
@@ -35,7 +35,8 @@ def outline(columns: Columns) -> Grid:
 
 
 def html_text(sheet: Sheet, doubts: tuple[str, ...] = ()) -> str:
-    """Return a sheet and doubts as HTML: tables and paragraphs without style, but words stand left.
+    """Return a sheet and doubts as HTML: tables and paragraphs without style, except left-aligned
+    words.
 
     Args:
         sheet: Sheet to write.

@@ -1,7 +1,7 @@
-"""Pictures in the plane of forces and moments: loci and rotating vectors.
+"""Draw forces and moments in their plane: loci and rotating vectors.
 
-The plane is seen from the free end: x up, y to the right, so that the crank turns clockwise. Where
-the file says which way is up, that is up in the pictures.
+The plane is seen from the free end, with x up and y to the right, so that the crank turns
+clockwise. If the file gives `frame.up`, that direction is up in the pictures.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
-_ORDER_ANGLE = 36  # degrees of the order's own angle, at which both of its vectors are seen apart
+_ORDER_ANGLE = 36  # order * crank angle, deg, at which both vectors are drawn apart
 _BOX: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
@@ -32,7 +32,7 @@ def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str 
     Args:
         ax: Axes of the picture.
         largest: Size of the largest vector, in the unit of the axes.
-        names: Components upwards and to the right, for the labels of the axes; empty: no labels.
+        names: Names of the upward and rightward components, for the axes; empty: no labels.
         unit: Unit of the axes.
     """
     up, right = (f"{name}, {unit}" for name in names) if names else ("", "")
@@ -45,14 +45,14 @@ def set_up_plane(ax: Axes, largest: float, names: Sequence[str] = (), unit: str 
 
 
 def draw_path(ax: Axes, path: Complex, crank_deg: Array, step: float, limit: float) -> None:
-    """Draw the path of a vector's tip, with dots every `step` degrees and the crank angle at every
-    second dot, on the outer side of the path.
+    """Draw the path of a vector's tip, with a dot every `step` degrees. The crank angle at every
+    second dot is written on the outer side of the path.
 
     Args:
-        path: in the unit of the axes, real upwards, shape (angles,).
-        crank_deg: shape (angles,).
-        step: crank angle between dots, degrees.
-        limit: half the side of the axes.
+        path: Path in the unit of the axes, real upwards, shape (angles,).
+        crank_deg: Crank angles, deg, shape (angles,).
+        step: Crank angle between dots, deg.
+        limit: Half the side of the axes.
     """
     ax.plot(path.imag, path.real, color=BLUE)
     marks = np.arange(0, crank_deg[-1], step)
@@ -87,14 +87,14 @@ def draw_locus(
         curve: Phasors of the vector, shape (orders,).
         names: Names of the axes.
         unit: Unit of the vector.
-        before: Phasors whose path is drawn dashed; None: none.
+        before: Phasors of a second path, which is dashed; None: no second path.
     """
     shown = [curve] if before is None else [curve, before]
     path, *others = map(values_over_period, shown)
     largest, most = (
         float(np.abs(paths).max()) for paths in (path, np.concatenate([path, *others]))
     )
-    tiny = largest <= 0.3 * most  # it gets a picture of its own, in a corner
+    tiny = largest <= 0.3 * most  # it is enlarged in a corner
     s = unit.fit(most)
     limit = set_up_plane(ax, (1.25 if tiny else 1) * most / s.size, names, s.name)
     for old in others:
@@ -136,7 +136,7 @@ def draw_paths(
         ax: Axes of the picture.
         paths: Paths by label, in the unit of the axes, real upwards, each of shape (angles,).
         names, unit: Names of the axes and their unit.
-        taper: By how much each path is thinner than the one below it.
+        taper: Difference of line widths between a path and the one drawn over it.
     """
     from matplotlib import colormaps
 
@@ -151,8 +151,8 @@ def draw_paths(
 def draw_loci(
     ax: Axes, curves: Mapping[str, Phasors], names: Sequence[str], unit: ShownUnit
 ) -> None:
-    """Draw the paths of the tips of several vectors, by name, over a revolution; equal vectors are
-    all visible.
+    """Draw the paths of the tips of several vectors, by name, over a revolution. Line widths
+    differ, so that equal vectors remain visible.
     """
     largest = [float(find_largest(curve)) for curve in curves.values()]
     s = unit.fit(max(largest))
@@ -178,7 +178,7 @@ def values_over_period(curve: Phasors) -> Complex:
 def find_period_deg(curve: Phasors) -> int:
     """Return the crank angle after which the visible orders of a curve repeat, degrees."""
     seen = curve.orders[curve.major > VISIBLE * curve.major.max(initial=0)]
-    repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # in two revolutions
+    repeats = int(np.gcd.reduce((2 * seen).astype(int), initial=0))  # per two revolutions
     return 720 // min(repeats, 24) if repeats else 360
 
 

@@ -1,6 +1,6 @@
-"""The style of all pictures, and the figures that are drawn in it.
+"""Style of all pictures; figures are opened and saved in this style.
 
-Nothing global is left changed, and no display is needed.
+Global state of matplotlib is restored, and no display is needed.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 Form = Literal["svg", "png", "pdf"]
-Look: TypeAlias = dict[str, Any]  # arguments of matplotlib
+Look: TypeAlias = dict[str, Any]  # keyword arguments of matplotlib
 
 # Wong, Nature Methods 8 (2011) 441: colour-blind readers distinguish these colours; line styles and
 # hatches distinguish the curves in black and white.
@@ -45,11 +45,11 @@ _one_at_a_time = RLock()
 
 @cache
 def _find_figure_class() -> type[Figure]:
-    """Return the class of our figures; matplotlib is imported when the first one is drawn."""
+    """Return the class of all figures; matplotlib is imported when the first figure is opened."""
     from matplotlib.figure import Figure
 
     class Picture(Figure):
-        """A figure without a window; files and notebooks show its changes."""
+        """A figure without a window; files and notebooks show it in its current state."""
 
         def savefig(self, fname: Any, **kwargs: Any) -> None:
             """Write the figure, as `matplotlib.figure.Figure.savefig` does."""
@@ -66,7 +66,7 @@ def _find_figure_class() -> type[Figure]:
 
 @contextmanager
 def open_figure(width: float, height: float) -> Iterator[Figure]:
-    """Open a figure; drawings within the context have the style of this program.
+    """Open a figure; anything drawn within the context has the style of balcli.
 
     Args:
         width: Width, inches.
@@ -78,8 +78,8 @@ def open_figure(width: float, height: float) -> Iterator[Figure]:
 
 @contextmanager
 def in_our_style() -> Iterator[None]:
-    """Set our style, whatever the user's own is, for one thread at a time: matplotlib has one style
-    for all threads.
+    """Set balcli's style in place of the user's within the context. Only one thread at a time may
+    enter, since matplotlib has one style for all threads.
     """
     with _one_at_a_time, warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
@@ -101,7 +101,7 @@ def in_our_style() -> Iterator[None]:
 
 
 def save_figure(figure: Figure, form: Form) -> bytes:
-    """Return a figure as the content of a file; the same figure gives the same bytes.
+    """Return a figure as the content of a file; equal figures have equal bytes.
 
     Args:
         figure: Figure to save.
@@ -126,12 +126,12 @@ def save_pages(figures: Iterable[Figure]) -> bytes:
 
 
 def inline_svg(svg: bytes, name: str) -> str:
-    """Return an SVG for an HTML page: its colours are those of the page (`--ink` ...), and it grows
-    with its column.
+    """Return an SVG for an HTML page. It uses the page's colours (`--ink` ...) and the width of its
+    column.
 
     Args:
         svg: Content of an SVG file.
-        name: Start of its ids.
+        name: Prefix of its ids.
     """
     text = svg.decode()
     text = text[text.index("<svg") :]
@@ -147,7 +147,7 @@ def _adapt_tag(tag: str, name: str) -> str:
 
 
 def fit_name(name: str, most: int = 90) -> str:
-    """Return a name on one line that any format can hold.
+    """Return a name on one line, without control characters.
 
     Args:
         name: Any text.

@@ -1,8 +1,8 @@
-"""Base class of all results: summary in a line, HTML for notebooks, export as dict, rows, DataFrame
-or Parquet file.
+"""Base class of all results, with a summary, HTML for notebooks, and export as dict, rows,
+DataFrame or Parquet file.
 
-The renderer of each kind of result is in its own package, above this module, and is imported when
-it is first needed (`names.RENDERERS`).
+The renderer of each kind of result is in the package of its chapter and is imported when it is
+first needed (`names.RENDERERS`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class Result:
-    """An answer, which can be kept, shown and handed on."""
+    """A result that can be kept, shown and exported."""
 
     @property
     def summary(self) -> str:
@@ -38,8 +38,8 @@ class Result:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of possible but unlikely figures, as commands print them on standard error; an
-        engine has those of its file.
+        """Warnings of possible but unlikely figures, which commands print on standard error.
+        Warnings on the engine file belong to the engine.
         """
         return ()
 
@@ -54,14 +54,12 @@ class Result:
         return html_text(Sheet(repr(self)[1:-1], (outline(list_columns(self)),)), self.doubts)
 
     def to_dict(self) -> Node:
-        """Return the document that the command writes as JSON (docs/json.md): its keys name SI
-        units.
-        """
+        """Return the command's JSON document (docs/json.md) as a dict; its keys name SI units."""
         return stamp(find_renderer(self).document(self))
 
     def rows(self) -> list[Node]:
-        """Return one dict for each row, all with the same keys, for a DataFrame of any library.
-        Missing values are None.
+        """Return one dict for each row, for a DataFrame of any library. All have the same keys;
+        missing values are None.
         """
         found = list_columns(self).values
         lists = [v.tolist() if isinstance(v, np.ndarray) else v for v in found.values()]
@@ -69,8 +67,8 @@ class Result:
         return [dict(zip(found, map(_none_for_nan, line), strict=True)) for line in lines]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return the rows as a DataFrame. Its `attrs["units"]` are the units of columns that have
-        no unit in their name or in a column `unit`.
+        """Return the rows as a DataFrame. `attrs["units"]` has the units of columns, unless they
+        are in the names or in a column `unit`.
 
         Raises:
             BalcliError: pandas is not installed.
@@ -88,7 +86,7 @@ class Result:
         """Write the rows into a Parquet file; each column has its unit in the metadata.
 
         Raises:
-            BalcliError: pyarrow is not installed; the file cannot be written.
+            BalcliError: pyarrow is not installed, or the file cannot be written.
         """
         try:
             import pyarrow
@@ -117,7 +115,7 @@ def _none_for_nan(value: object) -> object:
 
 
 def list_columns(result: Result) -> Columns:
-    """Return the columns of an answer: those that its renderer names, or those of its CSV."""
+    """Return the columns of a result: those of its renderer, or those of its CSV."""
     renderer = find_renderer(result)
     if renderer.columns is None and isinstance(renderer, Renderer):
         found = _read_columns(renderer.rows(result, SI))
@@ -127,8 +125,8 @@ def list_columns(result: Result) -> Columns:
 
 
 def _fill_gaps(column: Column) -> Column:
-    """Return numbers, some of them missing, as an array with nan: of a list with None, other
-    libraries make columns of objects, with which they cannot compute.
+    """Return numbers with gaps as an array with nan. From a list with None, other libraries would
+    make columns of objects, with which they cannot compute.
     """
     if isinstance(column, np.ndarray) or None not in column:
         return column
@@ -136,8 +134,8 @@ def _fill_gaps(column: Column) -> Column:
 
 
 def _read_columns(rows: Rows) -> Columns:
-    """Return rows of CSV as columns of one type each: words among numbers get a column of their
-    own, with `_text` after its name.
+    """Return rows of CSV as columns of one type each. Words in a column of numbers go into a second
+    column, whose name ends in `_text`.
     """
     lines = list(rows.lines)
     values: dict[str, Column] = {}
@@ -154,7 +152,7 @@ def _read_columns(rows: Rows) -> Columns:
 
 
 def _number(cell: object) -> float | None:
-    """Return a cell as a number; None if it is none."""
+    """Return a cell as a number; None if it is not a number."""
     return float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else None
 
 

@@ -1,5 +1,5 @@
-"""A sheet: the readable form of a result, for terminal, Markdown and HTML; and how much of an
-analysis it shows.
+"""Sheets, the readable form of results for terminal, Markdown and HTML: tables, facts and texts,
+and the formatting of their numbers.
 """
 
 from __future__ import annotations
@@ -14,34 +14,33 @@ if TYPE_CHECKING:
 
 USUAL_DIGITS = 4
 
-_digits: int | None = None  # significant ones, that were asked for
+_digits: int | None = None  # significant digits of `--digits`
 
 
 def set_digits(digits: int | None) -> None:
-    """Set how many significant digits figures have, for the rest of this process; None: those that
-    are usual where they stand.
+    """Set the number of significant digits of figures for the rest of this process; None: each
+    figure has its default number.
     """
     global _digits
     _digits = digits
 
 
 def get_digits(usual: int = USUAL_DIGITS) -> int:
-    """Return how many significant digits a figure has: those that were asked for, else the usual
-    ones.
+    """Return the number of significant digits of a figure: as requested by `set_digits`, otherwise
+    `usual`.
     """
     return _digits or usual
 
 
 NAMELESS = "engine without a name"
-# share of what one cylinder does, or of the largest order, below which a higher order is passed
-# over
+# share of one cylinder's value, or of the largest order, below which an order is negligible
 NEGLIGIBLE = 1e-3
-NOTHING, UNKNOWN = "balanced", "–"  # a force or moment of 0, and one that is not known
+NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown one
 
 
 class Grid(NamedTuple):
-    """A table. Cells are text; the first column is a heading of its row. Cells in `marked` (row,
-    column) stand out, and the columns in `words` are read, not compared: they are left-aligned.
+    """A table of texts; the first column has the headings of rows. Cells in `marked` (row, column)
+    are highlighted; columns in `words` are left-aligned.
     """
 
     title: str
@@ -55,7 +54,7 @@ class Grid(NamedTuple):
     def of_columns(
         cls, title: str, columns: Iterable[tuple[str, Iterable[str]]], note: str = ""
     ) -> Grid:
-        """Return a table that is given by columns.
+        """Return a table with the given columns.
 
         Args:
             title: Title of the table.
@@ -88,39 +87,39 @@ class Sheet(NamedTuple):
 
 
 def capitalized(text: str) -> str:
-    """Return a text with its first letter large, the others as they are."""
+    """Return a text with a capital first letter; the others do not change."""
     return text[0].upper() + text[1:]
 
 
 def sentence(text: str) -> str:
-    """Return a text with its first letter large and a full stop at its end."""
+    """Return a text with a capital first letter and a full stop."""
     return f"{capitalized(text).removesuffix('.')}."
 
 
 def count_name(count: float) -> str:
-    """Return a whole number as people read it, 100 000, in groups from five digits on."""
+    """Return a whole number with its digits in groups if it has five or more: 100 000."""
     return f"{count:,.0f}".replace(",", " ") if abs(count) >= 10_000 else f"{count:.0f}"
 
 
 def order_name(order: float) -> str:
-    """Return an order as a table shows it: 2, ½, 1½."""
+    """Return an order as text: 2, ½, 1½."""
     whole, half = divmod(order, 1)
     return f"{int(whole) or ''}½" if half else str(int(whole))
 
 
 def number(value: float, digits: int | None = None) -> str:
-    """Return a figure for people: no exponent between 0.0001 and a million, a plain 0.
+    """Return a figure as text, without exponent between 0.0001 and a million.
 
     Args:
         value: Figure.
-        digits: Significant digits unless `--digits` asks for others; None: the usual ones.
+        digits: Significant digits unless `--digits` overrides them; None: USUAL_DIGITS.
     """
     return _write(value, get_digits(digits or USUAL_DIGITS))
 
 
 def given(value: float, digits: int = 6) -> str:
-    """Return a number that somebody gave, such as a speed: like a figure (`number`), but with its
-    own digits, however few were asked for.
+    """Return a number from the user, such as a speed. It is formatted as by `number`, but
+    `--digits` has no effect.
 
     Args:
         value: Number.
@@ -134,7 +133,7 @@ def _write(value: float, digits: int) -> str:
         return UNKNOWN
     if value == 0:
         return "0"
-    # rounded first, so that machine noise does not decide to which side a half goes
+    # rounded first, so that rounding errors do not decide to which side a half is rounded
     value = float(f"{value:.{max(digits, 12)}g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:
@@ -146,23 +145,23 @@ def _write(value: float, digits: int) -> str:
 
 
 def size_text(value: float, unit: ShownUnit, digits: int | None = 4) -> str:
-    """Return a value in the unit that fits it, with the unit's name.
+    """Return a value in a fitting unit, followed by the unit's name.
 
     Args:
         value: Value, SI.
-        unit: Unit, of which a multiple may fit better.
-        digits: As for `number`.
+        unit: Unit; a larger multiple of it is used if that fits better.
+        digits: Significant digits, as in `number`.
     """
     unit = unit.fit(value)
     return f"{number(unit.of(value), digits)} {unit.name}"
 
 
 def small_text(value: float, unit: ShownUnit) -> str:
-    """Return the word for a negligible value, with its size if it is not 0.
+    """Return "negligible" with the size of a value, or "balanced" for 0.
 
     Args:
         value: Value, SI.
-        unit: Its unit.
+        unit: Unit of the value.
     """
     return f"negligible ({size_text(value, unit, 2)})" if value else NOTHING
 
@@ -170,13 +169,13 @@ def small_text(value: float, unit: ShownUnit) -> str:
 def size_cell(
     value: float, unit: ShownUnit, *, negligible: bool = False, digits: int | None = 4
 ) -> str:
-    """Return a force or moment in a column, or a word where it is 0 or negligible.
+    """Return the cell of a force or moment: its value, "balanced" or "negligible".
 
     Args:
         value: Value, SI.
         unit: Unit of the column.
-        negligible: Whether the value is too small to count.
-        digits: As for `number`.
+        negligible: Whether the value is negligible.
+        digits: Significant digits, as in `number`.
     """
     if not value:
         return NOTHING
@@ -184,14 +183,14 @@ def size_cell(
 
 
 def degrees(value: float, turn: float = 360) -> str:
-    """Return an angle to a tenth of a degree, or a dash for nan.
+    """Return an angle rounded to a tenth of a degree, or a dash for nan.
 
-    Half a turn backwards is half a turn, and a whole turn none: otherwise its last digits would
-    decide which of both an angle is, and to which side a half is rounded.
+    Minus half a turn is shown as plus half a turn, and 360 as 0. Otherwise rounding errors would
+    decide which of two equal angles is shown.
 
     Args:
         value: Angle, deg.
-        turn: 360, or 180 for lines.
+        turn: Period of the angle, deg: 360, or 180 for undirected lines.
     """
     if math.isnan(value):
         return UNKNOWN
@@ -201,7 +200,7 @@ def degrees(value: float, turn: float = 360) -> str:
     return "0.0" if tenths == 360 else f"{tenths:.1f}"
 
 
-VISIBLE = 1e-3  # share of the largest, below which an order is too small for a picture
+VISIBLE = 1e-3  # share of the largest order below which an order is invisible in pictures
 
 
 R = TypeVar("R")
@@ -211,10 +210,11 @@ class View(NamedTuple):
     """Parts of an analysis that a sheet shows.
 
     Attributes:
-        whole: Whether every table and order is shown; else the usual tables and relevant orders.
-        parts: Words of `--only`, such as `force`, `xy`, `verdict`; empty: the usual ones.
+        whole: Whether every table and order is shown; otherwise only the default tables and
+            relevant orders.
+        parts: Words of `--only`, such as `force`, `xy`, `verdict`; empty: the default parts.
         every_order: Whether negligible orders are shown as well.
-        hints: Whether commands and options that show more are named.
+        hints: Whether the sheet names commands and options that show more.
     """
 
     whole: bool = False
@@ -242,13 +242,13 @@ class NamedResult(NamedTuple, Generic[R]):
 
 
 def assumed_facts(assumed: Sequence[str] | None) -> tuple[Facts, ...]:
-    """Return the values taken because the file leaves them out, for the head of a sheet."""
+    """Return the values assumed because the file leaves them out, for the head of a sheet."""
     return (Facts((("assumed", tell_assumed(assumed)),)),) if assumed else ()
 
 
 def tell_assumed(assumed: Iterable[str]) -> str:
-    """Return these values in words, the name of [gas] once before all its keys; then those of
-    single engines, after their names.
+    """Return assumed values as text. The prefix `gas.` appears only once; values of single engines
+    follow at the end, after the engines' names.
     """
     lines = list(assumed)
     single = [line for line in lines if ": " in line]

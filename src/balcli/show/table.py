@@ -1,7 +1,7 @@
-"""Sheets as text, plain or with the styles of a terminal, and as Markdown.
+"""Write sheets as text, plain or with the styles of a terminal, and as Markdown.
 
-Plain text is what rich would print into a file; it is laid out here, because rich folds figures
-where a table is too wide, and its import is a tenth of the run time of `analyze`.
+Tables are laid out here, not by rich: rich folds figures if a table is too wide, and its import
+takes a tenth of the run time of `analyze`.
 """
 
 from __future__ import annotations
@@ -13,32 +13,32 @@ from itertools import chain, zip_longest
 from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
 
-WIDTH = 80  # of prose, and of tables as far as they can be folded
+WIDTH = 80  # width of prose, and of tables if folding allows
 GAP = 3  # blanks between the columns of a grid
-FACTS_GAP = 2  # between names and what they are
-LABEL = 12  # width up to which the headings of rows (`order 10`) are not folded
-PROSE = 50  # width at which columns of words are folded; figures never are
-_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # what we write ourselves takes one place each
+FACTS_GAP = 2  # blanks between names and their values
+LABEL = 12  # headings of rows up to this width (`order 10`) are not folded
+PROSE = 50  # largest width of columns of words; figures are never folded
+_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # letters of our own texts that take one place
 
 
-Piece = tuple[str, str]  # of a line: its text, and its style in a terminal
-_BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # codes of ANSI
+Piece = tuple[str, str]  # part of a line: text, and style in a terminal
+_BOLD, _DIM, _RED, _PLAIN = "1", "2", "1;31", ""  # ANSI codes
 
 
 def plain_text(sheets: Sequence[Sheet]) -> str:
-    """Return all sheets one after the other, no line with blanks at its end."""
+    """Return all sheets as text, one after the other, without blanks at the ends of lines."""
     lines = (line for sheet in sheets for line in _lines(sheet, WIDTH))
     return "\n".join(legible("".join(text for text, _ in line)).rstrip() for line in lines)
 
 
 def terminal_text(sheets: Sequence[Sheet], width: int, *, styled: bool) -> str:
-    """Return all sheets for a terminal. Figures are never broken: a table that is too wide is
-    divided into pieces, each with the first column.
+    """Return all sheets as text for a terminal. Figures are never folded: a table that is too wide
+    is divided into several, each with the first column.
 
     Args:
         sheets: Sheets to write.
         width: Width of the terminal.
-        styled: Whether escapes make titles bold and notes dim.
+        styled: Whether escape sequences make titles bold and notes dim.
     """
     lines = (line for sheet in sheets for line in _lines(sheet, width, divided=True))
     return "\n".join(
@@ -71,7 +71,7 @@ def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[
 
 
 def _divide(grid: Grid, width: int) -> Iterator[Grid]:
-    """Yield tables of as many columns as fit, each with the first column."""
+    """Yield tables with as many columns as fit the width, each with the first column."""
     least = [_narrow(grid, k) for k in range(len(grid.columns))]
     pieces = [[0]]
     for k in range(1, len(least)):
@@ -90,11 +90,11 @@ def _divide(grid: Grid, width: int) -> Iterator[Grid]:
 
 
 def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
-    """Yield headings, a rule, and the rows; words to the left, figures to the right."""
+    """Yield headings, a rule, and the rows; words are left-aligned, figures right-aligned."""
     every = range(len(grid.columns))
     natural = [_measure(grid, k) for k in every]
     narrow = [_narrow(grid, k) for k in every]
-    whole = [natural[0], *narrow[1:]]  # the headings of rows on one line
+    whole = [natural[0], *narrow[1:]]  # headings of rows are not folded
     for gap, least in ((GAP, natural), (2, whole), (1, whole), (2, narrow)):
         if sum(least) + gap * (len(least) - 1) <= width:
             break
@@ -107,7 +107,7 @@ def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
 
 
 def _measure(grid: Grid, k: int) -> int:
-    """Return the width of a column."""
+    """Return the preferred width of a column."""
     widest = max(map(count_places, column_texts(grid, k)))
     return min(widest, PROSE) if k and k in grid.words else widest
 
@@ -121,23 +121,23 @@ def _narrow(grid: Grid, k: int) -> int:
 
 
 def column_texts(grid: Grid, k: int) -> list[str]:
-    """Return all texts in a column, its head first.
+    """Return all texts in a column, beginning with its head.
 
     Args:
         grid: Table.
-        k: Number of the column, from 0.
+        k: Index of the column.
     """
     return [grid.columns[k], *(row[k] for row in grid.rows)]
 
 
 def longest_word(texts: Iterable[str]) -> int:
-    """Return the width of the longest word in places."""
+    """Return the width of the longest word."""
     return max((count_places(word) for text in texts for word in text.split()), default=1)
 
 
 def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: int) -> list[int]:
-    """Return the width of each column: the least width, and the remaining width place by place to
-    the column that lacks most.
+    """Return the width of each column: its least width, plus a share of the remaining width. Each
+    remaining place goes to the column that lacks most.
 
     Args:
         width: Width of the table.
@@ -155,7 +155,7 @@ def _share_out(width: int, least: Sequence[int], natural: Sequence[int], gap: in
 def _row_lines(
     grid: Grid, cells: Sequence[str], styles: Sequence[str], widths: Sequence[int], gap: int
 ) -> Iterator[list[Piece]]:
-    """Yield one line, or as many as the longest of its cells takes when it is folded."""
+    """Yield the lines of a row, as many as its longest folded cell needs."""
     folded = [fold(cell, width) for cell, width in zip(cells, widths, strict=True)]
     for texts in zip_longest(*folded, fillvalue=""):
         line: list[Piece] = []
@@ -173,7 +173,7 @@ def _justify(text: str, width: int, to_the_left: bool) -> str:
 
 
 def fold(text: str, width: int) -> list[str]:
-    """Return a text in lines, broken between words, and within a word that is longer than a line.
+    """Return a text as lines, broken between words or within words that are longer than a line.
 
     Args:
         text: Text on one line.
@@ -196,7 +196,7 @@ def fold(text: str, width: int) -> list[str]:
 
 
 def _fact_lines(facts: Facts, width: int) -> Iterator[list[Piece]]:
-    """Yield names to the left, their values to the right."""
+    """Yield lines with a name on the left and its value on the right."""
     names = max((count_places(name) for name, _ in facts.pairs), default=0)
     room = max(width - names - FACTS_GAP, PROSE)
     for name, value in facts.pairs:
@@ -206,8 +206,8 @@ def _fact_lines(facts: Facts, width: int) -> Iterator[list[Piece]]:
 
 
 def count_places(text: str) -> int:
-    """Return how many places a text takes where every letter is as wide as another, or twice as
-    wide.
+    """Return the number of places that a text takes in a font of fixed width, where wide letters
+    take two.
     """
     if text.isascii() or all(letter < "\u0300" or letter in _SINGLE for letter in text):
         return len(text)
@@ -225,12 +225,12 @@ def markdown(sheets: list[Sheet]) -> str:
 
 
 def escape(text: str) -> str:
-    """Return a text that Markdown leaves as it is."""
+    """Return a text escaped so that Markdown shows it unchanged."""
     return _SPECIAL.sub(r"\\\1", legible(text.replace("\n", " ")))
 
 
 def _blocks(sheet: Sheet) -> Iterator[str]:
-    """Yield title and parts, which blank lines separate."""
+    """Yield title and parts as blocks, between which there are blank lines."""
     yield f"# {escape(sheet.title)}"
     yield from map(_part, sheet.parts)
 

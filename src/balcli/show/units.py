@@ -1,4 +1,4 @@
-"""Units on the way out."""
+"""Units of shown results: SI and imperial, with larger units for large values."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ POUND, INCH = float(units.POUND), float(units.INCH)  # kg, m
 
 
 class ShownUnit(NamedTuple):
-    """A unit of what people read.
+    """A unit in tables, pictures or CSV.
 
     Attributes:
         name: Name as it is written.
         size: Size in SI units.
         larger: Unit for large values.
-        most: Value in this unit from which `larger` is used; 0: always, this one is for programs.
+        most: Value in this unit from which `larger` is used; 0: always (only programs use this
+            unit).
     """
 
     name: str
@@ -27,11 +28,11 @@ class ShownUnit(NamedTuple):
     most: float = math.inf
 
     def of(self, value: float) -> float:
-        """Return a value in SI units in this unit."""
+        """Convert a value from the SI unit to this unit."""
         return value / self.size
 
     def fit(self, largest: float) -> ShownUnit:
-        """Return the unit for values up to this one (SI; nan: not known): this one, or a larger."""
+        """Return this or a larger unit to fit values up to `largest` (SI; nan if unknown)."""
         if self.larger is not None and abs(largest) >= self.most * self.size:
             return self.larger.fit(largest)
         return self
@@ -56,12 +57,12 @@ class System(NamedTuple):
 
     @property
     def torsional_stiffness(self) -> ShownUnit:
-        """Moment for each radian."""
+        """Unit of moment over angle."""
         return ShownUnit(f"{self.moment.name}/rad", self.moment.size)
 
     @property
     def torsional_damping(self) -> ShownUnit:
-        """Moment for each radian in a second."""
+        """Unit of moment over angular velocity."""
         return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
 
     def unit(self, kind: Kind) -> ShownUnit:
@@ -69,8 +70,8 @@ class System(NamedTuple):
         return self.force if kind.dimension == "force" else self.moment
 
     def instead_of(self, name: str) -> ShownUnit:
-        """Return the unit that stands for the SI unit of this name; for rpm or degrees they
-        themselves.
+        """Return this system's unit for the SI unit of a name; names of other units (rpm, deg) are
+        kept.
         """
         pairs = zip(SI, self, strict=True)
         return next((ours for si, ours in pairs if si.name == name), ShownUnit(name, 1))
@@ -113,8 +114,8 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """Return the unit of this name; units of force, moment and stress have larger ones for large
-    values.
+    """Return the unit of this name. Units of force, moment and stress come with larger ones for
+    large values.
     """
     scaled = (SI.force, SI.moment, SI.stress)
     return next((unit for unit in scaled if unit.name == name), ShownUnit(name, 1))
@@ -125,6 +126,6 @@ def name_with_unit(name: str, unit: str) -> str:
 
     Args:
         name: Name.
-        unit: Unit; empty: none.
+        unit: Unit; may be empty.
     """
     return f"{name}, {unit}" if unit else name

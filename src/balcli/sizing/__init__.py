@@ -1,1 +1,1 @@
-"""An `Engine` and a scheme in, the devices that cancel its free forces and moments out."""
+"""Size devices that cancel free forces and moments of an `Engine`, by balance schemes."""

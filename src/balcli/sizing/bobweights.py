@@ -1,4 +1,6 @@
-"""The bobweight card: what a balancing shop hangs on each crank pin for rods and pistons."""
+"""The bobweight card: the masses that a balancing shop fixes to each crank pin to represent rods
+and pistons; and records of the scheme `factor`.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,7 @@ class CardLine:
 
     Attributes:
         part: Name of the part, such as "rings".
-        rotates: Whether it turns with the pin, or else goes to and fro.
+        rotates: Whether it turns with the pin; otherwise it reciprocates.
         each_g: Mass for each rod on the pin, g.
     """
 
@@ -61,11 +63,11 @@ class Bobweight:
         big_end_g: Big ends of the rods.
         rod_bearing_g: Rod bearings.
         oil_g: Oil.
-        rotating_g: Sum of all that turns with the pin.
-        reciprocating_g: Sum of all that goes to and fro.
+        rotating_g: Sum of all rotating parts.
+        reciprocating_g: Sum of all reciprocating parts.
         bobweight_g: Rotating mass plus factor times reciprocating mass.
-        throw_g: Mass of the throw itself at the crank radius, for the rods of this pin:
-            counterweights balance it as well as the bobweight.
+        throw_g: Mass of the throw itself at the crank radius, as far as this pin has it;
+            counterweights balance it in addition to the bobweight.
         lines: All parts that are weighed, in the order of the card.
     """
 
@@ -115,7 +117,7 @@ def _weigh(engine: Engine, rows: list[int], factor: float) -> Bobweight:
 
 
 def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
-    """Return the parts of the rods on one pin; parts that none of them has are left out."""
+    """Return the parts of the rods on one pin; parts that no rod has are omitted."""
     rods = [
         {
             "big end": one.big_end,
@@ -152,10 +154,10 @@ class PlaneNeed:
     """Counterweight that a balance factor requires in one plane of the crankshaft.
 
     Attributes:
-        position_mm: Place of the plane along the crankshaft.
-        wanted: Counterweight for all pins, as far as this plane takes it, kg m.
+        position_mm: Position of the plane along the crankshaft.
+        wanted: Counterweight that this plane needs for the pins, kg m.
         present: Unbalance of the file's counterweights there, kg m.
-        missing: Unbalance that is still to be added, kg m.
+        missing: Unbalance that has to be added, kg m.
     """
 
     position_mm: float
@@ -166,8 +168,8 @@ class PlaneNeed:
 
 @dataclass(frozen=True, kw_only=True, order=True)
 class FactorPeaks:
-    """Largest free force and moment, over a revolution and of all orders, of an engine that is
-    balanced by the shop's factor.
+    """Largest free force and moment over a revolution (sum of all orders) of an engine that is
+    balanced by a factor.
 
     Attributes:
         factor: Balance factor.
@@ -177,8 +179,8 @@ class FactorPeaks:
         peak_moment_Nm: Largest moment.
         bobweight_g: Bobweight of the first pin.
         counterweight_kg_m: Largest weight that is missing.
-        by_moment: Whether the moment determines the best factor: the pins balance each other, so
-            that no factor changes the force much.
+        by_moment: Whether the moment determines the best factor, because the pins balance each
+            other and no factor changes the force much.
     """
 
     factor: float
@@ -192,8 +194,8 @@ class FactorPeaks:
 
     @property
     def cost(self) -> tuple[float, float]:
-        """Figures that are least at the best factor: the force, or else the moment; then the
-        other.
+        """Sort key that is smallest at the best factor: force, then moment, or (`by_moment`) the
+        reverse.
         """
         force, moment = round(self.peak_force_N, 6), round(self.peak_moment_Nm, 6)
         return (moment, force) if self.by_moment else (force, moment)

@@ -1,5 +1,6 @@
-"""The scheme `factor`, as balancing shops do it: opposite each crank pin all rotating mass and a
-share of the reciprocating mass of the rods on it; less what the file's own counterweights do.
+"""The scheme `factor` of balancing shops: counterweights opposite each crank pin balance all
+rotating mass and a share (the factor) of the reciprocating mass of its rods. Counterweights of the
+file are subtracted.
 """
 
 from __future__ import annotations
@@ -28,16 +29,16 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # of one cylinder's: pistons of one engine, weighed, differ by less
-_FLAT = 1e-9  # of the largest value: factors that differ by less are equally good
-_ROUNDS = 32  # to 2e-7 of the range of factors
+_NEARLY = 0.05  # share of one cylinder's mass; weighed pistons of an engine differ by less
+_FLAT = 1e-9  # share of the largest value; factors with smaller differences are equally good
+_ROUNDS = 32  # of the search: they reach 2e-7 of the range of factors
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
-_UNCHANGED = 1e-9  # of the wanted weight: a change below this is none
+_UNCHANGED = 1e-9  # share of the wanted weight; a smaller change counts as 0
 
 
 class _Pin(NamedTuple):
-    """Load of one crank pin: numbers of its cylinders; unbalance at crank angle 0, with the throw,
-    that is balanced opposite it, kg m; centre of these masses along z, m.
+    """Load of one crank pin: numbers of its cylinders; unbalance that is to be balanced (throw
+    included) at crank angle 0, kg m; centre of these masses along z, m.
     """
 
     cylinders: tuple[int, ...]
@@ -46,8 +47,9 @@ class _Pin(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    """Planes of counterweights: z, m, shape (planes,); the unbalance that each needs, has and lacks
-    at crank angle 0, kg m, shape (3, planes); pins that share a plane, where each has its own.
+    """Planes of counterweights: their z, m, shape (planes,); the unbalance that each needs, has and
+    lacks at crank angle 0, kg m, shape (3, planes); and, without given planes, the pins of each
+    plane.
     """
 
     z: Array
@@ -59,17 +61,18 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights by the given factor (default 0.5), or by the mass measured on a pin.
 
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
-    planes, to which pins and weights are transferred by the lever rule. By default these are the
-    planes of the file's counterweights, or those of the pins if the file has counterweights in
-    fewer than two places (of pins in one plane, their sum).
+    planes; pins and weights are transferred to them by the lever rule. Default planes are those of
+    the file's counterweights, or, if these are in fewer than two planes, those of the pins. Pins in
+    the same plane are added.
 
-    For several factors all peaks are listed. The factor with the smallest peak force is fitted, or
-    with the smallest peak moment where the pins balance each other (`FactorPeaks.by_moment`). The
-    best factors between the first and the last, or between 0 and 1, are listed in the details.
+    For several factors, the peaks of each are listed, and the factor with the smallest peak force
+    is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
+    moment. The details list the best factors between the smallest and the largest, or between 0 and
+    1.
 
     Raises:
-        BalcliError: a factor that is no share, planes where moments are not known, or a crankshaft
-            that stands still.
+        BalcliError: A factor is out of range, planes are given but moments are not known, or the
+            engine is rotary.
     """
     if engine.rotary:
         raise BalcliError(
@@ -106,12 +109,12 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> FactorPeaks:
-    """Return the peaks at the best factor of all between those of a sweep.
+    """Return the peaks at the best factor in the range of a sweep.
 
     Args:
         engine: Engine.
         options: Options of the scheme.
-        remedy: Remedy by several factors.
+        remedy: Remedy for several factors.
     """
     planes, best = _choose_planes(engine, options), remedy.details.get("best", {})
     found = [find_factor_peaks(engine, one["factor"], planes) for one in best.values()]
@@ -121,10 +124,12 @@ def find_best_peaks(engine: Engine, options: SchemeOptions, remedy: Remedy) -> F
 def _find_best_factors(
     engine: Engine, planes: tuple[float, ...] | None, low: float, high: float
 ) -> dict[str, dict[str, float]]:
-    """Return the factors between two bounds with the smallest peak force (or moment, where the pins
-    balance each other) and the smallest main bearing load; none where no factor changes these.
+    """Return the factors between two bounds with the smallest peak force (or moment, if the pins
+    balance each other) and with the smallest main bearing load. A load that no factor changes is
+    omitted.
 
-    At each crank angle a force is linear in the factor, so that its peak is a convex function.
+    At each crank angle, a load is linear in the factor; so its peak is a convex function of the
+    factor.
     """
     first, last = (_list_curves(engine, factor, planes) for factor in (low, high))
     best: dict[str, dict[str, float]] = {}
@@ -148,8 +153,8 @@ def _find_best_factors(
 def _list_curves(
     engine: Engine, factor: float, planes: tuple[float, ...] | None
 ) -> dict[str, Phasors]:
-    """Return curves of free force or moment with a factor, by the names of their peaks, and of the
-    main bearing loads if these are known.
+    """Return the free force or moment for a factor, and the main bearing loads if known, by the
+    names of their peaks.
     """
     new = fit_devices(*_fit_factor(engine, factor, planes)[0])
     key, kind = (
@@ -158,16 +163,18 @@ def _list_curves(
     curves = {key: find_curve(new, kind)}
     bearings = place_bearings(new.joined_throws_m) if new.places_known else None
     if bearings is not None:
-        with suppress(BalcliError):  # too many to keep apart
+        with suppress(BalcliError):  # too many loads
             loads, z = compute_loads(new, find_relevant_orders(new))
             curves["main_bearing_N"] = compute_bearing_forces(loads, z, bearings)
     return curves
 
 
 def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
-    """Return a note on what the factor or the planes leave; `own`: the file has counterweights."""
+    """Return a note on an unusual factor, or a moment that remains; `own`: whether the file has
+    counterweights.
+    """
     engine = fitting.engine
-    if len(set(z)) == 1 and engine.places_known:  # a moment about the one plane stays
+    if len(set(z)) == 1 and engine.places_known:  # a moment about the only plane remains
         pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
         arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
@@ -187,12 +194,12 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
 def find_factor_peaks(
     engine: Engine, factor: float, planes: tuple[float, ...] | None = None
 ) -> FactorPeaks:
-    """Return the largest free force and moment at steady speed with the crank balanced by a factor.
+    """Return the largest free force and moment of an engine balanced by a factor, at steady speed.
 
     Args:
         engine: Engine.
         factor: Share of the reciprocating mass.
-        planes: Places of the counterweights along z, m; None: those of the pins.
+        planes: Planes of the counterweights (z, m); None: those of the pins.
     """
     fitting, _ = _fit_factor(engine, factor, planes)
     new = fit_devices(fitting.engine, fitting.remedy)
@@ -212,8 +219,8 @@ def find_factor_peaks(
 
 
 def _counts_by_moment(engine: Engine) -> bool:
-    """Return whether the reciprocating masses, taken at the crank pins, nearly cancel: the share of
-    them that a factor adds to the counterweights is then a moment. False for unknown moments.
+    """Return whether the reciprocating masses, placed at the crank pins, nearly cancel.
+    Counterweights for a share of them then change only the moment. False if moments are not known.
     """
     masses = np.array([float(weighed.reciprocating) for weighed in engine.weighed])
     pins = unit(np.array([float(pin) for pin in engine.cylinders.pin_deg]))
@@ -221,7 +228,7 @@ def _counts_by_moment(engine: Engine) -> bool:
 
 
 def find_curve(engine: Engine, quantity: str) -> Phasors:
-    """Return the free force or moment of all orders."""
+    """Return the free force or moment with all its orders."""
     return compute_spectra(engine, find_relevant_orders(engine), (quantity,))[quantity]
 
 
@@ -234,7 +241,7 @@ def _find_largest_component(curve: Phasors, direction: complex) -> float:
 
 # ------------------------------------------------------------------ which factor, which planes
 def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """Return the factors asked for, or the one that was measured."""
+    """Return the given factors, or the factor of the measured mass."""
     if options.measured is not None:
         return (find_measured_factor(engine, options.measured),)
     factors = options.factor or (0.5,)
@@ -249,10 +256,10 @@ def _choose_factors(engine: Engine, options: SchemeOptions) -> tuple[float, ...]
 
 def find_measured_factor(engine: Engine, measured: float) -> float:
     """Return the factor of a crankshaft that is in balance with this mass (kg) on each bare pin, at
-    the crank radius, without rods: that mass stands for rotating + factor x reciprocating mass.
+    the crank radius: mass = rotating + factor x reciprocating mass.
 
     Raises:
-        BalcliError: nothing goes to and fro, or no crankshaft can have such a mass.
+        BalcliError: The engine has no reciprocating mass, or no crankshaft can have such a mass.
     """
     if measured < 0:
         raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
@@ -274,11 +281,11 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
 
 def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit the change from the counterweights that a measured mass stands for to those of a wanted
-    factor: weights opposite the pin to add, at the pin to remove.
+    """Fit the difference between the counterweights that a measured mass implies and those of a
+    wanted factor: weights to add opposite the pin, or to remove there.
 
     Raises:
-        BalcliError: several factors.
+        BalcliError: Several factors are given.
     """
     if len(options.factor or ()) > 1:
         raise BalcliError("--factor: give one factor with --measured, such as 55%")
@@ -313,11 +320,11 @@ def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] | None:
-    """Return the planes asked for (z, m), ascending, each once; by default those of the file's own
-    counterweights if they stand in at least two; None: those of the pins.
+    """Return the given planes (z, m), ascending, each once. By default, return those of the file's
+    counterweights if there are at least two, else None (the planes of the pins).
     """
     if options.planes is None:
-        places = np.round(_find_counterweights(engine)[0], 12)  # decimals of one place: one
+        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding
         own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
@@ -326,7 +333,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
 
 
 def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
-    """Return the factor by both definitions, and the measured mass."""
+    """Return the factor by both definitions, and the measured mass if given."""
     details: Node = {
         "factor": factor,
         "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
@@ -340,8 +347,8 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
 
 
 def name_one_cylinder(engine: Engine) -> str:
-    """Return the cylinder that a factor refers to, in words: any of them, or the mean of unequal
-    ones.
+    """Return in words the reciprocating mass to which a factor refers: that of any cylinder, or the
+    mean of unequal ones.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
     return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
@@ -351,7 +358,7 @@ def name_one_cylinder(engine: Engine) -> str:
 def _fit_factor(
     engine: Engine, factor: float, planes: tuple[float, ...] | None
 ) -> tuple[Fitting, _Planes]:
-    """Fit the weight that is missing in each plane."""
+    """Fit the missing weight in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
     counted = "; what the counterweights of the file do is counted"
     less = counted if _find_counterweights(engine)[1].any() else ""
@@ -371,9 +378,9 @@ def _fit_factor(
 
 
 def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None) -> _Planes:
-    """Return the unbalance that each plane needs, has and lacks. Without planes each pin has its
-    own plane. Where the file has counterweights, pins at one place share a plane, because it is not
-    known to which of them a weight there belongs.
+    """Return the unbalance that each plane needs, has and lacks. Without given planes, each pin has
+    its own plane; but if the file has counterweights, pins at the same position share a plane,
+    because it is not known to which of them a weight belongs.
     """
     pins = _list_pins(engine, factor)
     places, weights = _find_counterweights(engine)
@@ -398,14 +405,16 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
 
 
 def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:
-    """Return places (m) and unbalances at crank angle 0 (kg m) of the file's counterweights."""
+    """Return positions (z, m) of the file's counterweights and their unbalances at crank angle 0
+    (kg m).
+    """
     own = [device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT]
     places = np.array([float(device.z) for device in own])
     return places, np.array([complex(device.forward) for device in own], complex)
 
 
 def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
-    """Return the load of each crank pin; pins without load are left out."""
+    """Return the load of each crank pin; pins without load are omitted."""
     pins = []
     for rows in engine.rows_by_pin:
         weighed = [engine.weighed[row] for row in rows]
@@ -420,8 +429,8 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
 
 
 def _find_centre(masses: Array, places: Array) -> float:
-    """Return the centre along z of masses at these places, m; in thousandths of a nanometre where
-    that differs by rounding alone.
+    """Return the centre along z of masses at these positions, m, rounded to 1e-12 m if that changes
+    it by no more than rounding.
     """
     z = float(masses @ places) / float(masses.sum())
     rounded = round(z, 12) + 0.0

@@ -1,9 +1,8 @@
-"""Devices that an engine file leaves open (`unbalance = "fit"`): their unbalances, together, by
+"""Fit the unbalances of devices that an engine file leaves open (`unbalance = "fit"`), together, by
 least squares over the quantities to cancel.
 
-Each order is solved by itself: a device is linear in its complex unbalance, and shakes at one order
-alone. Residuals count in shares of one cylinder's first order, so that force, moment and roll can
-stand next to each other.
+The effect of a device is linear in its complex unbalance and has a single order, so each order is
+solved separately. Force, moment and roll are weighted as shares of one cylinder's first order.
 """
 
 from __future__ import annotations
@@ -41,13 +40,13 @@ TARGETS = {
     "roll": (ROLL,),
     ROLL_TOTAL.name: (ROLL,),
 }
-_LOST = 1e-10  # of the largest singular value of an order: less determines nothing
-_NOTHING = 1e-12  # of the largest unbalance of an order: less is rounding
+_LOST = 1e-10  # share of the largest singular value; smaller ones count as 0
+_NOTHING = 1e-12  # share of the largest unbalance of an order; smaller ones are rounding
 _REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
 
 
 def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
-    """Return the devices whose unbalance is "fit", with their names (`shaft.2`), in the order of
+    """Return the names (`shaft.2`) and tables of devices whose unbalance is "fit", in the order of
     the file.
     """
     return [
@@ -67,18 +66,18 @@ def remove_to_fit(model: EngineFile) -> EngineFile:
 
 
 def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = None) -> Remedy:
-    """Find the unbalances of all devices of a file that are to be fitted.
+    """Fit the unbalances of all devices of a file that are "fit".
 
-    An angle that the file gives is held. Where the targets do not determine the unbalances, the
-    smallest are taken.
+    An angle that the file gives is kept. If the targets do not determine the unbalances, the
+    smallest ones are used.
 
     Args:
-        engine: The engine without these devices.
-        model: The file with them.
-        targets: Quantities to cancel, of `TARGETS`; default: force and moment, as far as known.
+        engine: Engine without these devices.
+        model: Engine file with them.
+        targets: Quantities to cancel, of `TARGETS`; default: force and, if known, moment.
 
     Raises:
-        BalcliError: an unknown target, or one that the file does not determine.
+        BalcliError: A target is unknown, or the file does not determine it.
     """
     chosen, named = _check_targets(engine, targets), list_to_fit(model)
     found: dict[str, DeviceTable] = {}
@@ -127,9 +126,9 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
 def _set_up(
     engine: Engine, order: int, tables: Iterable[DeviceTable], targets: Sequence[str]
 ) -> tuple[list[Array], Array]:
-    """Return the effects of the devices of an order, shape (readings, unknowns), and the readings
-    to cancel, shape (readings,), as shares of one cylinder's. A device has one unknown where its
-    angle is held, else two.
+    """Return the effect of each device of an order, shape (readings, unknowns), and the readings to
+    cancel, shape (readings,), as shares of one cylinder's. A device has one unknown if its angle is
+    given, else two.
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
     if not scales.force:
@@ -156,7 +155,9 @@ def _set_up(
 
 
 def _fill(table: DeviceTable, values: Array) -> DeviceTable:
-    """Return the table with its unbalance; values: kg m, one for a held angle, else two."""
+    """Return the table with a fitted unbalance (kg m): one value if its angle is given, else
+    two.
+    """
     angle = measure_direction(complex(*values)) if values.any() else 0.0
     if len(values) == 1:
         opposite = complex(unit(table.angle + 180))

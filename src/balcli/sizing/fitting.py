@@ -1,15 +1,15 @@
-"""Least squares that size devices order by order, and the sentences that give the reasons.
+"""Size devices order by order by least squares, and explain them in sentences.
 
-Devices are added order by order; each order sees the residual of the devices before it. A reason
-is one sentence: the part that a device cancels, and why a simpler one does not. Sizes stand in the
-tables, in the reader's units.
+Each order is fitted to the residual with all earlier devices. A reason is one sentence: the part
+that a device cancels, and why a simpler device does not. Sizes are in the tables, in the reader's
+units.
 
-All sizing is one weighted linear least squares over chosen devices: the effect of a device is
-linear in its complex unbalance (docs/theory.md).
-
-For one order n and per `n^2 omega^2`, a device of unbalance u at z and place p adds `u` to the free
-force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u ...)` to the roll; a slider adds to
-both rotating vectors at once. A scheme chooses slots for devices and the parts to cancel.
+The effect of a device is linear in its complex unbalance (docs/theory.md), so all sizing is
+weighted linear least squares. In units of `n^2 omega^2`, a device of order n with unbalance u at z
+and place p adds `u` to the free force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u
+...)` to the roll; a slider adds to both rotating vectors. A *slot* is a place and kind for a
+device, a *part* is one rotating vector of force or moment, or the roll. A scheme chooses slots and
+the parts to cancel.
 """
 
 from __future__ import annotations
@@ -57,14 +57,14 @@ from .residual import (
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
-_LEFT_OF = {  # parts of an order by the keys of details
+_LEFT_OF = {  # parts of an order whose size a detail with this key states
     "force_left_N": FORCE,
     "moment_left_Nm": MOMENT,
     "couple_left_Nm": (BACKWARD_MOMENT,),
     "force_with_crank_left_N": (FORWARD_FORCE,),
     "moment_with_crank_left_Nm": (FORWARD_MOMENT,),
 }
-LEFT = 1e-12  # of what was there before: more must not remain of what a scheme promises to cancel
+LEFT = 1e-12  # largest share of a part that may remain after it is cancelled
 
 
 class Slot(NamedTuple):
@@ -72,9 +72,9 @@ class Slot(NamedTuple):
 
     Attributes:
         kind: Kind of the device.
-        order: Order, times crank speed.
+        order: Speed over crank speed.
         sense: Sense of rotation: 1 with the crank, -1 against it; 0 for a slider.
-        z, place: Position along the crank, m; place x + iy, m.
+        z, place: Position along the crank, m; position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
     """
 
@@ -86,13 +86,16 @@ class Slot(NamedTuple):
     direction_deg: float = 0.0
 
     def make_device(self, unbalance: complex) -> Device:
-        """The device of this unbalance (kg m) in this slot, as rotating vectors."""
+        """Return the device of this unbalance (kg m) in this slot, as rotating vectors."""
         return build_device(self.make_table(unbalance, 0.0), 0.0)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
-        """Return the device of this unbalance (kg m; its direction at crank angle 0 counts from x)
-        as a table of the engine file; a counterweight's angle counts from cylinder 1's crank pin at
-        `first_axis_deg`.
+        """Return the device of this unbalance in this slot as a table of the engine file.
+
+        Args:
+            unbalance: Unbalance, kg m; its direction at crank angle 0 counts from x.
+            first_axis_deg: Direction of cylinder 1's crank pin, deg, from which the angle of a
+                counterweight counts.
         """
         on_crank = self.kind == "counterweight"
         angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
@@ -110,10 +113,10 @@ class Fit(NamedTuple):
     """Solution of the least squares.
 
     Attributes:
-        unbalances: one for each slot, kg m.
-        condition: condition number of the weighted system; infinite where the slots cannot make
+        unbalances: Unbalance for each slot, kg m.
+        condition: Condition number of the weighted system; infinite if the slots cannot produce
             some combination of the parts.
-        left: share of the parts that is not cancelled.
+        left: Share of the parts that is not cancelled.
     """
 
     unbalances: tuple[complex, ...]
@@ -138,7 +141,9 @@ def find_effect(
 def find_effects(
     devices: Iterable[Device], parts: Sequence[ResidualPart], reference: ReferencePoint
 ) -> Array:
-    """Return effects of devices, real and imaginary in turn, shape (2 parts, devices)."""
+    """Return the effects of devices, real and imaginary parts in turn, shape (2 x parts,
+    devices).
+    """
     return np.array([find_effect(one, parts, reference) for one in devices]).view(float).T
 
 
@@ -147,11 +152,14 @@ def size_unbalances(
 ) -> Fit:
     """Return the smallest unbalances that cancel these parts as well as the slots can.
 
-    Least squares of the force, and of moment and roll over the longest arm of a slot: parts that
-    can be cancelled leave a residual of a few ulp.
+    Moments and roll are weighted by the longest arm of a slot. Parts that can be cancelled leave a
+    residual of a few ulp.
 
     Args:
-        least_arm: Divisor of moments and roll where no slot has a longer arm, m.
+        slots: Slots for devices.
+        residual: Residual of their order.
+        parts: Parts to cancel.
+        least_arm: Least arm by which moments and roll are divided, m.
     """
     weights = _weigh(slots, residual, parts, least_arm)
     devices = [slot.make_device(u) for slot in slots for u in (1 + 0j, 1j)]
@@ -168,8 +176,8 @@ def solve_exactly(
 ) -> Fit:
     """Return unbalances that cancel these parts completely, up to rounding.
 
-    Raises BalcliError with the given reason if these slots cannot make the parts, or if the slots
-    are too similar.
+    Raises:
+        BalcliError: These slots cannot produce the parts (its text is `reason`), or are too alike.
     """
     fit = size_unbalances(slots, residual, parts)
     weights = _weigh(slots, residual, parts)
@@ -184,7 +192,7 @@ def solve_exactly(
             f"order {residual.order}: unbalances of {largest * 1e6:.3g} g mm would work against "
             f"each other and leave {left / size:.1g} of what shakes; choose planes farther apart"
         )
-    if len(slots) == 1:  # a compromise would leave rounding in the force, too
+    if len(slots) == 1:  # least squares would leave rounding in the force
         return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)
     return fit
 
@@ -192,8 +200,9 @@ def solve_exactly(
 def _weigh(
     slots: Sequence[Slot], residual: Residual, parts: Sequence[ResidualPart], least_arm: float = 0.0
 ) -> NDArray[np.float64]:
-    """Return weights by which moments are measured by the force that makes them at the longest arm
-    of a slot about the point of reference, at least this (m); at 1 m if none has an arm.
+    """Return the weights of the parts: 1 for forces; for moments and roll the inverse of the
+    longest arm of a slot about the point of reference (at least `least_arm`; 1 m if there is no
+    arm).
     """
     place, z = residual.reference
     arms = [max(abs(slot.z - z), abs(slot.place - place)) for slot in slots]
@@ -202,7 +211,7 @@ def _weigh(
 
 
 class Fitting(NamedTuple):
-    """An engine at steady speed, without new devices, and the remedy so far."""
+    """An engine at steady speed without new devices, and the devices fitted so far."""
 
     engine: Engine
     remedy: Remedy
@@ -211,8 +220,8 @@ class Fitting(NamedTuple):
     def start(
         cls, engine: Engine, scheme: str, order: int | None = None, note: str = ""
     ) -> Fitting:
-        """Return a fitting without devices. `order` is the single order that the scheme balances,
-        if there is one, and `note` explains this choice.
+        """Return a fitting without devices. `order` is the order that the scheme balances if it has
+        only one; `note` explains this choice.
         """
         return cls(hold_steady(engine), Remedy(scheme, order, note=note))
 
@@ -222,7 +231,8 @@ class Fitting(NamedTuple):
 
     def add(self, slots: Sequence[Slot], unbalances: Iterable[complex], reason: str) -> Fitting:
         """Return the fitting with devices of these unbalances (kg m) in these slots. Devices of
-        zero unbalance are left out, and counterweights negligible against the moving masses.
+        zero unbalance are omitted, and so are counterweights that are negligible against the moving
+        masses.
         """
         first_axis_deg = float(self.engine.first_axis_deg)
         masses = [float(w.rotating + w.share + w.reciprocating) for w in self.engine.weighed]
@@ -244,9 +254,14 @@ class Fitting(NamedTuple):
         """Return the fitting with devices in these slots that cancel the parts of their order.
 
         Args:
-            residual: Residual of these parts with the devices so far; None: it is computed.
+            slots: Slots for devices.
+            parts: Parts to cancel.
+            reason: Reason for these devices.
+            residual: Residual with the devices so far; None: it is computed.
 
-        Raises BalcliError if the slots cannot do so.
+
+        Raises:
+            BalcliError: The slots cannot cancel the parts.
         """
         if not slots:
             return self
@@ -258,11 +273,13 @@ class Fitting(NamedTuple):
         return fitting
 
     def balance_rotating(self, *, keep_overbalance: bool = True) -> Fitting:
-        """Return the fitting with counterweights for the masses that turn with the crank pins, as
-        far as those of the file do not balance them: one where one is enough, else two at the ends.
+        """Return the fitting with counterweights for masses that turn with the crank pins and are
+        not yet balanced by counterweights of the file: one weight if that suffices, else two at the
+        ends.
 
         Args:
-            keep_overbalance: Whether counterweights of the file that balance more stay as they are.
+            keep_overbalance: Whether nothing is fitted if counterweights of the file balance more
+                than these masses.
         """
         engine, residual = self.engine, self.find_residual(1)
         if engine.rotary:
@@ -283,13 +300,13 @@ class Fitting(NamedTuple):
         return self.cancel(slots, FORWARD, _ROTATING, turning)
 
     def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
-        """Return the fitting with details, by these keys of `_LEFT_OF`, on the residual."""
+        """Return the fitting with details on the residual; `keys` are keys of `_LEFT_OF`."""
         left = self.find_residual(order)
         return self.add_details(group, **{key: left.size(*_LEFT_OF[key]) for key in keys})
 
     def describe_roll(self, before: Residual, group: str = "") -> Fitting:
         """Return the fitting with details on the roll of an order, without and with the devices so
-        far; for an engine with gas also on the roll with gas at its speed.
+        far. For an engine with gas, the roll of inertia and gas is stated as well.
         """
         order = before.order
         left = self.find_residual(order).size(ROLL)
@@ -306,12 +323,14 @@ class Fitting(NamedTuple):
 
 
 def _size_total_roll(engine: Engine, order: int) -> float:
-    """Return the amplitude of an order of the roll with gas, N m."""
+    """Return the amplitude of an order of the roll of inertia and gas, N m."""
     return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])
 
 
 def explain_counterweights(residual: Residual) -> str:
-    """Return why weights are fitted for the part of order 1 that turns with the crank."""
+    """Return the reason for counterweights against the part of order 1 that turns with the
+    crank.
+    """
     both = "both" if residual.force(1) and residual.moment(1) else "it"
     turn = "counterweights turn with it too and cancel"
     return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
@@ -320,14 +339,15 @@ def explain_counterweights(residual: Residual) -> str:
 def explain_shaft(
     residual: Residual, sense: int, count: int, stays: str = "", *, halves: bool = False
 ) -> str:
-    """Return why this many eccentrics on one shaft take what turns in this sense.
+    """Return the reason for a shaft with this many eccentrics against the parts that turn in one
+    sense.
 
     Args:
         residual: Residual of the order.
         sense: Sense of rotation: 1 with the crank, -1 against it.
         count: Number of eccentrics.
-        stays: Words on the moment that remains (`tell_moment`); empty: none.
-        halves: Whether one eccentric is divided.
+        stays: Words on the moment that remains (`tell_moment`); empty if none remains.
+        halves: Whether the eccentric is divided into two halves.
     """
     what = f"Order {residual.order} force" if stays else _name(residual, sense)
     why = "nothing on the crankshaft can cancel it"
@@ -341,14 +361,14 @@ def explain_shaft(
 
 
 def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
-    """Return words on the moment that one eccentric at z (m) leaves, with its cure; empty if none
-    remains.
+    """Return words on the moment that one eccentric at z (m) leaves, with the remedy; empty if no
+    moment remains.
     """
     return "" if takes_moment(residual, sense, z) else f"; a moment stays, which {cure}"
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
-    """Return why two opposite eccentrics are fitted for the moment that turns in this sense."""
+    """Return the reason for two opposite eccentrics against the moment that turns in one sense."""
     needless = "; the scheme counterweights would do so without a shaft"
     return (
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
@@ -358,7 +378,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
 
 
 def _name(residual: Residual, sense: int) -> str:
-    """Return the order and its kinds of parts in this sense, in words."""
+    """Return the order and the kinds of its parts that turn in this sense, in words."""
     kinds = [part.kind for part in (FORWARD if sense > 0 else BACKWARD) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"
 

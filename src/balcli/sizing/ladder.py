@@ -1,9 +1,10 @@
 """The ladder: devices that balance an engine step by step, and the forces left with each step.
 
-Counterweights in the end planes cancel the part of order 1 that turns with the crank;
-counterweights at every throw cancel it where it arises, so that main bearings do not carry it;
-shafts cancel the part that turns against the crank, and order 2. A step is listed if the part that
-it cancels, or the main bearing load that it saves, is not small compared with one cylinder.
+Counterweights in the end planes cancel the part of order 1 that turns with the crank.
+Counterweights at every throw cancel it where it arises, so that main bearings do not carry it.
+Shafts cancel the part of order 1 that turns against the crank, and order 2. A step is listed if the
+part that it cancels, or the main bearing load that it saves, is not small compared with one
+cylinder.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ _AT_THROWS = (
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """Force and moment of one cylinder, against which a part is small or large.
+    """Force and moment of one cylinder, with which parts are compared.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
@@ -66,19 +67,20 @@ class Scale:
 
 @dataclass(frozen=True, kw_only=True)
 class Step:
-    """The engine with the devices of a step and of those before it.
+    """The engine with the devices of a step and of earlier steps; counterweights at every throw
+    replace those in the end planes.
 
     Attributes:
         step: Name of the step.
-        peak_force_N: Largest free force over a revolution, of all orders.
+        peak_force_N: Largest free force over a revolution, sum of all orders.
         peak_moment_Nm: Largest free moment over a revolution; left out for unknown positions.
-        main_bearing_N: Largest load of a main bearing by inertia; left out where all throws stand
-            in one plane.
+        main_bearing_N: Largest load of a main bearing by inertia; left out where all throws are in
+            one plane.
         inner_moment_Nm: Largest bending moment of the crankshaft by inertia.
         counterweights: Number of new counterweights.
         shafts: Number of new shafts.
-        mass_kg: Sum of all new unbalances, over the crank radius of cylinder 1.
-        remedy: The devices.
+        mass_kg: Sum of all new unbalances divided by the crank radius.
+        remedy: New devices.
     """
 
     step: str
@@ -94,12 +96,13 @@ class Step:
 
 @dataclass(frozen=True, kw_only=True)
 class LeftOut:
-    """A step too small to be listed.
+    """A step that is not listed because its effect is small.
 
     Attributes:
         step: Name of the step.
-        force_N: Largest force that it would cancel, turning in one sense.
-        moment_Nm: Largest moment that it would cancel; left out where positions are not known.
+        force_N: Largest rotating force that it would cancel.
+        moment_Nm: Largest rotating moment that it would cancel; left out where positions are not
+            known.
         main_bearing_N: Reduction of the largest load of a main bearing.
     """
 
@@ -115,9 +118,9 @@ class Ladder:
 
     Attributes:
         scale: Force and moment of one cylinder.
-        auto: Step that is fitted unless another one is asked for.
+        auto: Step that is fitted by default.
         steps: Steps that are worth listing.
-        left_out: Steps that are not listed and would cancel something.
+        left_out: Steps that would cancel something but are not listed.
         small: Share of one cylinder below which a part is left.
     """
 
@@ -131,10 +134,10 @@ class Ladder:
         """Return the devices of a listed step.
 
         Args:
-            step: Its name or number; None: `auto`.
+            step: Name or number of the step; None: `auto`.
 
         Raises:
-            BalcliError: Nothing is fitted in this step, or it is not listed.
+            BalcliError: The step is not listed, or fits nothing.
         """
         name = self.auto if step is None else self._find_name(str(step))
         remedy = next(one.remedy for one in self.steps if one.step == name)
@@ -155,7 +158,9 @@ class Ladder:
         raise BalcliError(f'step "{step[:60]}": choose from {rows}; 0 is the engine as drawn')
 
     def _explain(self, out: LeftOut) -> str:
-        """Return the effect of an omitted step, and the option that lists it, if there is one."""
+        """Return in words the effect of an omitted step, and the option with which it is listed, if
+        any.
+        """
         share, fall = self.measure(out), out.main_bearing_N
         does, hint = "cancel", f"; --small {math.floor(share)}% lists it"
         if fall is not None:
@@ -164,8 +169,8 @@ class Ladder:
         return f"it would {does} {abs(share):.2g} % of one cylinder's first order{hint}"
 
     def measure(self, out: LeftOut) -> float:
-        """Return the size of the part that a step would cancel, or by how much it would lower a
-        main bearing load, in % of one cylinder's first order; nan where this is 0.
+        """Return the part that an omitted step would cancel, or the reduction of the main bearing
+        load, in % of one cylinder's first order; nan if that is 0.
         """
         sizes = [(out.force_N, self.scale.force_N), (out.moment_Nm or 0.0, self.scale.moment_Nm)]
         if out.main_bearing_N is not None:
@@ -175,9 +180,9 @@ class Ladder:
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a weight at every throw. It cancels the forward force of order 1 of
-    the throw's cylinders and of the counterweights of the file that are nearest to it. If a force
-    or moment remains (stagger, weights of the file), the smallest additional unbalances cancel it.
+    """Return the fitting with a counterweight at every throw, against the forward force of order 1
+    of the throw's cylinders and of the nearest counterweights of the file. If a force or moment
+    remains (from stagger, or weights of the file), the smallest additional unbalances cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -195,14 +200,16 @@ def add_at_throws(fitting: Fitting) -> Fitting:
 
 
 def add_at_ends(fitting: Fitting, first: Residual) -> Fitting:
-    """Return the fitting with weights in the end planes for the part that turns with the crank."""
+    """Return the fitting with counterweights in the end planes for the part of order 1 (residual
+    `first`) that turns with the crank.
+    """
     slots = [Slot("counterweight", 1, 1, z) for z in find_ends(fitting.engine)]
     return fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
 
 
 def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
-    """Return the fitting with shafts for the parts of an order in these senses: one eccentric where
-    one cancels force and moment, else two in the end planes.
+    """Return the fitting with shafts for the parts of an order that turn in these senses. A shaft
+    has one eccentric if that cancels force and moment, else two in the end planes.
     """
     for sense in senses:
         planes = find_planes(fitting.engine, residual, sense)
@@ -217,7 +224,7 @@ def _parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
 
 
 def size_complete(engine: Engine) -> Remedy:
-    """Return devices that leave nothing of orders 1 and 2, however small."""
+    """Return devices that cancel all of orders 1 and 2, however small."""
     fitting = Fitting.start(engine, "complete")
     first, second = fitting.find_residual(1), fitting.find_residual(2)
     if any(first.parts[part] for part in FORWARD):
@@ -257,12 +264,12 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
 def _list_weights(
     engine: Engine, drawn: Fitting, first: Residual, scales: Scales, small: float
 ) -> tuple[list[Step], list[LeftOut], Fitting]:
-    """Return the listed steps as drawn and with counterweights, those that are left out, and the
-    fitting of the last one listed.
+    """Return the listed steps as drawn and with counterweights, the omitted steps, and the fitting
+    of the last listed step.
 
     Args:
         engine: Engine as drawn.
-        drawn: Nothing fitted.
+        drawn: Fitting without devices.
         first: Residual of order 1.
         scales: Force, moment and roll of one cylinder.
         small: Share of one cylinder below which a part is left.
@@ -295,7 +302,7 @@ def _leave_out(
     senses: Iterable[int],
     main_bearing: float | None = None,
 ) -> LeftOut:
-    """Return a step that is left out, with the largest parts that it would cancel."""
+    """Return an omitted step with the largest parts that it would cancel."""
     forces, moments = zip(*(map(residual.size, _parts(sense)) for sense in senses), strict=True)
     return LeftOut(
         step=step,

@@ -1,12 +1,11 @@
-"""The scheme `minimax`: the counterweight with which the largest force over a revolution is as
-small as a weight on the crankshaft can make it.
+"""The scheme `minimax`: the counterweight that makes the largest force over a revolution as small
+as possible.
 
-Smallest circle that encloses a closed curve, found on the analytic curve itself.
-
-The curve is a force seen from the turning crank, `f = F e^{-i theta}`. An exchange: the smallest
-circle of a few of its points, which can only be too small, then the peaks of the difference
-between curve and centre, which become points as well, until both radii agree. The smaller radius
-bounds the larger one: the error is known.
+Seen from the turning crank, the force is the closed curve `f = F e^{-i theta}`, and a counterweight
+shifts it. So the best weight moves the centre of the smallest enclosing circle to the origin. The
+circle is found by exchange: take the smallest circle around a few points of the curve, which can
+only be too small; add the points of the curve that are farthest from its centre; repeat until both
+radii agree. Their difference bounds the error.
 """
 
 from __future__ import annotations
@@ -29,10 +28,10 @@ from .planes import SAME_PLACE, find_crank_middle, measure_direction, read_plane
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
-_SAME = 8 * EPS  # points no farther outside than this, relative, are on the circle
-_TOUCHING = 1e-11  # the same for the angles that are reported
-_APART = 1e-3  # rad; angles nearer than this are one peak
-_FIXED = 1e-9  # share of a radius by which a point may lie within the circle that it fixes
+_SAME = 8 * EPS  # relative; points no farther outside than this are on the circle
+_TOUCHING = 1e-11  # relative; the same limit for the reported angles
+_APART = 1e-3  # rad; closer angles are one peak
+_FIXED = 1e-9  # share of the radius by which a point that fixes a circle may lie inside it
 _ROUNDS = 60
 
 
@@ -40,11 +39,12 @@ class Circle(NamedTuple):
     """Smallest circle around a curve.
 
     Attributes:
-        centre: complex, in the unit of the curve.
-        radius: largest distance of the curve from the centre.
-        theta: angles (rad, ascending) at which the curve touches it.
-        excess: bound by which the radius may be too large; 0 if that is no more than `noise`.
-        noise: rounding error of the radius.
+        centre: Centre x + iy, in the unit of the curve.
+        radius: Largest distance of the curve from the centre.
+        theta: Angles (rad, ascending) at which the curve touches the circle.
+        excess: Bound of the excess of the radius over the smallest possible one; 0 if it is no more
+            than `noise`.
+        noise: Rounding error of the radius.
     """
 
     centre: complex
@@ -58,7 +58,7 @@ def enclose_curve(curve: Phasors) -> Circle:
     """Return the smallest circle around `F e^{-i theta}`.
 
     Args:
-        curve: phasors of whole orders, 1 among them, without trailing axes.
+        curve: Phasors of whole orders (order 1 included) without trailing axes.
     """
     there = np.flatnonzero((curve.major != 0) | (curve.orders == 1))
     if not np.any(curve.major):
@@ -84,25 +84,27 @@ def enclose_curve(curve: Phasors) -> Circle:
 
 
 def enclose_points(points: Complex) -> tuple[complex, list[int]]:
-    """Return the centre of the smallest circle around some points, and the (at most three) points
-    that fix it: of all circles through three points, or with two of them on a diameter, the
-    smallest around all.
+    """Return the centre of the smallest circle around some points, and the indices of the (at most
+    three) points that fix it. All circles through three points, or with two points as a diameter,
+    are tried.
     """
     triples = np.array([*combinations_with_replacement(range(len(points)), 3)])
     a, b, c = points[triples].T
     b, c, middle = b - a, c - a, (a + c) / 2
     across = 2 * (b.conj() * c).imag
     rise = 1j * (b * np.abs(c) ** 2 - c * np.abs(b) ** 2)
-    with np.errstate(all="ignore"):  # of three points in line
+    with np.errstate(all="ignore"):  # three points in line have no circle
         centres = np.where(across, a + rise / across, middle)
         farthest = np.abs(points[:, None] - centres).max(axis=0)
-        fixed = np.abs(a - centres) >= farthest * (1 - _FIXED)  # by its own points
+        fixed = np.abs(a - centres) >= farthest * (1 - _FIXED)  # its points are on it
     best = int(np.where(fixed, farthest, np.inf).argmin())
     return complex(centres[best]), sorted({*triples[best].tolist()})
 
 
 def _reach(curve: Phasors, centre: complex) -> Circle:
-    """Return the smallest circle with this centre, and the peaks of the difference."""
+    """Return the smallest circle around a curve with this centre, and the angles of its farthest
+    points.
+    """
     forward = np.where(curve.orders == 1, curve.forward - centre, curve.forward)
     difference = Phasors.of(curve.orders, forward, curve.backward, curve.noise)
     if not np.any(difference.vectors):
@@ -114,23 +116,23 @@ def _reach(curve: Phasors, centre: complex) -> Circle:
 
 
 def _seen(curve: Phasors, theta: Real) -> Complex:
-    """Return the curve seen from the crank, at angles (rad)."""
+    """Return the curve as seen from the crank, at angles (rad)."""
     return curve.values(theta) * np.exp(-1j * theta)
 
 
-_LEFT = 1e-9  # of what is to be cancelled: more, and these planes cannot take the moment
+_LEFT = 1e-9  # if a larger share remains, these planes cannot take the moment
 
 
 def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     """Return the counterweight that moves the centre of the smallest circle around `F e^{-i theta}`
     to the origin (docs/theory.md).
 
-    This is one weight in the middle of the throws; or, in given planes, weights that also cancel
-    the moment that turns with the crank.
+    By default this is one weight in the middle of the throws. In given planes, the weights also
+    cancel the moment that turns with the crank.
 
     Raises:
-        BalcliError: the given planes cannot take the moment.
-        NothingToBalanceError: no weight makes the largest force smaller.
+        BalcliError: The given planes cannot take the moment.
+        NothingToBalanceError: No weight makes the largest force smaller.
     """
     fitting = Fitting.start(engine, "minimax", 1)
     force = find_curve(fitting.engine, "force")
@@ -171,8 +173,8 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
 def _split(
     engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
 ) -> tuple[Sequence[Slot], Sequence[complex]]:
-    """Return slots and unbalances (kg m) that add up to this one: in one plane, or in the given
-    planes such that no moment of order 1 that turns with the crank is left.
+    """Return slots and unbalances (kg m) whose sum is this one: in one plane, or in the given
+    planes such that they also cancel the forward moment of order 1.
     """
     if options.planes is None:
         z = find_crank_middle(engine) if options.position is None else options.position
@@ -187,8 +189,8 @@ def _split(
 
 
 def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
-    """Return the largest force with the weights of factor 0.5 instead of the engine's own, and by
-    which share the circle is smaller; empty for a rotary engine, which has no factor.
+    """Return the largest force with counterweights of factor 0.5 instead of the engine's own, and
+    the relative improvement over it; empty for a rotary engine, which has no factor.
     """
     if engine.rotary:
         return {}

@@ -1,4 +1,4 @@
-"""What a user may ask of a scheme: options, checked once for command and Python."""
+"""Options of the balance schemes; they are checked here for command and Python function."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
 
-# Of each option with numbers: their kind, and what is right.
+# Kind of number of each option, and words for a right value.
 _NUMBERS: dict[str, tuple[type, str]] = {
     "order": (Integral, "a whole number, such as 2"),
     "at": (Complex, "places x + iy in m, such as (-0.04 + 0.06j,)"),
@@ -32,20 +32,18 @@ class SchemeOptions(NamedTuple):
     options of each scheme.
 
     Attributes:
-        order: the order to balance; default: the lowest with a part that the scheme cancels.
-        at: places x + iy of shafts or sliders; of a pair, first that of the shaft turning against
-            the crank.
-        position: z of new devices.
-        planes: "ends", "throws", or places z of new devices.
-        factor: shares of the reciprocating mass, of which the best is fitted; default: 0.5.
-        measured: mass that balances the crank when it hangs on a bare pin, kg, instead of a factor.
-        roll: "zero": two shafts are placed such that they also cancel the roll of inertia of
-            this order.
-        orders: orders of the force whose largest value is made smallest; default: all.
-        small: share of one cylinder below which a part of an order is left.
-        step: name or number of a step of the ladder (scheme step).
-        radius: of the weights on shafts that turn unevenly or drive couplings; default: the crank
-            radius.
+        order: Order to balance; default: the lowest with a part that the scheme cancels.
+        at: Positions x + iy of shafts or sliders; of a pair of shafts, first that of the shaft
+            turning against the crank.
+        position: Position z of new devices.
+        planes: "ends", "throws", or positions z of new devices.
+        factor: Shares of the reciprocating mass; the best one is fitted; default: 0.5.
+        measured: Mass on each bare pin that balances the crank, kg, instead of a factor.
+        roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
+        orders: Orders of the force whose largest value is minimised; default: all.
+        small: Share of one cylinder below which a part of an order is left unbalanced.
+        step: Name or number of a step of the ladder (scheme step).
+        radius: Radius of the weights of eccentric-slider and oldham; default: the crank radius.
     """
 
     order: int | None = None
@@ -67,12 +65,13 @@ class SchemeOptions(NamedTuple):
     def check(self, scheme: str) -> None:
         """Reject options that the scheme does not have.
 
-        Raises BalcliError for an unknown scheme, an option that the scheme does not take, and an
-        order or a roll that no scheme takes.
+        Raises:
+            BalcliError: The scheme is unknown or does not take an option, or a value is out of
+                range.
         """
         self._check_numbers()
         taken = find_taken(scheme)
-        asked = self._replace(small=None)._asdict().items()  # that any scheme takes
+        asked = self._replace(small=None)._asdict().items()  # every scheme takes `small`
         given = [name for name, value in asked if value is not None]
         if strangers := [name for name in given if name not in taken]:
             others = " or ".join(name for name in SCHEMES if {*given} <= {*SCHEMES[name]})
@@ -100,8 +99,8 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
 
     def _check_numbers(self) -> None:
-        """Raise TypeError for a value that is no number, BalcliError for a place that is farther
-        away than any engine reaches.
+        """Raise TypeError for a value that is no number, BalcliError for a position too far from
+        the engine.
         """
         for name, (kind, right) in _NUMBERS.items():
             given = getattr(self, name)
@@ -117,7 +116,9 @@ class SchemeOptions(NamedTuple):
                     raise BalcliError(f"{told}; at most {FARTHEST_DEVICE_M:g} m")
 
     def read_place(self) -> complex:
-        """Return the given place, or 0, the crank axis; BalcliError for more than one."""
+        """Return the given position x + iy, by default 0 (the crank axis); BalcliError for
+        several.
+        """
         at = self.at or (0j,)
         if len(at) > 1:
             raise BalcliError("--at: this scheme has one place; give it once")
@@ -128,7 +129,7 @@ def check_small(share: float) -> float:
     """Return a share below which a part is small.
 
     Raises:
-        BalcliError: It is not one from 0 to MOST_SMALL.
+        BalcliError: The share is not between 0 and MOST_SMALL.
     """
     if not 0 <= share <= MOST_SMALL:
         raise BalcliError(f"small {100 * share:g} %: give a share from 0 to {MOST_SMALL:.0%}")
@@ -136,7 +137,7 @@ def check_small(share: float) -> float:
 
 
 def _are(values: object, kind: type, finite: bool) -> bool:
-    """Return whether there are values, all numbers of a kind and none with hundreds of digits."""
+    """Return whether there are values and all are numbers of this kind (`finite`: and finite)."""
     if not isinstance(values, tuple) or not values:
         return False
     try:
@@ -150,7 +151,8 @@ def _are(values: object, kind: type, finite: bool) -> bool:
 def find_taken(scheme: str) -> tuple[str, ...]:
     """Return the options that a scheme takes.
 
-    Raises BalcliError, with the nearest name, if there is no such scheme or it sizes no devices.
+    Raises:
+        BalcliError: There is no such scheme (the error names the nearest), or it sizes no devices.
     """
     if scheme in SCHEMES:
         return SCHEMES[scheme]

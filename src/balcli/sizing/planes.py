@@ -1,6 +1,6 @@
-"""Places of devices along the crank, and devices as tables of the engine file (g mm, degrees, mm).
-
-Tables are made from SI figures; the figures that are written are exactly those that are analyzed.
+"""Choose positions of devices along the crank, and handle devices as tables of the engine file (g
+mm, degrees, mm). The figures in these tables are analyzed, so results are those of the written
+file.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ SAME_PLACE = (
 
 
 def find_ends(engine: Engine) -> tuple[float, float]:
-    """Return z of the end planes, m: first and last throw; of throws in one plane, half a bore to
-    either side of it, or without a bore the crank radius.
+    """Return z of the end planes, m: the first and the last throw. If all throws are in one plane,
+    the end planes are half a bore (without a bore: the crank radius) on either side of it.
     """
     low, high = _find_reach(engine.joined_throws_m)
     if low < high:
@@ -50,19 +50,19 @@ def find_crank_middle(engine: Engine) -> float:
 
 
 def locate_force(residual: Residual, sense: int) -> float:
-    """Return z (m) at which the force in this sense accounts for as much of the moment as possible:
-    `z_ref + Re(M / iV)`. The force must not be 0.
+    """Return z (m) at which the force in this sense (not 0) would cause as much of the moment as
+    possible: `z_ref + Re(M / iV)`.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
 
 def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[float, bool]:
-    """Return z (m) within the engine nearest to where the force in this sense acts, and whether one
-    device there cancels the moment as well. The force must not be 0.
+    """Return the z (m) within the engine that is nearest to where the force in this sense (not 0)
+    acts, and whether a device there cancels the moment as well.
     """
     low, high = find_length(engine)
     near = min(max(locate_force(residual, sense), low), high)
-    rounded = round(near, 12)  # m: to a thousandth of a nanometre, figures that people can read
+    rounded = round(near, 12)  # m; short decimals are easier to read
     for z in (rounded, near):
         if takes_moment(residual, sense, z):
             return z, True
@@ -70,14 +70,16 @@ def find_single_plane(engine: Engine, residual: Residual, sense: int) -> tuple[f
 
 
 def takes_moment(residual: Residual, sense: int, z: float) -> bool:
-    """Return whether a device at z (m) that cancels the force in this sense cancels the moment."""
+    """Return whether a device at z (m) that cancels the force in this sense also cancels the
+    moment.
+    """
     left = residual.moment(sense) - (z - residual.reference.z) * residual.force(sense)
     return abs(left) <= residual.noise[ResidualPart("moment", sense)]
 
 
 def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sense: int) -> float:
-    """Return the given z, or else z within the engine nearest to where the force in this sense
-    acts, m.
+    """Return the given z, m; by default the z within the engine that is nearest to where the force
+    in this sense acts.
     """
     if options.position is not None:
         return options.position
@@ -86,7 +88,7 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:
     """Return the fewest planes (z, m) in which devices cancel force and moment in this sense: one
-    if it is enough, else both ends, none where nothing is left.
+    if that suffices, else both ends; empty if there is nothing to cancel.
     """
     if residual.force(sense):
         z, enough = find_single_plane(engine, residual, sense)
@@ -95,9 +97,7 @@ def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, 
 
 
 def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
-    """Return the planes (z, m) of `--planes`; BalcliError if it is empty, or names several planes
-    of an engine whose moments are not known.
-    """
+    """Return the given planes (z, m); BalcliError for several planes if moments are not known."""
     if options.planes == "ends":
         return tuple(dict.fromkeys(find_ends(engine)))
     if options.planes == "throws":
@@ -109,7 +109,7 @@ def read_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...]:
 
 
 def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, float]:
-    """Return the two given planes (z, m), or else the ends; BalcliError if they are not two."""
+    """Return the two given planes (z, m), by default the ends; BalcliError if there are not two."""
     planes = find_ends(engine) if options.planes in (None, "ends") else options.planes
     if not isinstance(planes, tuple) or len(planes) != 2:
         raise BalcliError("--planes: give ends, or two places along z, for opposite eccentrics")
@@ -127,15 +127,15 @@ def _find_reach(places: ArrayLike) -> tuple[float, float]:
 
 DeviceTable: TypeAlias = Counterweight | Shaft | Slider
 
-# what describes a new device of each kind: the kinds and their fields in the order of the file
+# kinds of devices in the order of the file, and the keys that describe a new one
 FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
     Counterweight: ("unbalance", "angle", "position", "axle"),
     Shaft: ("ratio", "unbalance", "angle", "at", "position"),
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }
 KINDS = tuple(FIELDS)
-TABLES = ("counterweight", "shaft", "slider")  # of these kinds in an engine file
-_ROUNDING = 1e-12  # of the largest eccentric: less together is no force
+TABLES = ("counterweight", "shaft", "slider")  # tables of these kinds in an engine file
+_ROUNDING = 1e-12  # share of the largest eccentric; a smaller sum is no force
 
 
 def name_kind(device: DeviceTable) -> str:
@@ -144,7 +144,7 @@ def name_kind(device: DeviceTable) -> str:
 
 
 def find_order(device: DeviceTable) -> int:
-    """Return the turns or strokes of a device for each turn of the crank."""
+    """Return the turns or oscillations of a device per turn of the crank."""
     if isinstance(device, Counterweight):
         return 1
     return abs(device.ratio) if isinstance(device, Shaft) else device.order
@@ -156,8 +156,8 @@ def find_unbalance(device: DeviceTable) -> float:
 
 
 def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
-    """Return which devices belong to a shaft that may stand anywhere: its eccentrics together make
-    a moment and no force, and no place is given.
+    """Return whether each device belongs to a shaft that may be anywhere: its eccentrics together
+    make a moment but no force, and no position is given.
     """
     shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
     free = set[int]()
@@ -178,7 +178,7 @@ def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:
 
 
 def as_millimetres(metres: float) -> float:
-    """Return a length in mm, as people would write it."""
+    """Return a length in mm without rounding errors in its last digits."""
     return _plain(metres * 1e3, abs(metres * 1e3))
 
 

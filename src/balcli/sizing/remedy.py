@@ -1,4 +1,4 @@
-"""Remedy: the devices that a scheme fits to an engine, and the reasons."""
+"""`Remedy`: the devices that a scheme fits to an engine, with the reasons."""
 
 from __future__ import annotations
 
@@ -20,21 +20,22 @@ class Remedy(NamedTuple):
     """New devices as tables of the engine file, with reasons and notes.
 
     Attributes:
-        order: the order that is balanced, where the scheme has one.
-        devices: counterweights, shafts and sliders, in this order.
-        reasons: why each device is fitted, in the order of `devices`; of a remedy without devices,
-            the other changes and their reasons.
-        details: further figures of the scheme, as JSON has them: keys end in the unit, those of
-            one order stand in a dict of their own.
-        note: further information, such as why nothing is fitted.
-        card: bobweights of all crank pins (scheme factor).
-        needs: unbalance that each plane has and lacks, where the file has counterweights (scheme
-            factor).
-        sweep: largest values by factor, for several factors (scheme factor).
-        knuckle_angles_deg: new `articulation.knuckle_angles` (scheme knuckles).
-        beyond: devices that no engine file can describe, SI.
-        start: engine to which the devices are fitted, where it is not the one of the file.
-        step: name of the step of the ladder (schemes auto and step).
+        scheme: Name of the scheme.
+        order: Order that is balanced, if the scheme balances only one.
+        devices: Counterweights, shafts and sliders, in this order.
+        reasons: Reason for each device, in the order of `devices`; without devices, reasons for
+            other changes.
+        details: Further figures of the scheme in the form of JSON: keys end in the unit; figures of
+            one order may be in a dict of their own.
+        note: Further information, such as why nothing is fitted.
+        card: Bobweights of all crank pins (scheme factor).
+        needs: Unbalance that each plane needs, has and lacks, if the file has counterweights
+            (scheme factor).
+        sweep: Largest values for each of several factors (scheme factor).
+        knuckle_angles_deg: New `articulation.knuckle_angles` (scheme knuckles).
+        beyond: Devices that no engine file can describe, SI.
+        start: Engine to which the devices are fitted, if it is not that of the file.
+        step: Name of the step of the ladder (schemes auto and step).
     """
 
     scheme: str
@@ -63,12 +64,12 @@ class Remedy(NamedTuple):
 
     @property
     def sliders(self) -> tuple[Slider, ...]:
-        """Devices that go to and fro."""
+        """Reciprocating devices."""
         return tuple(device for device in self.devices if isinstance(device, Slider))
 
     @property
     def free(self) -> tuple[bool, ...]:
-        """For each of `devices`, whether it may stand anywhere (`planes.find_free`)."""
+        """Whether each of `devices` may be anywhere (`planes.find_free`)."""
         return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
@@ -84,7 +85,7 @@ class Remedy(NamedTuple):
         """Return the remedy with further details.
 
         Args:
-            group: Name of the dict in which they stand, such as `order_2`; empty: in none.
+            group: Name of the dict to which they are added, such as `order_2`; empty: no dict.
             figures: Details by their keys.
         """
         if group:

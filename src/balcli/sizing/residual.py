@@ -1,4 +1,6 @@
-"""Residual: free force, moment and roll of one order that a scheme has to cancel."""
+"""`Residual`: free force, moment and roll of one order that a scheme has to cancel, as rotating
+vectors; and how large they are compared with one cylinder.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,7 @@ class ResidualPart(NamedTuple):
 
     Attributes:
         kind: "force", "moment" or "roll".
-        sense: 1 turns with the crank, -1 against it; 0 for the roll, which does not turn.
+        sense: 1 if the vector turns with the crank, -1 if against it; 0 for the roll, a scalar.
     """
 
     kind: PartKind
@@ -44,16 +46,16 @@ class ReferencePoint(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """Parts of one order that remain to be cancelled, as the unbalance that would make them.
+    """Parts of one order that remain to be cancelled, as the unbalance that would cause them.
 
     Attributes:
-        order: n, times crank speed.
-        parts: complex amplitude over `n^2 omega^2` of each part: force in kg m, moment (over i)
-            and roll in kg m^2.
-        noise: rounding error of each part, in the same units.
-        reference: point about which moments and roll are taken.
+        order: Order n.
+        parts: Complex amplitude of each part divided by `n^2 omega^2`: force in kg m, moment (over
+            i) and roll in kg m^2.
+        noise: Rounding error of each part, in the same units.
+        reference: Point about which moments and roll are taken.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
-        note: why lower orders are left, where a scheme chose this order.
+        note: Reason why lower orders are left, if a scheme chose this order.
     """
 
     order: int
@@ -64,11 +66,13 @@ class Residual(NamedTuple):
     note: str = ""
 
     def force(self, sense: int) -> complex:
-        """Force turning in this sense (1 with the crank, -1 against it), kg m."""
+        """Return the force that turns in this sense (1 with the crank, -1 against it), kg m."""
         return self.parts[ResidualPart("force", sense)]
 
     def moment(self, sense: int) -> complex:
-        """Moment over i turning in this sense (1 with the crank, -1 against it), kg m^2."""
+        """Return the moment over i that turns in this sense (1 with the crank, -1 against it), kg
+        m^2.
+        """
         return self.parts[ResidualPart("moment", sense)]
 
     @property
@@ -77,11 +81,11 @@ class Residual(NamedTuple):
         return self.parts[ROLL]
 
     def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
-        """Whether anything of a kind turns in one of these senses."""
+        """Return whether a part of this kind turns in one of these senses."""
         return any(self.parts[ResidualPart(kind, sense)] for sense in senses)
 
     def size(self, *parts: ResidualPart) -> float:
-        """Sum of the amplitudes of these parts at the engine's speed, N or N m."""
+        """Return the sum of the amplitudes of these parts at the engine's speed, N or N m."""
         return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m
 
 
@@ -89,9 +93,9 @@ class Scales(NamedTuple):
     """Largest first-order force, moment and roll of one cylinder.
 
     Attributes:
-        force: largest first-order force of a cylinder alone, N.
-        moment: this force at the length of the engine, N m.
-        roll: this force at the crank radius, N m.
+        force: Largest first-order force of a single cylinder, N.
+        moment: This force times the length of the engine, N m.
+        roll: This force times the crank radius, N m.
     """
 
     force: float
@@ -110,8 +114,8 @@ def find_scales(engine: Engine) -> Scales:
 
 
 def find_size(residual: Residual, sense: int, scales: Scales) -> float:
-    """Return the size of what turns in a sense (1 with the crank, -1 against it): force and moment
-    as shares of one cylinder's, the larger of both.
+    """Return the size of the parts that turn in a sense (1 with the crank, -1 against it): the
+    larger of force and moment as shares of one cylinder's.
     """
     return max(find_share(residual, part, scales) for part in (FORWARD if sense > 0 else BACKWARD))
 
@@ -123,20 +127,18 @@ def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
 
 
 def is_small(size: float, least: float) -> bool:
-    """Return whether a part is nothing, or small; one of the limit's size is not, but for
-    rounding.
+    """Return whether a part is 0 or below a limit.
 
     Args:
         size: Size of the part.
-        least: Size from which on a part is not small.
+        least: Limit; a part of this size (within rounding) is not small.
     """
     return not size or size < least * (1 - 1e-9)
 
 
 class NothingToBalanceError(Exception):
-    """There is nothing to balance, and a scheme fits no device; the text gives the reason.
-
-    `details`: further figures of the scheme.
+    """There is nothing to balance, so a scheme fits no device; the text gives the reason, and
+    `details` are further figures of the scheme.
     """
 
     def __init__(self, text: str, **details: float) -> None:
@@ -145,17 +147,17 @@ class NothingToBalanceError(Exception):
 
 
 class OnlySmallError(Exception):
-    """All parts that a scheme cancels are small; the text names the largest."""
+    """All parts that a scheme could cancel are small; the text names the largest."""
 
 
 def hold_steady(engine: Engine) -> Engine:
-    """Return the engine at its mean speed, without speed ripple: devices are sized for that."""
+    """Return the engine at constant speed, for which devices are sized."""
     return replace(engine, ripple=())
 
 
 def find_residual(engine: Engine, order: int) -> Residual:
-    """Return the residual of an engine with its devices at one order and its mean speed; forces
-    alone where moments are not known.
+    """Return the residual of an order for an engine with its devices, at its mean speed. Moments
+    that are not known are 0.
     """
     found = compute_spectra(hold_steady(engine), [order], ("force", "moment", "roll"))
     newtons_per_kg_m = order**2 * float(engine.omega) ** 2
@@ -180,14 +182,19 @@ def choose_residual(
     kinds: Sequence[Literal["force", "moment"]],
     senses: Sequence[int] = (1, -1),
 ) -> Residual:
-    """Return the residual of the given order, or else of the lowest order that has a part of these
-    kinds that is not small.
+    """Return the residual of the given order; by default of the lowest order in which a part of
+    these kinds is not small.
 
     Args:
-        senses: Senses of rotation that count: 1 with the crank, -1 against it.
+        engine: Engine with its devices.
+        options: Options of the scheme.
+        kinds: Kinds of parts that the scheme cancels.
+        senses: Senses of rotation that it cancels: 1 with the crank, -1 against it.
 
-    Raises NothingToBalanceError if no such part is left, BalcliError for a moment that is not
-    known, OnlySmallError if all parts that are left are small.
+    Raises:
+        NothingToBalanceError: There is no such part.
+        BalcliError: A moment is wanted but not known.
+        OnlySmallError: All such parts are small.
     """
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
@@ -252,15 +259,15 @@ def tell_small(
     scales: Scales,
     least: float,
 ) -> str:
-    """Return why nothing is fitted (all parts that the scheme cancels are small), and which scheme
-    cancels the largest part of all.
+    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
+    which scheme cancels the largest part of all.
 
     Args:
         largest: Residual of the order with the largest part that the scheme cancels.
-        sought: Parts that it cancels.
+        sought: Parts that the scheme cancels.
         found: Residuals of all orders.
         scales: Force, moment and roll of one cylinder.
-        least: Share of it below which a part is small.
+        least: Share of one cylinder below which a part is small.
     """
     part = max(sought, key=lambda one: find_share(largest, one, scales))
     told = (

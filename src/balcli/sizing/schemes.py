@@ -1,4 +1,6 @@
-"""The balance schemes by name, what each does, and which options it takes; loads no library."""
+"""Names of the balance schemes, the options that each takes, and a line that describes each. This
+module loads no library.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,7 @@ SCHEMES: dict[str, tuple[str, ...]] = {
 }
 
 
-LADDER = ("auto", "step")  # steps of it
+LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 
 
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
@@ -31,7 +33,7 @@ FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 NAMES = (*SCHEMES, KNUCKLES, FIT)
 
 
-# What each does, in a line.
+# Description of each scheme.
 MEANINGS = {
     "auto": "orders 1 and 2: counterweights, then shafts as far as they are worth one",
     "complete": "all of orders 1 and 2, however small: counterweights, then shafts",

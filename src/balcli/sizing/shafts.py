@@ -1,10 +1,10 @@
-"""The schemes `single-shaft` and `couple-shaft`: balancer shafts for any order.
+"""Balancer shafts for any order: the schemes `single-shaft` and `couple-shaft`, and the schemes
+`two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions.
 
-The schemes `two-shaft` and `four-shaft`: pairs of shafts that turn against each other.
-
-A stands for the shaft that turns against the crank, B for the one that turns with it; V- and V+ are
-the two parts of the force of their order, p_A and p_B places x + iy from the crank axis. The shafts
-make a roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A conj(V-)`.
+In a pair, A is the shaft that turns against the crank, B the one that turns with it. V- and V+ are
+the two rotating vectors of the force of their order, p_A and p_B the positions x + iy of the shafts
+from the crank axis. The shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A
+conj(V-)`.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ _ROUNDING_M = 1e-9
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit one shaft at -N for the part of order N that turns against the crank; for N = 1 also
-    counterweights for the part that turns with it.
+    counterweights for the part that turns with the crank.
 
-    One eccentric cancels the force. Its axial distance from the force leaves a couple, which the
-    details list; without a given place it stands where that couple is smallest. Two eccentrics in
-    given planes cancel the moment as well.
+    By default, one eccentric cancels the force. Its axial distance from the force leaves a couple,
+    which the details list; unless a position is given, it is where this couple is smallest. Two
+    eccentrics in given planes also cancel the moment.
     """
     two = options.planes is not None
     if two and options.position is not None:
@@ -78,8 +78,8 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit shafts at +N and -N, each with two opposite eccentrics in two planes, for the moment of
-    order N; only one of them where the moment turns in one sense alone.
+    """Fit shafts at +N and -N for the moment of order N, each with two opposite eccentrics in two
+    planes. If the moment turns in only one sense, fit only one shaft.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
@@ -100,8 +100,8 @@ Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit shafts at +N and -N for the force of order N, placed such that no roll is added, or such
-    that none is left (option `roll`).
+    """Fit shafts at +N and -N for the force of order N. They are placed such that they add no roll,
+    or (option `roll`) such that no inertia roll remains.
     """
     try:
         residual = choose_residual(engine, options, ("force",))
@@ -115,7 +115,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
-        if not residual.has("force", (1, -1)):  # nothing reciprocates: the counterweights do it
+        if not residual.has("force", (1, -1)):  # no reciprocating mass: counterweights suffice
             return fitting.remedy
     return _add_pair(fitting, residual, options).remedy
 
@@ -125,8 +125,8 @@ def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Reme
     cancels the moment of order N, and remains as a free force.
 
     Raises:
-        NothingToBalanceError: the order has no moment.
-        BalcliError: the place has no arm.
+        NothingToBalanceError: The order has no moment.
+        BalcliError: A force at z has no arm.
     """
     residual = choose_residual(engine, options, ("moment",))
     if z == residual.reference.z:
@@ -167,8 +167,8 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> Fitting:
-    """Return the fitting with shafts at +N and -N for the force of this order; where it turns in
-    one sense alone, with one shaft or its two halves.
+    """Return the fitting with shafts at +N and -N for the force of this order. If the force turns
+    in only one sense, add one shaft, or its two halves.
     """
     places = _choose_places(residual, options)
     for sense, standing in places.items():
@@ -185,13 +185,13 @@ def _add_pair(fitting: Fitting, residual: Residual, options: SchemeOptions) -> F
 
 
 def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
-    """Return the places of the shafts of each sense: the given ones, the others such that the pair
-    adds no roll, or with `roll` such that none is left.
+    """Return the positions of the shafts that turn in each sense. Positions that are not given are
+    chosen such that the pair adds no roll, or (option `roll`) such that no roll remains.
 
-    A pair makes minus a roll (kg m^2) where `conj(p_B) V+ - p_A conj(V-) = i roll`
-    (docs/theory.md). Without a given place, the places nearest to the crank are chosen (least
-    squares). A force that turns in one sense alone needs one shaft on the crank axis, or two halves
-    at the given place and opposite to it.
+    A pair cancels a roll (kg m^2) if `conj(p_B) V+ - p_A conj(V-) = i roll` (docs/theory.md). If no
+    position is given, those nearest to the crank are chosen (least squares). A force that turns in
+    only one sense needs one shaft on the crank axis, or two halves, at the given position and
+    opposite to it.
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
@@ -209,7 +209,7 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         raise BalcliError("--roll zero places the second shaft; give one --at")
     if len(at) == 2:
         return {-1: (at[0],), 1: (at[1],)}
-    here = residual.reference.place  # the roll is wanted about the crank axis
+    here = residual.reference.place  # the roll to cancel is that about the crank axis
     moved = here.conjugate() * forward - here * backward.conjugate()
     wanted = 1j * residual.roll + moved if options.roll else 0j
     against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
@@ -219,13 +219,13 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
 
 def _describe_places(places: Places) -> dict[str, float]:
     """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
-    of the distances (with the crank : against it).
+    of distances (shaft with the crank : shaft against it).
     """
     details = {}
     for sense, name in ((1, "with_crank"), (-1, "against_crank")):
         for place in places.get(sense, ())[:1]:
             details[f"radius_{name}_mm"] = 1e3 * abs(place)
-            if place:  # on the crank axis there is no direction
+            if place:  # a shaft on the crank axis has no direction
                 details[f"direction_{name}_deg"] = math.degrees(cmath.phase(place))
     if len(places) == 2 and (against := abs(places[-1][0])):
         details["radius_ratio"] = abs(places[1][0]) / against

@@ -1,13 +1,13 @@
-"""Schemes for one cylinder whose devices no engine file can describe: shafts of variable speed, and
-Oldham couplings (Wang).
+"""Schemes for a single cylinder with devices that no engine file can describe: shafts of variable
+speed, and Oldham couplings (Wang).
 
-Balance shafts turned unevenly by an eccentric slider: the best throw and mass for a single
-cylinder (Wang, section 2.4).
+Eccentric slider (Wang, section 2.4): a slider on an eccentric disc turns two balance shafts
+unevenly; their best eccentricity and mass are sought.
 
-Two shafts, symmetric to the cylinder axis, turn by phi(theta); their force along the axis is `2 m_b
+The shafts, symmetric to the cylinder axis, turn by phi(theta). Their force along the axis is `2 m_b
 r_b omega^2 (phi'^2 cos phi + phi'' sin phi) = -2 m_b r_b omega^2 (cos phi)''` (the sign of the
-second term is misprinted in the source). In units of m r omega^2 what remains is `P = f(theta) - 2
-mu g(theta; k)`, an even function; k and mu are sought.
+second term is misprinted in the source). In units of m r omega^2, the remaining force is the even
+function `P = f(theta) - 2 mu g(theta; k)`; k and mu are the unknowns (`Optimum`).
 
 Below, `c` holds cosine coefficients of an even function, shape (orders,), and `x` the two unknowns
 k and mu, shape (2,).
@@ -33,20 +33,20 @@ from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
 
-DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
 CRITERIA = ("largest", "mean")
-FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
-_LEAST_K, _MOST_K = 1.2, 1e12  # k is sought between; nearer to 1 its series is too long
+FORCES = ("orders 1+2", "all orders")  # first cos theta + lambda cos 2 theta, then the exact force
+_LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1 its series is too long
 _COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
-_NOISE = 5e-16  # of the transform; squares of the orders would multiply it
-_SETTLED = 1e-10  # relative
-_FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # share of k by which it moves in one step
-_SINGULAR = 1e-14  # determinant of a triple that fixes nothing
-_BELOW_0 = -1e-12  # a weight above this is 0 but for rounding
-_NEWTON_STEPS = 8  # from the middle of a cell of the grid to a root, to rounding
+_NOISE = 5e-16  # rounding of the transform, which squares of the orders would multiply
+_SETTLED = 1e-10  # relative step that ends the search
+_FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
+_SINGULAR = 1e-14  # smaller determinants are singular
+_BELOW_0 = -1e-12  # a weight above this counts as 0 or positive
+_NEWTON_STEPS = 8  # they lead from the middle of a grid cell to a root, up to rounding
 
 
 class Optimum(NamedTuple):
@@ -58,8 +58,8 @@ class Optimum(NamedTuple):
         engine_force: One of `FORCES`.
         k: Radius of the driving pin over the eccentricity, r_b/e.
         mu: Unbalance of each shaft in units of m r (reciprocating mass times crank radius).
-        largest: Largest absolute force that is left, in units of m r omega^2.
-        mean: Mean absolute force that is left, in units of m r omega^2.
+        largest: Largest absolute value of the remaining force, in units of m r omega^2.
+        mean: Mean absolute value of the remaining force, in units of m r omega^2.
     """
 
     design: str
@@ -81,7 +81,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
         lam: Crank radius over rod length.
 
     Raises:
-        BalcliError: lambda is so large that the search does not settle.
+        BalcliError: lambda is so large that the search does not converge.
     """
     engine = _expand_engine_force(engine_force, lam)
     try:
@@ -101,14 +101,14 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
 
 
 def find_optima(lam: float) -> tuple[Optimum, ...]:
-    """Return the optima of both designs by both criteria for both forces: first the smallest peak
-    of design a for orders 1 and 2.
+    """Return the optima of both designs by both criteria for both forces; the first is the smallest
+    peak of design a for orders 1 and 2.
 
-    At lambda above 0.6 some searches do not settle, as k would fall below 1: their optima are left
-    out.
+    Above lambda = 0.6 some searches do not converge, because k would fall below 1; their optima are
+    omitted.
 
     Raises:
-        BalcliError: the first one does not settle.
+        BalcliError: The search for the first one does not converge.
     """
     optima = [find_optimum(DESIGNS[0], CRITERIA[0], FORCES[0], lam)]
     for force, design, criterion in [*product(FORCES, DESIGNS, CRITERIA)][1:]:
@@ -118,12 +118,12 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
 
 
 def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
-    """Return cosine coefficients of cos phi over the crank angle, and their derivatives by k; phi
-    is the angle of the shafts.
+    """Return the cosine coefficients of cos phi over the crank angle, phi being the angle of the
+    shafts, and their derivatives by k.
     """
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
     cosine, step = np.cos(theta), 1e-30
-    moved = k + 1j * step  # complex step: the derivative to rounding
+    moved = k + 1j * step  # a complex step gives the derivative to rounding
     wave: Complex
     if design == "a":
         wave = (cosine * np.sqrt(moved**2 - np.sin(theta) ** 2) - np.sin(theta) ** 2) / moved
@@ -135,8 +135,8 @@ def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
 
 
 def find_shaft_rates(design: str, k: float) -> tuple[float, float, float]:
-    """Return the largest and smallest `phi'`, the speed of the shafts over that of the crank, at
-    theta = 0 and pi, and the largest `phi''`.
+    """Return the largest and smallest `phi'` (shaft speed over crank speed, at theta = 0 and pi),
+    and the largest `phi''`.
 
     Args:
         design: One of `DESIGNS`.
@@ -151,15 +151,15 @@ def find_shaft_rates(design: str, k: float) -> tuple[float, float, float]:
 
 
 def _expand_engine_force(engine_force: str, lam: float) -> Array:
-    """Return cosine coefficients of the force of the piston in units of m r omega^2."""
+    """Return the cosine coefficients of the piston's force in units of m r omega^2."""
     if engine_force == "all orders":
         return closed_form.piston(_ORDERS, lam)
     return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
 def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:
-    """Return cosine coefficients of P, what remains of the engine's force, and their derivatives
-    by k and by mu, shape (2, orders).
+    """Return the cosine coefficients of the remaining force P, and their derivatives by k and by
+    mu, shape (2, orders).
     """
     if not _LEAST_K < x[0] < _MOST_K:
         raise ArithmeticError(f"k must stay above {_LEAST_K}")
@@ -170,8 +170,8 @@ def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:
 
 # ------------------------------------------------------------------ even series
 def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
-    """Return values at some angles, shape (angles,), or (angles, 2) for two series in rows;
-    differentiated so many times, or integrated (-1).
+    """Return the values of a derivative of a series (-1: of its integral), shape (angles,), or
+    (angles, 2) for two series in rows.
     """
     rate = (np.where(_ORDERS, _ORDERS, np.inf) if derivative < 0 else _ORDERS) ** float(derivative)
     angle = np.multiply.outer(theta, _ORDERS) + derivative * np.pi / 2
@@ -180,9 +180,11 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
 
 
 def _find_zeros(c: Array, derivative: int = 0) -> Array:
-    """Return 0, the zeros of a derivative in between, and pi, by Newton's method within cells."""
+    """Return 0, the zeros of a derivative between 0 and pi, and pi; by Newton's method within grid
+    cells.
+    """
     values = _evaluate(c, _GRID, derivative)
-    if derivative == 1:  # an even function, about pi as well
+    if derivative == 1:  # the function is even about 0 and pi
         values[[0, -1]] = 0
     cells = np.flatnonzero(values[:-1] * values[1:] < 0)
     low, high = _GRID[cells], _GRID[cells + 1]
@@ -195,7 +197,9 @@ def _find_zeros(c: Array, derivative: int = 0) -> Array:
 
 # ------------------------------------------------------------------ the two criteria
 def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array:
-    """Return where steps end; k changes by the share `farthest` of itself at most in each."""
+    """Repeat steps from x until they converge, and return the end. A step changes k by at most the
+    share `farthest`.
+    """
     for _ in range(_ROUNDS):
         move = step(x)
         share: float = farthest * x[0] / max(abs(move[0]), 1e-300)
@@ -206,8 +210,8 @@ def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array
 
 
 def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
-    """Return the step d that makes the largest of `values + slopes d` over the extremes of P
-    smallest: that of the three extremes whose bound is highest (de la Vallee-Poussin).
+    """Return the step d that minimises the largest of `|values + slopes d|` over the extremes of P.
+    It is fixed by the three extremes with the highest bound (de la Vallee-Poussin).
     """
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
@@ -226,8 +230,8 @@ def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
 
 
 def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
-    """Return the step of Newton's method on the gradient of the integral of |P|, which the zeros
-    of P give in closed form.
+    """Return the step of Newton's method on the gradient of the integral of |P|; the gradient has a
+    closed form in the zeros of P.
     """
 
     def find_gradient(x: Array) -> Array:
@@ -244,7 +248,7 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
     return -np.linalg.solve(np.column_stack(columns), find_gradient(x))
 
 
-_SMALLEST = 1e-17  # harmonics of the shafts below this share are left out
+_SMALLEST = 1e-17  # harmonics of the shafts below this amplitude are omitted
 _ECCENTRIC_SLIDER = (
     "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
     "reciprocates); design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the "
@@ -264,14 +268,16 @@ _OLDHAM = (
 
 
 def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit two shafts, symmetric to the cylinder axis, that a slider on an eccentric disc turns
-    unevenly; a weight cancels the rotating mass.
+    """Fit two shafts, symmetric to the cylinder axis, which a slider on an eccentric disc turns
+    unevenly, and a counterweight for the rotating mass.
 
     Masses and eccentricities are for the given radius, or else the crank radius. Design a with the
     smallest peak for orders 1 and 2 (Wang's two terms) is fitted; the remedy lists the optima of
     both designs.
 
-    Raises BalcliError for several cylinders, a piston offset, or a rod too short for an optimum.
+    Raises:
+        BalcliError: There are several cylinders or a piston offset, or the rod is too short for an
+            optimum.
     """
     _require_one_cylinder(engine, "eccentric-slider")
     c = engine.cylinders
@@ -297,13 +303,13 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
-    """Return an optimum with the figures of each shaft: the loads are those of its weight, `m_b r_b
-    phi'^2` outwards, `m_b r_b phi''` along its path, and the torque `m_b r_b^2 phi''`.
+    """Return an optimum with the figures of each shaft. Its weight loads it with the forces `m_b
+    r_b phi'^2` outwards and `m_b r_b phi''` along the path, and the torque `m_b r_b^2 phi''`.
 
     Args:
-        engine: The engine.
-        one: The optimum.
-        unit_kg_m: Reciprocating mass times crank radius.
+        engine: Engine.
+        one: Optimum.
+        unit_kg_m: Reciprocating mass times crank radius, kg m.
         radius: Radius of pin and weight, m; None: the crank radius.
     """
     unbalance, r_b = one.mu * unit_kg_m, radius or float(engine.cylinders.radius[0])
@@ -337,11 +343,14 @@ def _make_shafts(engine: Engine, fitted: Optimum, unit_kg_m: float) -> tuple[Dev
 
 
 def size_oldham(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit two Oldham couplings, one turning with and one against the crank: first-order weights
-    m r/2, and blocks whose centres turn at twice the speed, A2 m r/8 a side; a counterweight
-    cancels the rotating mass. Masses are for the given radius, or else the crank radius.
+    """Fit two Oldham couplings, of which one turns with and one against the crank, and a
+    counterweight for the rotating mass.
 
-    Raises BalcliError for several cylinders.
+    Each coupling has a first-order weight m r/2, and a block, A2 m r/8, whose centre turns at twice
+    the speed. Masses are for the given radius, by default the crank radius.
+
+    Raises:
+        BalcliError: There are several cylinders.
     """
     _require_one_cylinder(engine, "oldham")
     fitting = Fitting.start(engine, "oldham").balance_rotating()

@@ -1,8 +1,4 @@
-"""Sizing of counterweights, balancer shafts and sliders: every scheme is a choice of devices for
-one least squares.
-
-Here: `counterweights`, for all of order 1 that turns with the crank; `slider`, for any order.
-"""
+"""Size counterweights, balancer shafts and sliders by scheme (`size`)."""
 
 from __future__ import annotations
 
@@ -47,19 +43,20 @@ from .single_cylinder import size_eccentric_slider, size_oldham
 
 
 def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
-    """Return the devices of the last step of the ladder that adds counterweights, or takes a part
+    """Return the devices of the last step of the ladder that adds counterweights or cancels a part
     worth a shaft.
     """
     return find_ladder(engine, (options or SchemeOptions()).read_small()).fit()
 
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit counterweights for the force and the moment of order 1 that turn with the crank, in the
-    given planes; in a single plane as a compromise; of unknown moments, for the force alone.
+    """Fit counterweights in the given planes for the force and moment of order 1 that turn with the
+    crank. A single plane is a compromise between both. If moments are not known, only the force is
+    cancelled.
 
     Raises:
-        BalcliError: another order is given, or the planes cannot take the moment.
-        NothingToBalanceError: nothing of order 1 turns with the crank.
+        BalcliError: Another order is given, or the planes cannot take the moment.
+        NothingToBalanceError: No part of order 1 turns with the crank.
     """
     if options.order not in (None, 1):
         raise BalcliError(f"order {options.order}: counterweights turn at order 1; use shafts")
@@ -76,7 +73,7 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
         remedy = fitting.cancel(slots, parts, explain_counterweights(residual)).remedy
     else:
         remedy = _compromise(fitting, slots, residual)
-    if not remedy.devices and not remedy.note:  # dust was left
+    if not remedy.devices and not remedy.note:  # only negligible weights
         raise NothingToBalanceError(_tell_not_needed(engine))
     return remedy
 
@@ -86,7 +83,7 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
 
     Raises:
         BalcliError: Positions of several throws are not known.
-        NothingToBalanceError: No throw needs one.
+        NothingToBalanceError: No throw needs a weight.
     """
     engine = fitting.engine
     if not engine.places_known and len(engine.throws_m) > 1:
@@ -108,8 +105,8 @@ def _tell_not_needed(engine: Engine) -> str:
 def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
     """Fit a weight in one plane, which cannot cancel a moment that acts elsewhere.
 
-    A plane near the point of reference has a short arm: a weight for the moment would leave a far
-    larger force. The moment is therefore weighted by the arms of the engine as well.
+    In a plane near the point of reference, a weight against the moment would cause a far larger
+    force. The moment is therefore divided at least by the longest arm of the engine.
     """
     fit = size_unbalances(slots, residual, FORWARD, _find_engine_arm(fitting.engine, residual))
     fitting = fitting.add(
@@ -125,8 +122,8 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
 
 
 def _find_engine_arm(engine: Engine, residual: Residual) -> float:
-    """Return the longest arm of the engine along the crank from the point of reference, m; at least
-    the crank radius.
+    """Return the longest axial distance from the point of reference in the engine, m; at least the
+    crank radius.
     """
     ends = (abs(z - residual.reference.z) for z in find_length(engine))
     return max(float(engine.cylinders.radius.max()), *ends)
@@ -136,7 +133,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit two reciprocating masses along the axes of the ellipse of order N: `m r = (|V+| +- |V-|)
     / (n^2 omega^2)`.
 
-    Without a given place they stand where the stronger of the two rotating forces acts.
+    By default they are where the larger of the two rotating forces acts.
     """
     residual = choose_residual(engine, options, ("force",))
     forward, backward = residual.force(1), residual.force(-1)
@@ -175,14 +172,16 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
 
 
 def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = None) -> Remedy:
-    """Return the devices that a scheme fits to an engine; none, with a note, where there is nothing
-    to balance.
+    """Return the devices that a scheme fits to an engine; if there is nothing to balance, no
+    devices and a note.
 
     Args:
-        engine: without trailing axes. scheme: of `SCHEMES`.
+        engine: Engine without trailing axes.
+        scheme: Name of a scheme, of `SCHEMES`.
+        options: Options of the scheme.
 
-    Raises BalcliError, with the reason, for an unknown scheme, an option that it does not take, and
-    options that cannot be met.
+    Raises:
+        BalcliError: The scheme is unknown, does not take an option, or cannot meet the options.
     """
     asked = options or SchemeOptions()
     asked.check(scheme)

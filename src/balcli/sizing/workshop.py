@@ -1,5 +1,5 @@
-"""Figures of a device for the workshop: mass at a radius, force, and a first guess of its size in
-steel.
+"""Figures of a device for the workshop: mass at a radius, force, a first guess of its size in
+steel, and holes to drill.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from ..file.model import Counterweight, Slider
 from .planes import DeviceTable, find_order, find_unbalance
 from .remedy import Remedy
 
-ROUNDING = 1e-12  # of a hole: that much more than the deepest one is still one
-THICKNESS = 0.020  # m, of a semicircular disc if nothing else is said
+ROUNDING = 1e-12  # relative excess over the deepest hole that still counts as one hole
+THICKNESS = 0.020  # m, default thickness of a semicircular disc
 
 
 class Tools(NamedTuple):
@@ -48,22 +48,22 @@ class Tools(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Practical:
-    """The workshop's figures of a device.
+    """Figures of a device for the workshop.
 
     Attributes:
         unbalance_kg_m: Unbalance of the device.
         mass_kg: Mass at `radius_mm` that makes the unbalance (a slider: of this amplitude).
         radius_mm: Radius at which masses are stated.
         force_N: Centrifugal force (largest force of a slider) at the engine's speed.
-        speed_rpm: Speed of the shaft; of a slider its strokes a minute.
-        disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
-            rotation.
+        speed_rpm: Speed of the shaft; for a slider, its oscillations per minute.
+        disc_radius_mm: Radius of a semicircular steel disc whose diameter passes through the axis
+            of rotation.
         disc_thickness_mm: Thickness of this disc.
-        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. None, as below,
-            without a drill, and for sliders.
-        holes: Number of equal holes side by side along the axis: they remove an unbalance opposite
-            to it, or add it with slugs on its own side.
-        hole_angle_deg: Angle of the holes, counted as that of the device.
+        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards; null (as the
+            holes) without a drill, and for sliders.
+        holes: Number of equal holes side by side along the axis. Empty holes are opposite to the
+            unbalance; holes with slugs are on its side.
+        hole_angle_deg: Angle of the holes, counted like that of the device.
     """
 
     unbalance_kg_m: float
@@ -79,16 +79,16 @@ class Practical:
 
 
 class HolesDoNotFitError(BalcliError):
-    """More holes are needed than have room side by side on the crank."""
+    """More holes are needed than fit side by side on the crank."""
 
 
 def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practical, ...]:
     """Return the workshop's figures of all devices, in the order of `remedy.devices`.
 
     Raises:
-        BalcliError: tools that cannot be, or that do not go together.
+        BalcliError: Figures of tools are impossible, or exclude each other.
         HolesDoNotFitError: Holes do not fit on the crank.
-        TypeError: one is no number.
+        TypeError: A figure is no number.
     """
     tools = Tools(*map(_check_figure, Tools._fields, tools))
     _refuse_impossible(tools)
@@ -102,7 +102,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
 
 
 def _refuse_impossible(tools: Tools) -> None:
-    """Raise BalcliError for figures that are not above 0, or that do not go together."""
+    """Raise BalcliError for figures that are not above 0, or that exclude each other."""
     units = {"slug": (1e-3, "g/cm3")}
     strange = [
         f"--{name.replace('_', '-')}: {figure * size:g} {unit}"
@@ -146,10 +146,10 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
 def _plan_holes(
     engine: Engine, device: DeviceTable, unbalance: float, rim: float, tools: Tools
 ) -> Node:
-    """Return the fewest holes that the depth allows.
+    """Return the smallest number of holes that the depth allows, with depth and angle.
 
     Raises:
-        HolesDoNotFitError: More holes are needed than have room side by side.
+        HolesDoNotFitError: More holes are needed than fit side by side.
     """
     if tools.drill is None or isinstance(device, Slider):
         return {}
@@ -179,16 +179,16 @@ def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
 
 
 def _find_room(engine: Engine) -> float:
-    """Return the smallest distance of neighboring throws, m; of one throw, or throws whose places
-    are not known, the stroke.
+    """Return the smallest distance of neighboring throws, m; the stroke if there is one throw or
+    positions are not known.
     """
     places = engine.joined_throws_m
     return float(np.diff(places).min()) if len(places) > 1 else 2 * engine.find_radius(places[0])
 
 
 def _find_disc(unbalance: float, tools: Tools) -> tuple[float, float]:
-    """Radius and thickness: the centroid of a half disc lies 4R/(3 pi) from its diameter, so `m r =
-    density t 2/3 R^3`.
+    """Return radius and thickness of a half disc, m. Its centroid is 4R/(3 pi) from its diameter,
+    so `m r = density t 2/3 R^3`.
     """
     if tools.disc is not None:
         return tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)

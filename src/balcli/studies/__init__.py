@@ -1,1 +1,1 @@
-"""Studies: quantities of many variants of an engine file."""
+"""Studies that evaluate quantities for many variants of an engine file."""

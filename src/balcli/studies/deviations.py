@@ -1,4 +1,4 @@
-"""Parts that deviate from an engine file within tolerances, each by itself: pistons, rods, throws,
+"""List the parts of an engine that deviate independently within tolerances: pistons, rods, throws,
 mounts, shafts and inertias. A part is defined by the figures of the file that vary with it.
 """
 
@@ -15,20 +15,21 @@ from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
 from ..file.torsion_tables import Part, find_stiffness
 from .quantity_names import MOUNTS, TORSION
 
-_ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # of the file, per SI
+_ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # per SI unit
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
 
 
 @dataclass(frozen=True)
 class Tolerances:
-    """Largest deviations.
+    """Largest deviations of each kind of part.
 
     Attributes:
-        mass: Tolerance of piston, rod and throw masses, and of inertias, relative.
-        length: Tolerance of rod lengths, relative. Mass and centre of mass of a rod, or the masses
-            of its ends, stay as they are.
+        mass: Relative tolerance of piston, rod and throw masses, and of inertias.
+        length: Relative tolerance of rod lengths. The other figures of a rod, such as its mass or
+            the masses of its ends, do not change with the length.
         angle_deg: Tolerance of throw angles.
-        stiffness: Tolerance of mounts or shafts, relative; None: OF_MOUNTS or OF_SHAFTS.
+        stiffness: Relative tolerance of the stiffness of mounts or shafts; None: OF_MOUNTS or
+            OF_SHAFTS.
     """
 
     mass: float = 0.0
@@ -38,19 +39,19 @@ class Tolerances:
 
 
 class Line(NamedTuple):
-    """How a figure of the file follows a deviation d: `value + slope d`, in the file's unit."""
+    """Dependence of a figure of the file on a deviation d: `value + slope d` in the file's unit."""
 
     value: float
     slope: float
 
 
 class Source(NamedTuple):
-    """A part that deviates by itself.
+    """A part that deviates independently of all others.
 
     Attributes:
-        name: Name in tables: `piston mass 3`, `stiffness left`.
+        name: Name in tables, such as `piston mass 3` or `stiffness left`.
         tolerance: Largest deviation, relative or in degrees.
-        figures: Figures that vary with it, by dotted name.
+        figures: Figures of the file that vary with the deviation, by dotted name.
         relative: Whether the deviation is relative; otherwise it is in degrees.
     """
 
@@ -61,19 +62,19 @@ class Source(NamedTuple):
 
 
 def _relative(name: str, tolerance: float, figures: Mapping[str, float]) -> Source:
-    """Return a source whose deviation scales all its figures."""
+    """Return a source whose figures are all proportional to 1 + deviation."""
     return Source(name, tolerance, {path: Line(value, value) for path, value in figures.items()})
 
 
 def find_sources(
     model: EngineFile, chapter: str, within: Tolerances
 ) -> tuple[EngineFile, tuple[Source, ...]]:
-    """Return the file with a figure for each part, and the parts that deviate.
+    """Return the file with a separate figure for each part, and the parts that deviate.
 
     Args:
         model: Engine file.
         chapter: Chapter whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS or TORSION.
-        within: Tolerances; parts without one are left out.
+        within: Tolerances; parts with a tolerance of 0 are left out.
     """
     if chapter == MOUNTS:
         sources = _list_mounts(model, within)
@@ -124,7 +125,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
 
 
 def _list_masses(model: EngineFile, parts: Parts, mass: float) -> Iterator[Source]:
-    """Yield the masses of pistons, rods and throws, as far as there are some."""
+    """Yield the masses of pistons, rods and throws that are not 0."""
     yield from _list_pistons(model, mass)
     for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
@@ -149,8 +150,8 @@ def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
-    """Return the angles of the devices while cylinder 1's throw moves, at which all angles begin:
-    the devices stay with the other throws.
+    """Return the angles of the devices as functions of the angle of cylinder 1's throw. All angles
+    count from this throw, so these lines keep the devices in place relative to the other throws.
     """
     lines = {}
     for path, table in model.tables():
@@ -162,7 +163,7 @@ def _hold_devices(model: EngineFile) -> dict[str, Line]:
 
 # ------------------------------------------------------------------ mounts, shafts and inertias
 def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
-    """Yield the stiffness of every mount, along all its axes alike."""
+    """Yield the stiffness of every mount; its axes deviate together."""
     tolerance = OF_MOUNTS if within.stiffness is None else within.stiffness
     for number, mount in enumerate(model.mount, 1):
         label = label_table(mount, number)
@@ -174,8 +175,8 @@ def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
 
 
 def _spell_out_shafting(model: EngineFile) -> EngineFile:
-    """Return the file with a stiffness and an inertia for every throw, and a stiffness for every
-    shaft that is given by its length.
+    """Return the file with separate stiffnesses and inertias for all throws, and with a stiffness
+    for every shaft that is given by its length.
     """
     torsion = model.torsion
     if torsion is None:

@@ -1,4 +1,6 @@
-"""The command `numbers`: numbers of an engine file that can vary, and its quantities."""
+"""The command `balcli numbers`, which lists the numbers of an engine file that can vary, and its
+quantities.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,9 @@ _OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
 
 
 def sheet(result: NamedNumbers, _system: System) -> Sheet:
-    """Return both lists, a name a row; keys of single cylinders that are not given share a row."""
+    """Return both lists with one row for each name. Keys of single cylinders that the file does not
+    give share one row for all cylinders.
+    """
     rows = dict.fromkeys(_list_rows(result.numbers))
     numbers = Grid(
         "Numbers: sweep --vary NAME=VALUES",
@@ -43,7 +47,7 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
 
 
 def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
-    """Yield the rows of the numbers; only the first member of a list has the meaning."""
+    """Yield the rows of the numbers; for lists, only the first member has its meaning."""
     before = ""
     for number in numbers:
         stem = number.path.rstrip("0123456789")
@@ -57,7 +61,7 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
 
 
 def rows(result: NamedNumbers, _system: System) -> Rows:
-    """Return CSV: a name a line; quantities have no value."""
+    """Return CSV with one name in each line; quantities have no value."""
     return Rows(
         ("kind", "name", "value", "unit", "meaning"),
         [

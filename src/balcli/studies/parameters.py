@@ -1,5 +1,5 @@
-"""Numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`, `shaft.1.unbalance`),
-and the values that a user gives them.
+"""Find the numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`,
+`shaft.1.unbalance`), and read the values that a user gives them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
-from ..file.fields import Number, OneOrEach, nearest, shorten
+from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
 from ..file.messages import SYNONYMS
 from ..file.model import EngineFile, Override
 from ..file.mount_tables import AlikeOrEach
@@ -29,7 +29,7 @@ from ..show.sheet import count_name
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of the file, and the values that it takes, shape (values,), in its bare unit."""
+    """A number of the file and its values, shape (values,), in the unit of the file."""
 
     path: str
     values: NDArray[np.float64]
@@ -40,19 +40,19 @@ class Parameter:
 
 
 def tell_variant(figures: Mapping[str, float]) -> str:
-    """Return a variant in words, for messages: `rod.length = 150, piston.mass = 0.5`."""
+    """Return a variant's figures as text for messages: `rod.length = 150, piston.mass = 0.5`."""
     if len(figures) > MOST_PARAMETERS:
         return "a variant"
     return ", ".join(f"{path} = {value:g}" for path, value in figures.items())
 
 
-# ------------------------------------------------------------------ which numbers there are
+# ------------------------------------------------------------------ numbers of a file
 class Place(NamedTuple):
     """The place of a number in an engine file.
 
     Attributes:
-        reader: Type of the figure.
-        table: Table in which it stands.
+        reader: Reader of the figure, which knows its unit and bounds.
+        table: Type of the table that contains it.
         key: Key in this table.
         value: Value in the file; None: not given.
     """
@@ -64,12 +64,12 @@ class Place(NamedTuple):
 
 
 def find_numbers(model: EngineFile) -> dict[str, Number]:
-    """Return the reader of each number that an engine file has or might have, by dotted name."""
+    """Return the reader of each number that the engine file has or might have, by dotted name."""
     return {path: place.reader for path, place in find_places(model).items()}
 
 
 def find_places(model: EngineFile) -> dict[str, Place]:
-    """Return the place of each number that an engine file has or might have, by dotted name;
+    """Return the place of each number that the engine file has or might have, by dotted name;
     members of lists count from 1.
     """
     plan = plan_cylinders(model)
@@ -79,11 +79,11 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     numbers: dict[str, Place] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
-    for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up names results alone
+    for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up only affects names
         del numbers[path]
-    for k in range(len(model.layout.firing_intervals or ())):  # of a cycle: none varies alone
+    for k in range(len(model.layout.firing_intervals or ())):  # they add up to a cycle
         del numbers[f"layout.firing_intervals.{k + 1}"]
-    if plan.banks != 2:  # it would make a vee of the engine, with other cylinders
+    if plan.banks != 2:  # an angle would turn the engine into a vee
         numbers.pop("layout.bank_angle", None)
     if not plan.in_rows:  # it would number the cylinders anew
         numbers.pop("layout.row_angle")
@@ -97,8 +97,8 @@ _OF_WHEELS = r"locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
-    """Return the numbers without effect on the gas: shares without gas, keys of another kind of
-    cycle, and keys that every cylinder overrides.
+    """Return the numbers of the gas that have no effect: shares of gas in a file without gas, keys
+    for another kind of cycle, and keys that every cylinder overrides.
     """
     own = [path for path in numbers if path.startswith("cylinder.")]
     if model.gas is None:
@@ -117,7 +117,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
 
 
 def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
-    """Yield the numbers of a table; lists and inner tables only as far as the file has them."""
+    """Yield the numbers of a table; of lists and inner tables, only existing members."""
     kind = type(table)
     for key, value in table:
         path, reader, field = f"{start}.{key}", _number_of(kind, key), kind.model_fields[key]
@@ -133,7 +133,7 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
                 elif reader is not None:
                     alike = any(isinstance(mark, AlikeOrEach) for mark in field.metadata)
                     if k == 1 and alike and len(set(value)) == 1:
-                        yield path, Place(reader, kind, key, item)  # all of them together
+                        yield path, Place(reader, kind, key, item)  # all members together
                     yield f"{path}.{k}", Place(reader, kind, key, item)
         elif reader is not None and (value is not None or "tuple" not in str(field.annotation)):
             yield path, Place(reader, kind, key, value)
@@ -141,17 +141,21 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
 
 @cache
 def _number_of(table: type[FileTable], key: str) -> Number | None:
-    """Return the reader of a field that is a number or a list of them. Whole numbers are left out,
-    because they change the layout of the engine.
+    """Return the reader of a field that is a number or a list of numbers; None for other fields.
+    Whole numbers count as other fields, because they change the layout of the engine.
     """
     field = table.model_fields[key]
-    marks = (*field.metadata, *_marks_of(field.annotation))
-    readers = (mark.one if isinstance(mark, OneOrEach) else mark for mark in marks)
-    return next((mark for mark in readers if isinstance(mark, Number)), None)
+    marks = [*field.metadata, *_marks_of(field.annotation)]
+    for mark in tuple(marks):
+        if isinstance(mark, OneOrEach):
+            marks.append(mark.one)
+        elif isinstance(mark, ListOrEach):
+            marks += _marks_of(mark.one)
+    return next((mark for mark in marks if isinstance(mark, Number)), None)
 
 
 def _marks_of(annotation: object) -> Iterator[object]:
-    """Return the types in an annotation, without the fields of inner tables."""
+    """Yield the parts of an annotation, without the fields of inner tables."""
     for part in get_args(annotation):
         if isinstance(part, type) and issubclass(part, FileTable):
             continue
@@ -159,14 +163,14 @@ def _marks_of(annotation: object) -> Iterator[object]:
         yield from _marks_of(part)
 
 
-# ------------------------------------------------------------------ what a user asks for
+# ------------------------------------------------------------------ names and values from users
 def parse_parameter(text: str, model: EngineFile) -> Parameter:
-    """Return the parameter of `path=from:to:step` (ends included) or `path=a,b,c`; figures may have
-    units.
+    """Return the parameter for a text `path=from:to:step` (both ends included) or `path=a,b,c`;
+    figures may have units.
 
     Raises:
-        BalcliError: no such number in the file (with the nearest name), no values, or values out of
-            its bounds.
+        BalcliError: the file has no such number (the message suggests the nearest name), there are
+            no values, or values are out of bounds.
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
     if not equals or not path:
@@ -178,13 +182,14 @@ def parse_parameter(text: str, model: EngineFile) -> Parameter:
 
 
 def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
-    """Return the parameter of a number of the file, by its name and values. Values are numbers in
-    the unit of the file, or texts with units; one, or a list or array of them; or a text as for
-    `parse_parameter`, such as "0.24:0.32:0.01".
+    """Return the parameter for a number of the file and its values.
+
+    Values are one number, or a list or array of numbers, in the unit of the file; texts with units;
+    or one text as in `parse_parameter`, such as "0.24:0.32:0.01".
 
     Raises:
-        BalcliError: as for `parse_parameter`.
-        TypeError: the values have another type.
+        BalcliError: the name or a value is wrong; see `parse_parameter`.
+        TypeError: the values have a wrong type.
     """
     known = find_numbers(model)
     where = shorten(f"{path}={values}") if isinstance(values, str) else path
@@ -208,10 +213,12 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
 
 
 def _read_array(path: str, values: ArrayLike, number: Number) -> NDArray[np.float64]:
-    """Return a number, or a list or array of them, some perhaps with units, as an array."""
+    """Return one number, or a list or array of numbers, as an array; members may be texts with
+    units.
+    """
     refuse_more(path, values, MOST_PARAMETER_VALUES)
     if isinstance(values, range):
-        values = np.fromiter(values, float, len(values))  # a list of them takes much more memory
+        values = np.fromiter(values, float, len(values))  # a list takes much more memory
     try:
         array = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError, OverflowError):
@@ -228,8 +235,8 @@ def _read_array(path: str, values: ArrayLike, number: Number) -> NDArray[np.floa
 
 
 def resolve_name(name: str, known: Mapping[str, Number]) -> str:
-    """Return the dotted name of the only number with this short name: `stroke` is `crank.stroke`,
-    `rpm` and `speed` are `operation.speed`. Ambiguous and unknown names stay as they are.
+    """Return the dotted name for a short name: `crank.stroke` for `stroke`, `operation.speed` for
+    `rpm` or `speed`. Ambiguous and unknown names are returned unchanged.
     """
     if name in known:
         return name
@@ -242,8 +249,8 @@ def resolve_name(name: str, known: Mapping[str, Number]) -> str:
 
 
 def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile) -> str:
-    """Return the message for an unknown name, with `rod.length` for rod_length, all numbers of a
-    table, or the nearest name.
+    """Return the message for an unknown name. It suggests `rod.length` for rod_length, the numbers
+    of a table for the table's name, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
         return f"{path}: firing intervals add up to a cycle, so that none varies alone"
@@ -281,14 +288,14 @@ def _read_values(text: str, number: Number) -> NDArray[np.float64]:
 
 
 def ladder(first: Fraction, step: Fraction, count: int) -> NDArray[np.float64]:
-    """Return first + k step for k = 0 .. count-1, each correctly rounded."""
+    """Return first + k step for k = 0 .. count - 1, each correctly rounded."""
     scale = math.lcm(first.denominator, step.denominator)
     start, rise = int(first * scale), int(step * scale)
     return np.fromiter(((start + rise * k) / scale for k in range(count)), float, count)
 
 
 def _read_exactly(text: str, number: Number) -> Fraction:
-    """Return the exact figure in the bare unit of its field: a range of rounded figures might miss
+    """Return the exact figure in the unit of its field. With rounded figures, a range might miss
     its end.
     """
     figure = re.sub(FORTRAN, r"e\1", text.strip())

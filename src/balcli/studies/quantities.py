@@ -1,11 +1,10 @@
-"""Requested quantities by their names: of forces and moments (`force.2.major`), and of the chapters
-(`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`), whose modules are loaded when one of
-their quantities is requested; their figures for variants of an engine file; and the numbers that
-can vary.
+"""Parse the names of quantities and evaluate them for variants of an engine file; list the numbers
+that can vary.
 
-Forces and moments are evaluated for all variants as arrays, quantities of chapters one variant
-after the other. The torque of the gas is computed when it is asked for, once for all variants whose
-cylinders are alike.
+Quantities of forces and moments (`force.2.major`) are evaluated for all variants as arrays.
+Quantities of chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated
+one variant after the other; the module of a chapter is loaded when one of its quantities is
+requested. Gas torque is computed on demand, once for all variants with the same gas.
 """
 
 from __future__ import annotations
@@ -46,10 +45,10 @@ from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, TORSION, Form, jo
 
 @dataclass(frozen=True)
 class NamedEngine:
-    """The engine that a result is of.
+    """The engine of a result.
 
     Attributes:
-        name: Its name in its file.
+        name: Name in the engine file.
     """
 
     name: str
@@ -59,22 +58,24 @@ AnyQuantity = Quantity | TargetQuantity
 
 
 class Variants(Protocol):
-    """Evaluates some quantities of variants of a file one by one."""
+    """Evaluates some quantities for one variant of a file after another."""
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """Return the value of each for one variant, by the figures that vary."""
+        """Return the value of each quantity for one variant; `values` are its varied figures by
+        path.
+        """
 
 
 class ChapterModule(Protocol):
     """Interface of a module that computes quantities of its chapter."""
 
     def list_names(self, model: EngineFile) -> Iterable[str]:
-        """Return the names of the quantities of a file, with N for any order."""
+        """Return the names of the quantities of a file; N stands for any order."""
 
     def refuse_unknown(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-        """Raise BalcliError if the file lacks the subject of a quantity."""
+        """Raise BalcliError if the file lacks what a quantity refers to, such as a mount."""
 
-    def Variants(  # a class, which a function may be, too
+    def Variants(  # a class or a function that returns an instance
         self, model: EngineFile, quantities: Sequence[TargetQuantity]
     ) -> Variants: ...
 
@@ -85,14 +86,14 @@ def load_chapter(chapter: str) -> ChapterModule:
 
 
 def parse_quantities(text: str, *, with_gas: bool = False) -> tuple[AnyQuantity, ...]:
-    """Return the quantities of these names, in their order, each once.
+    """Return the quantities with these names, in this order and without repetition.
 
     Args:
         text: Names with commas between them.
         with_gas: Whether the engine has gas: `torque` is then the torque of gas and inertia.
 
     Raises:
-        BalcliError: A name is unknown; the error lists those there are.
+        BalcliError: A name is unknown; the error lists the known names.
     """
     words = [word.strip() for word in text.split(",") if word.strip()]
     if not words:
@@ -122,7 +123,7 @@ def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
 
 
 def group_by_chapter(wanted: Iterable[AnyQuantity]) -> dict[str, list[TargetQuantity]]:
-    """Return all other quantities by their chapters."""
+    """Return the quantities of other chapters, grouped by chapter."""
     groups: dict[str, list[TargetQuantity]] = {}
     for q in wanted:
         if isinstance(q, TargetQuantity):
@@ -131,15 +132,15 @@ def group_by_chapter(wanted: Iterable[AnyQuantity]) -> dict[str, list[TargetQuan
 
 
 def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuantity]) -> None:
-    """Raise an error if the file lacks the subject of a quantity, or its variants do.
+    """Raise an error if the file or its variants lack what a quantity refers to.
 
     Args:
         model: Engine file.
         engine: Engine of the file, or variants along trailing axes.
-        wanted: Wanted quantities.
+        wanted: Requested quantities.
 
     Raises:
-        BalcliError, InputError: The quantity does not exist; the error lists those there are.
+        BalcliError, InputError: A quantity does not exist; the error lists those that do.
     """
     wanted = tuple(wanted)
     for chapter, members in group_by_chapter(wanted).items():
@@ -147,17 +148,19 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
     refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-# Tables whose defaults count for the quantities of a chapter, beside those of any engine.
+# Tables whose defaults matter for the quantities of a chapter, in addition to any engine's.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}}
-_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")  # their inertia
-_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")  # their mass, at steady speed
+# Beginnings of names: quantities that do not depend on rod inertia, and quantities that depend on
+# throw mass at steady speed.
+_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")
+_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
 
 
 def list_assumed(
     model: EngineFile, quantities: Collection[AnyQuantity], varied: Iterable[str] = ()
 ) -> tuple[str, ...] | None:
-    """Return the values that are taken because a file leaves them out, as far as quantities depend
-    on them; None: none.
+    """Return the values assumed because a file leaves them out, if quantities depend on them; None
+    if there are none.
 
     Args:
         model: Engine file.
@@ -182,10 +185,10 @@ def list_assumed(
     return choose_assumed(list_inferred(Parts(model)), tables, idle) or None
 
 
-# ------------------------------------------------------------------ figures of variants
+# ------------------------------------------------------------------ evaluation of variants
 @contextmanager
 def naming_variant(name: str) -> Iterator[None]:
-    """Add the name of a variant, or of its file, to the errors that arise within this context."""
+    """Add the name of a variant, or of its file, to errors that are raised within this context."""
     try:
         yield
     except InputError as error:
@@ -195,8 +198,8 @@ def naming_variant(name: str) -> Iterator[None]:
 
 
 class _VariedGas:
-    """Gas torque by order, shape (orders, *trailing), of length 1 along axes without effect on the
-    gas.
+    """Gas torque of variants by order, shape (orders, *trailing). Axes of parameters without effect
+    on the gas have length 1.
     """
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
@@ -205,7 +208,7 @@ class _VariedGas:
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
     def __call__(self, orders: Array) -> Phasors:
-        """Return the torque at these orders; InputError for an impossible cycle."""
+        """Return the torque at these orders; raise InputError for an impossible cycle."""
         self._engines = self._engines or list(self._build())
         found = [compute_gas_torque(engine, orders) for engine in self._engines]
         shape = (len(orders), *self._shape)
@@ -227,15 +230,15 @@ class _VariedGas:
 
 
 class Evaluator:
-    """Evaluates some quantities of variants of an engine file.
+    """Evaluates some quantities for variants of an engine file.
 
     Args:
         model: Engine file.
-        quantities: Quantities that it has.
+        quantities: Quantities that the engine has.
 
     Attributes:
         of_engine: Quantities of forces and moments.
-        one_by_one: Whether some quantities are computed variant by variant.
+        one_by_one: Whether some quantities are computed for one variant after another.
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[AnyQuantity]) -> None:
@@ -248,10 +251,10 @@ class Evaluator:
         self.one_by_one = bool(self._chapters)
 
     def build(self, figures: Mapping[str, Array], rank: int) -> Engine:
-        """Return all variants as one engine with so many trailing axes, with their gas.
+        """Return all variants, with their gas, as one engine with `rank` trailing axes.
 
         Raises:
-            InputError: One of them is impossible.
+            InputError: A variant is impossible.
         """
         engine = build(self._model, figures, rank=rank)
         if self._model.gas is None:
@@ -261,16 +264,16 @@ class Evaluator:
     def evaluate(
         self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None
     ) -> list[Array]:
-        """Return each quantity, SI or degrees, of this shape.
+        """Return each quantity as an array of this shape, in SI units or degrees.
 
         Args:
             figures: Figures that vary, by dotted name; they broadcast to the shape.
-            shape: Of the variants.
-            engine: Result of `build`, if that is known.
+            shape: Shape of the variants.
+            engine: Result of `build`, if known.
 
         Raises:
-            InputError, BalcliError: One of the variants is impossible; the error names it if
-                variants are computed one by one.
+            InputError, BalcliError: A variant is impossible. The error names it if variants are
+                computed one by one.
         """
         found: dict[AnyQuantity, Array] = {}
         if self.of_engine:
@@ -300,9 +303,9 @@ class FileNumber:
     """A number of an engine file.
 
     Attributes:
-        path: Dotted name, as `--vary` takes it.
-        value: Value in its unit, or "rigid"; null: it is not in the file.
-        unit: Unit of the value, as the file has it without one; empty: a plain number.
+        path: Dotted name, as used in `--vary`.
+        value: Value in its unit, or "rigid"; null if it is not in the file.
+        unit: Unit that the file assumes for a bare number; empty for plain numbers.
         meaning: Meaning in words.
     """
 
@@ -314,10 +317,10 @@ class FileNumber:
 
 @dataclass(frozen=True)
 class NamedQuantity:
-    """Quantities by a pattern.
+    """Quantities whose names match a pattern.
 
     Attributes:
-        name: N stands for an order, PART for a word of the meaning.
+        name: Pattern, in which N stands for an order and PART for a word of the meaning.
         unit: SI unit.
         meaning: Meaning in words.
     """
@@ -345,7 +348,7 @@ class NamedNumbers:
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:
-    """Return the quantities of an engine file, chapter by chapter; N stands for any order.
+    """Yield the quantities of an engine file, chapter by chapter; N stands for any order.
 
     Raises:
         BalcliError, InputError: a chapter of the file has mistakes.
@@ -362,7 +365,7 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
 
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
-    """Return the numbers that `sweep` can vary of a file, and the file's quantities."""
+    """Return the numbers of a file that `sweep` can vary, and the quantities of the file."""
     return NamedNumbers(
         engine=NamedEngine(model.name),
         numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),

@@ -1,6 +1,5 @@
-"""The one table of quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
-meanings, and the chapters that compute them. Help, errors and completion read it; `quantities`
-loads a chapter when one of its quantities is requested.
+"""Table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
+meanings, and the chapter that computes each. Help, errors and completion use it.
 
 `N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
 x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
@@ -16,7 +15,7 @@ from typing import NamedTuple
 ENGINE, GUIDE, CYCLE, MOUNTS, TORSION = "engine", "guide", "cycle", "mounts", "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
-# Chapter, pattern, unit, table of the file that is needed, meaning.
+# Chapter, pattern, unit, required table of the file, meaning.
 _TABLE = f"""
 engine   force.N.PART         N           free force: {_OF_VECTOR}
 engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
@@ -56,13 +55,13 @@ _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "P
 
 
 class Form(NamedTuple):
-    """Quantities with names of one pattern.
+    """Quantities whose names match a pattern.
 
     Attributes:
         chapter: Chapter that computes them: ENGINE, or a key of `names.QUANTITIES`.
         pattern: Pattern of their names.
         unit: SI unit.
-        table: Table of the engine file that they need; empty: every engine has them.
+        table: Table of the engine file that they require; empty if every engine has them.
         words: Meaning in words.
     """
 
@@ -85,7 +84,8 @@ class Form(NamedTuple):
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
-# Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
+# Quantities that are largest values over a range of speeds: beginnings of their names, their name
+# in notes, ends of the range relative to the engine's speed, the range in words.
 _RANGES = (
     (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
     (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),
@@ -93,7 +93,7 @@ _RANGES = (
 
 
 def describe_names() -> str:
-    """Return all names in words, for help."""
+    """Return a description of all names for help."""
     chapters = (list(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
     names = "; ".join(", ".join(join_patterns(forms)) for forms in chapters)
     return (
@@ -103,15 +103,15 @@ def describe_names() -> str:
 
 
 def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
-    """Yield patterns, those with the same beginning as one: `mount.NAME.force|static`."""
+    """Yield patterns, joined if they differ only in the last part: `mount.NAME.force|static`."""
     for stem, patterns in groupby(forms, lambda form: form.pattern.rpartition(".")[0]):
         parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts
 
 
 def tell_speeds(names: Iterable[str], rpm: float, varied: Iterable[str] = ()) -> str:
-    """Return over which speeds quantities of these names are the largest, for an engine's speed;
-    where the speed varies, they are those at each speed.
+    """Return a note on the ranges of speed (for an engine's speed, rpm) over which quantities of
+    these names are the largest values; empty if the speed itself varies.
     """
     if "operation.speed" in varied:
         return ""

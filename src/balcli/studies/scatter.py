@@ -1,5 +1,5 @@
-"""Spread of quantities over random variants of an engine file, whose parts deviate within
-tolerances: `scatter`. Every variant is analyzed as `sweep` would.
+"""Compute the spread of quantities over random variants of an engine whose parts deviate within
+tolerances: `scatter`. Variants are evaluated as in `sweep`.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ from .quantities import (
 )
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples, as arrays or one by one
-CHUNK, AT_ONCE = 8_192, 400_000  # samples at a time; deviations at a time
-_EQUAL = 1e-8  # of the largest effect: effects that differ by less are equal
-_ROUNDING = 1e-12  # share of a figure: a smaller change counts as none
+RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default samples: as arrays, one by one
+CHUNK, AT_ONCE = 8_192, 400_000  # samples and deviations computed at once
+_EQUAL = 1e-8  # effects that differ by less, relative to the largest, are equal
+_ROUNDING = 1e-12  # changes below this share of a figure are rounding
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
-# What varies, in words, and an option with a tolerance, by chapter.
+# By chapter: name of the variants, and an option that gives a tolerance.
 _VARIED = {
     ENGINE: ("engines", "--mass-scatter 0.5%"),
     MOUNTS: ("sets of mounts", "--stiffness-scatter 15%"),
@@ -55,7 +55,7 @@ Shape = Literal["uniform", "normal"]
 
 @dataclass(frozen=True, kw_only=True)
 class Spread:
-    """One quantity over all samples, in its SI unit.
+    """Spread of one quantity over all samples, in its SI unit.
 
     Attributes:
         nominal: Value without deviations.
@@ -64,8 +64,8 @@ class Spread:
         p50: Median.
         p95: 95th percentile.
         max: Largest value.
-        bound: The nominal value and the sizes of all changes added up, to first order.
-        sensitivity: Change that the tolerance of each part alone makes, largest first.
+        bound: First-order bound: the nominal value plus the magnitudes of all changes.
+        sensitivity: Change by the tolerance of each part alone, largest first.
     """
 
     nominal: float
@@ -80,18 +80,18 @@ class Spread:
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Scatter(Result):
-    """How quantities spread when masses and lengths vary within their tolerances.
+    """Spread of quantities when masses, lengths, angles or stiffnesses vary within tolerances.
 
     Attributes:
         format: Name and version of the document.
         engine: The engine.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values assumed because the engine file leaves them out.
         samples: Number of random variants.
         distribution: Distribution of each deviation.
         quantities: Spread of each quantity, by its name.
         model: The engine file.
         units: SI unit of each quantity, by its name.
-        varied: Name of the variants in tables: engines.
+        varied: Name of the variants in tables, such as engines.
         parts: Parts that deviate, with their tolerances.
     """
 
@@ -112,14 +112,14 @@ class Scatter(Result):
         return f"of {self.model.name or 'an engine'}: {count_name(self.samples)} samples"
 
 
-# ------------------------------------------------------------------ tolerances as users give them
+# ------------------------------------------------------------------ reading of tolerances
 def read_tolerances(
     mass: float | str, length: float | str, angle: float | str, stiffness: float | str | None
 ) -> Tolerances:
-    """Return tolerances, given as `0.005` or `"0.5%"`, angles as `0.2` or `"0.2 deg"`.
+    """Return tolerances from shares (`0.005` or `"0.5%"`) and an angle (`0.2` or `"0.2 deg"`).
 
     Raises:
-        BalcliError: A value is no tolerance, negative or too large; the error names the option.
+        BalcliError: A value cannot be read, is negative or too large; the error names the option.
     """
     if isinstance(angle, str):
         angle = read_angle("--angle-scatter", angle)
@@ -136,7 +136,7 @@ def read_tolerances(
 
 
 def _read_share(option: str, value: float | str) -> float:
-    """Return a share of 0 to 1; a text is a percentage."""
+    """Return a share from 0 to 1, given as a number or as a percentage in a text."""
     wanted = "a percentage of 0 to 100, such as 0.5%"
     percent = isinstance(value, str) and "%" in value
     share = read_share(option, str(value), wanted) if percent else value
@@ -151,20 +151,20 @@ def _read_share(option: str, value: float | str) -> float:
 
 # ------------------------------------------------------------------ random variants
 class Variants:
-    """Variants of an engine file, and the quantities to compute for them.
+    """Random variants of an engine file, and the quantities to compute for them.
 
     Args:
         model: Engine file.
-        names: Names of the quantities with commas between; None: force and moment of orders 1 and
-            2, as far as they are known.
+        names: Names of the quantities, separated by commas; None: force and moment of orders 1 and
+            2, or only force if positions of throws are unknown.
         within: Tolerances.
 
     Attributes:
         usual: Default number of samples.
 
     Raises:
-        InputError, BalcliError: The file has mistakes, or lacks the subject of a quantity;
-            quantities of several kinds; no tolerance.
+        InputError, BalcliError: The file has mistakes or lacks what a quantity refers to, the
+            quantities need different kinds of tolerances, or all tolerances are 0.
     """
 
     def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
@@ -203,13 +203,13 @@ class Variants:
         self.usual = RANDOM_SINGLES if self._slow else RANDOM_ENGINES
 
     def evaluate(self, deviations: Array) -> Array:
-        """Return all quantities, shape (samples, quantities), SI.
+        """Return all quantities in SI units, shape (samples, quantities).
 
         Args:
-            deviations: Deviations of the sources, relative or in degrees, (samples, sources).
+            deviations: Deviations of the sources, relative or in degrees, shape (samples, sources).
 
         Raises:
-            BalcliError: One of the variants is impossible.
+            BalcliError: A variant is impossible.
         """
         figures = {
             path: line.value + line.slope * column
@@ -234,14 +234,14 @@ class Variants:
         """Return the spread of the quantities over random variants.
 
         Args:
-            samples: Number of variants; None: the usual one.
-            seed: Seed of the random numbers, to repeat them.
-            shape: Uniform within the tolerances, or normal with a third of them as standard
-                deviation.
-            tell: Called with the number of samples so far; returns whether to stop.
+            samples: Number of variants; None: the default number `usual`.
+            seed: Seed of the random numbers, for repeatable results.
+            shape: Distribution of deviations: uniform within the tolerances, or normal with a
+                standard deviation of a third of the tolerance.
+            tell: Called with the number of samples so far; it returns whether to stop.
 
         Raises:
-            BalcliError: Too many samples, or none; an impossible variant.
+            BalcliError: The number of samples is too large or 0, or a variant is impossible.
         """
         samples = self.usual if samples is None else samples
         most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
@@ -306,8 +306,9 @@ class Variants:
 
 
 def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
-    """Return what each tolerance changes, shape (sources, quantities): half the difference between
-    its ends, or the larger change where both ends lead to the same side, as from an amplitude of 0.
+    """Return the change of each quantity by each tolerance, shape (sources, quantities). It is half
+    the difference between both ends of the tolerance. If both ends change a quantity in the same
+    direction, as with an amplitude of 0, it is the larger change.
     """
     up, down = above - nominal, below - nominal
     larger = np.where(np.abs(up) >= np.abs(down), up, down)
@@ -333,32 +334,34 @@ def scatter(
     seed: int | None = None,
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
-    """How free forces and moments spread when masses, rod lengths and throw angles vary, and which
-    tolerance matters most; or forces and modes of mounts, or of torsion, when their stiffness does.
+    """Spread of free forces and moments when masses, rod lengths and throw angles vary, and the
+    tolerances that matter most. Quantities of mounts or torsion spread with stiffness.
 
     Args:
-        engine: as `load` makes it.
-        quantities: sizes of vectors (`force.1.major`, `couple.4.amplitude`), quantities of the
-            cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts (`mode.roll.Hz`,
-            `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and moment of orders
-            1 and 2, as far as they are known.
+        engine: Engine, from `load`.
+        quantities: Magnitudes of forces and moments (`force.1.major`, `couple.4.amplitude`),
+            quantities of the cycle (`torque.max`, `fluctuation`, `guide.6.H`), of mounts
+            (`mode.roll.Hz`, `mount.left.force`) or of torsion (`torsion.1.Hz`). Default: force and
+            moment of orders 1 and 2, or only force if positions of throws are unknown.
         mass: Tolerance of every piston, rod and throw mass, as a share (0.005) or a text ("0.5%").
-        length: Tolerance of every rod length, a share or a text; other keys of the rods stay.
+        length: Tolerance of every rod length, a share or a text; other figures of rods do not
+            change.
         angle_deg: Tolerance of every throw angle, a number or a text with its unit.
-        stiffness: Tolerance of every mount (default: 15 %) or shaft (5 %), a share or a text.
-        samples: Number of random engines; default: 100000, or 500 for quantities that are computed
-            one by one (of the cycle, mounts and torsion).
-        seed: Seed of the random numbers, to repeat them.
-        distribution: Uniform within the tolerances, or normal with a third of them as standard
-            deviation.
+        stiffness: Tolerance of the stiffness of every mount (default: 15 %) or shaft (5 %), a share
+            or a text.
+        samples: Number of random engines; default: 100000, or 500 if quantities are computed for
+            one engine after another (cycle, mounts and torsion).
+        seed: Seed of the random numbers, for repeatable results.
+        distribution: Distribution of deviations: uniform within the tolerances, or normal with a
+            standard deviation of a third of the tolerance.
 
     Returns:
-        For each quantity in `result.quantities` its nominal value, mean, percentiles, largest
-        value, a bound, and the change that each tolerance makes, SI.
+        The result, in which `quantities` has for each name the nominal value, mean, percentiles,
+        largest value, a bound, and the change by each tolerance, in SI units.
 
     Raises:
-        BalcliError: quantities without a spread, no tolerance, too many samples.
-        TypeError: an argument of another type.
+        BalcliError: A quantity has no spread, all tolerances are 0, or there are too many samples.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> scatter(engine, "force.1.major", mass="1%", seed=1).quantities["force.1.major"].p95

@@ -1,4 +1,4 @@
-"""The command `scatter`, and how its result is shown."""
+"""The command `balcli scatter`: its options, and its tables and CSV."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from .scatter import Scatter, Spread
 
 
-SHOWN = 6  # sources of each quantity in a table
+SHOWN = 6  # changes of each quantity in a table
 BOUND = "Bound: nominal value plus all changes below; a variant may lie slightly beyond"
 _SHAPES = {
     "uniform": "evenly distributed",
@@ -40,7 +40,7 @@ _SHAPES = {
 
 
 def rows(result: Scatter, _system: System) -> Rows:
-    """Return CSV: a quantity a line, in SI units."""
+    """Return CSV with one quantity in each line, in SI units."""
     sizes = {name: _list_sizes(spread) for name, spread in result.quantities.items()}
     header = ("quantity", *next(iter(sizes.values())), "unit")
     lines = [(name, *each.values(), result.units[name] or None) for name, each in sizes.items()]
@@ -48,13 +48,13 @@ def rows(result: Scatter, _system: System) -> Rows:
 
 
 def _list_sizes(spread: Spread) -> Node:
-    """Return the figures of a spread without the changes that single tolerances make."""
+    """Return the figures of a spread without the changes by single tolerances."""
     return {key: size for key, size in to_document(spread).items() if key != "sensitivity"}
 
 
 def sheet(result: Scatter, system: System) -> Sheet:
-    """Return percentiles and the tolerances that matter most, each quantity in the unit that fits
-    it.
+    """Return a table of percentiles and a table of the tolerances that matter most, with each
+    quantity in a fitting unit.
     """
     lines, causes = [], []
     for name, spread in result.quantities.items():
@@ -83,7 +83,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
 
 
 def _list_tolerances(result: Scatter) -> str:
-    """Return the tolerances of all kinds of parts and how deviations are distributed."""
+    """Return a sentence on the tolerances of all kinds of parts and their distribution."""
     kinds: dict[str, dict[str, None]] = {}
     for part in result.parts:
         words = part.name.split()
@@ -95,7 +95,7 @@ def _list_tolerances(result: Scatter) -> str:
 
 
 def _group_parts(changes: Mapping[str, float], unit: float) -> list[tuple[str, str]]:
-    """Return changes and the parts that make them, without those that change nothing."""
+    """Return the changes other than 0, each with the parts that cause it."""
     groups: dict[tuple[str, str], list[str]] = {}
     for name, change in changes.items():
         if change:
@@ -108,12 +108,12 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
 MASS = "Tolerance of piston, rod and throw masses, and of inertias."
-ANGLE = "Tolerance of throw angles, as 0.2 deg."
+ANGLE = "Tolerance of throw angles, such as 0.2 deg."
 STIFFNESS = "Tolerance of mounts or shafts."
 OF_EACH = "15% of mounts, 5% of shafts"
-SAMPLES = "Default: 100000, or 500 of quantities that are computed one by one."
-SHAPES = "Even within the tolerances, or normal with a third of them as standard deviation."
-QUANTITY = "As force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
+SAMPLES = "Default: 100000, or 500 for quantities that are computed one by one."
+SHAPES = "Uniform within the tolerances, or normal with a third of them as standard deviation."
+QUANTITY = "Such as force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
 percent = partial(optional, "PERCENT")
 
 
@@ -135,8 +135,8 @@ def scatter(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """How free forces and moments spread when masses (rod lengths, throw angles) vary, and which
-    tolerance matters most.
+    """Spread of free forces and moments when masses, rod lengths or throw angles vary, and the
+    tolerances that matter most.
 
     \b
     Example:

@@ -1,10 +1,10 @@
-"""Grids of variants of an engine: numbers of the file over ranges, evaluated as arrays, in boxes of
-bounded size.
+"""Evaluate quantities on a grid of variants of an engine, whose parameters are numbers of its file.
+The grid is divided into boxes, which are evaluated as arrays.
 
-Every parameter has its own trailing axis, so that figures that do not depend on it are computed
-once: on a grid of bank angles and rod ratios, phases are computed once for each angle, coefficients
-once for each ratio, and only their products for each variant. The last parameter varies fastest in
-the rows.
+Every parameter has its own trailing axis, so that figures independent of it are computed once. On a
+grid of bank angles and rod ratios, for example, phases are computed once for each angle,
+coefficients once for each ratio, and only their products for each variant. In rows of variants, the
+last parameter varies fastest.
 """
 
 from __future__ import annotations
@@ -54,14 +54,16 @@ if TYPE_CHECKING:
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 Box: TypeAlias = tuple[slice, ...]
-ALONE = 64  # variants at a time where each is computed by itself
-CHUNK = 65_536  # variants at a time, at most: enough for what they share
-BYTES = 1 << 24  # of an array that a box needs: no more than the cache holds
-SAMPLES = 1 << 20  # of revolutions in a box: a tenth of a second
+ALONE = 64  # variants in a box if each is computed by itself
+CHUNK = 65_536  # most variants in a box; larger boxes share no more work
+BYTES = 1 << 24  # largest array of a box: it fits into the cache
+SAMPLES = 1 << 20  # most samples of revolutions in a box: a tenth of a second
 
 
 class Share(Protocol):
-    """Yields the outcome of some work for each item, in their order."""
+    """Function that yields `work(item)` for each item, in order, and may share the work among
+    threads.
+    """
 
     def __call__(
         self, work: Callable[[Item], Outcome], items: Iterable[Item], /
@@ -69,7 +71,7 @@ class Share(Protocol):
 
 
 class Chunk(NamedTuple):
-    """The variants in a box of the grid: each quantity, shape (variants in it,)."""
+    """The values in a box of the grid: each quantity, shape (variants in the box,)."""
 
     box: Box
     values: list[Array]
@@ -82,7 +84,7 @@ class Sweep:
     file: EngineFile
     parameters: tuple[Parameter, ...]
     quantities: tuple[AnyQuantity, ...]
-    name: str = "engine"  # of the file, in messages
+    name: str = "engine"  # name of the file in messages
 
     @property
     def columns(self) -> list[str]:
@@ -106,7 +108,7 @@ class Sweep:
 
     @property
     def doubts(self) -> list[str]:
-        """Warnings of unlikely figures of the file, without those that vary."""
+        """Warnings of unlikely figures of the file, except varied ones."""
         with naming_file(self.name):
             all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
@@ -114,7 +116,7 @@ class Sweep:
 
     @cached_property
     def assumed(self) -> tuple[str, ...] | None:
-        """Values taken because the file leaves them out; None: none."""
+        """Values assumed because the file leaves them out; None if there are none."""
         return list_assumed(self.file, self.quantities, [p.path for p in self.parameters])
 
     @property
@@ -128,13 +130,13 @@ class Sweep:
         return math.prod(self.shape)
 
     def cut(self, box: Box) -> Sweep:
-        """Return the variants in a box of the grid as a sweep."""
+        """Return a sweep of the variants in a box of the grid."""
         cuts = zip(self.parameters, box, strict=True)
         return replace(self, parameters=tuple(replace(p, values=p.values[cut]) for p, cut in cuts))
 
     @property
     def figures(self) -> dict[str, Array]:
-        """Return the figures that vary, each along its own axis."""
+        """Values of the varied figures, each along its own axis."""
         grids = np.meshgrid(*(p.values for p in self.parameters), indexing="ij", sparse=True)
         return dict(zip((p.path for p in self.parameters), grids, strict=True))
 
@@ -142,7 +144,7 @@ class Sweep:
         """Return all variants as one engine with an axis for each parameter.
 
         Raises:
-            InputError: One of them is impossible; the first such is named.
+            InputError: A variant is impossible; the error names the first impossible one.
         """
         try:
             return self.evaluator.build(self.figures, len(self.shape))
@@ -157,14 +159,15 @@ class Sweep:
 
 
 def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) -> Sweep:
-    """Return the sweep of an engine file by options of the command line.
+    """Return the sweep that options of the command line describe.
 
     Args:
         vary: Parameters and their values, as typed.
-        quantities: Names with commas; None: the usual ones, as far as they are known.
+        quantities: Names, separated by commas; None: force and moment of orders 1 and 2, or only
+            force if positions of throws are unknown.
 
     Raises:
-        BalcliError: Mistakes in the file, a parameter or a quantity, or an impossible variant.
+        BalcliError: The file, a parameter or a quantity has a mistake, or a variant is impossible.
     """
     model = read(file)
     parameters = tuple(parse_parameter(text, model) for text in vary)
@@ -174,10 +177,11 @@ def read_sweep(file: str, vary: Sequence[str], quantities: str | None = None) ->
 def plan_sweep(
     model: EngineFile, parameters: tuple[Parameter, ...], quantities: str | None, name: str
 ) -> Sweep:
-    """Return the sweep of an engine file; `name` is its name in messages; see `read_sweep`.
+    """Return the sweep of an engine file, after a check of the grid's corners.
 
-    The corners of the grid are checked before the sweep. A mechanism locks at one of them if it
-    locks at all; mistakes of an uneven speed may be between them, and are found later.
+    A mechanism that locks anywhere in the grid also locks at a corner. Mistakes of an uneven speed
+    may lie between the corners; they are found later. `name` is the file's name in messages; see
+    `read_sweep` for the other arguments.
     """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
@@ -199,7 +203,7 @@ def build_corners(sweep: Sweep) -> Engine:
     """Return the variants at the corners of the grid as one engine.
 
     Raises:
-        InputError: One of them is impossible.
+        InputError: A variant is impossible.
     """
     corners = tuple(
         Parameter(p.path, np.array([p.values.min(), p.values.max()]), p.unit)
@@ -209,10 +213,10 @@ def build_corners(sweep: Sweep) -> Engine:
 
 
 def evaluate_sweep(sweep: Sweep) -> list[Array]:
-    """Return each quantity for all variants at once, SI or degrees, shape (variants,).
+    """Return each quantity for all variants, in SI units or degrees, shape (variants,).
 
     Raises:
-        InputError, BalcliError: One of them is impossible; the error has its figures.
+        InputError, BalcliError: A variant is impossible; the error has its figures.
     """
     engine = sweep.engine() if sweep.of_engine else None
     with naming_variant(sweep.name):
@@ -221,8 +225,8 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
 
 
 def count_at_once(sweep: Sweep) -> int:
-    """Return how many variants to compute at a time, estimated at the corners of the grid: a box
-    takes a fraction of a second and little memory.
+    """Return the number of variants in a box, so that it takes a fraction of a second and little
+    memory. It is estimated at the corners of the grid.
     """
     of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
     gas_varies = of_gas and any(concerns_gas(p.path) for p in sweep.parameters)
@@ -237,8 +241,8 @@ def count_at_once(sweep: Sweep) -> int:
 
 
 def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
-    """Yield the grid in boxes of at most `most` variants, in the order of rows: the last axes
-    whole, one cut into like parts, the first one by one.
+    """Yield boxes of at most `most` variants that make up the grid, in the order of rows. A box has
+    the full length of the last axes, a part of one axis, and length 1 along the first axes.
     """
     axis = len(shape) - 1
     while axis > 0 and math.prod(shape[axis:]) <= most:
@@ -255,8 +259,8 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 
 def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
-    """Return all variants, box by box, in the order of rows. The figures do not depend on how the
-    work is shared.
+    """Yield the values of all variants, box by box, in the order of rows. They do not depend on how
+    the work is shared.
     """
     boxes, parts = tee(divide_grid(sweep.shape, count_at_once(sweep)))
     return map(Chunk, boxes, share(evaluate_sweep, map(sweep.cut, parts)))
@@ -266,12 +270,12 @@ def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
 def share_among_threads(
     work: Callable[[Item], Outcome], items: Iterable[Item], threads: int
 ) -> Iterator[Outcome]:
-    """Yield `work(item)` for each item, in their order; a bounded number of items is under way.
+    """Yield `work(item)` for each item, in order; a bounded number of items is in progress.
 
     Raises:
-        BalcliError: The system gives no thread.
+        BalcliError: The system cannot start a thread.
     """
-    from concurrent.futures import ThreadPoolExecutor  # most sweeps have one box
+    from concurrent.futures import ThreadPoolExecutor  # rarely needed: most sweeps have one box
 
     pool = ThreadPoolExecutor(threads)
     try:
@@ -288,7 +292,9 @@ def run_in_order(
     items: Iterable[Item],
     ahead: int,
 ) -> Iterator[Outcome]:
-    """Yield the results of work that `submit` makes futures of; `ahead` of them at a time."""
+    """Yield `work(item)` for each item, in order. `submit` returns futures; `ahead` of them are
+    pending at a time.
+    """
     to_do = iter(items)
     waiting = deque(submit(work, item) for item in islice(to_do, ahead))
     while waiting:
@@ -298,14 +304,14 @@ def run_in_order(
 
 
 def split_columns(sweep: Sweep, chunk: Chunk) -> list[Array]:
-    """Return a chunk as columns: parameters and quantities, each of shape (variants in it,)."""
+    """Return a chunk as columns: parameters, then quantities, shape (variants in the box,) each."""
     axes = [p.values[cut] for p, cut in zip(sweep.parameters, chunk.box, strict=True)]
     return [*(axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")), *chunk.values]
 
 
 def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
-    """Return each quantity on the whole grid, from all its chunks in the order of rows: shape
-    (values of the first parameter, of the second ...).
+    """Return each quantity on the whole grid, with an axis for each parameter, from all chunks in
+    the order of rows.
     """
     whole = np.concatenate([chunk.values for chunk in chunks], axis=1)
     return [*whole.reshape(-1, *sweep.shape)]
@@ -314,12 +320,12 @@ def join_chunks(sweep: Sweep, chunks: Iterable[Chunk]) -> list[Array]:
 # ------------------------------------------------------------------ kept results
 @dataclass(frozen=True, eq=False, repr=False)
 class Swept(Result):
-    """Variants of an engine with their figures.
+    """Quantities on a grid of variants of an engine.
 
     Attributes:
         sweep: File, parameters with their values, and quantities.
-        values: Each quantity on the whole grid, SI or degrees, shape (values of the first
-            parameter, of the second, ...).
+        values: Each quantity on the whole grid, in SI units or degrees, with an axis for each
+            parameter.
     """
 
     sweep: Sweep
@@ -338,7 +344,7 @@ class Swept(Result):
         return iter(self.sweep.columns)
 
     def __getitem__(self, name: str) -> Array:
-        """Return a quantity on the whole grid, or the values of a parameter, by its name.
+        """Return a quantity on the whole grid, or the values of a parameter, by name.
 
         Raises:
             KeyError: The name is unknown.
@@ -356,30 +362,32 @@ def sweep(
     quantities: Words | None = None,
     threads: int | None = None,
 ) -> Swept:
-    """Figures of many variants of an engine: numbers of its file over ranges, the full grid,
-    evaluated as arrays.
+    """Quantities for many variants of an engine: numbers of its file vary over ranges, which span a
+    grid.
 
     Args:
-        engine: as `load` makes it.
-        vary: by dotted name of a number of the engine file (`rod.ratio`, `crank.throws.2`,
-            `layout.bank_angle`), its values in the unit of the file (mm, kg, deg, rpm): an array
-            or list of one axis, texts with units of their own, or a range with both ends
-            ("0:180:1"). Several names span a grid.
-        quantities: names such as `force.2.major` (minor, forward, backward, axis, x, y),
-            `moment.1.backward`, `couple.4.amplitude`, `peak.force`; of engines with mounts,
+        engine: Engine, from `load`.
+        vary: Values of numbers of the engine file, by dotted name (`rod.ratio`, `crank.throws.2`,
+            `layout.bank_angle`): a one-dimensional array or list in the unit of the file (mm, kg,
+            deg, rpm), texts with units, or a range that includes both ends ("0:180:1"). Several
+            names span a grid.
+        quantities: Names such as `force.2.major` (minor, forward, backward, axis, x, y),
+            `moment.1.backward`, `couple.4.amplitude`, `peak.force`; for engines with mounts,
             torsion or gas also `mode.3.Hz`, `mount.left.force`, `torsion.1.Hz`, `torque.mean`.
-            Default: force and moment of orders 1 and 2, as far as they are known.
-        threads: Number of threads for sweeps of more than a second; at most 64; default: one a
-            core.
+            Default: force and moment of orders 1 and 2, or only force if positions of throws are
+            unknown.
+        threads: Number of threads for long sweeps, at most 64; default: one for each core.
 
     Returns:
-        The grid: `result["force.2.major"]` has one axis a name in `vary`, in SI units or degrees;
-        `result.to_pandas()` one row a variant, the last name fastest.
+        The grid: `result["force.2.major"]` has an axis for each name in `vary` and is in SI units
+        or degrees; `result.to_pandas()` has a row for each variant, with the last name varying
+        fastest.
 
     Raises:
-        BalcliError: an unknown name, with the nearest one; values out of bounds, or too many.
-        InputError: one of the variants is impossible; the error has the reason.
-        TypeError: an argument of another type.
+        BalcliError: A name is unknown (the message suggests the nearest), or values are out of
+            bounds or too many.
+        InputError: A variant is impossible; the error has the reason.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> sweep(engine, {"layout.bank_angle": range(0, 181)}, ["force.1.major"]).to_pandas()

@@ -1,4 +1,4 @@
-"""`balcli sweep`"""
+"""The command `balcli sweep`: its options."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ VARY = (
 )
 QUANTITY = f"Figures by name: {describe_names()}"
 FORM = (
-    "Default: by the ending of -o, else a table in a terminal and csv in a pipe. Of more than 50 "
-    "variants tables show the first and the last."
+    "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
+    "variants, tables show only the first and last ones."
 )
 OUTPUT = (
-    "File to write, or a folder for numbered Parquet files, of which the same sweep computes "
-    "missing ones; - is standard output."
+    "File to write, or a folder for numbered Parquet files; repeating a sweep computes only "
+    "the missing ones. - is standard output."
 )
 FORCE = "Replace the earlier sweep in the folder."
 PLOT = "Also draw the quantities over one or two parameters; .svg, .png or .pdf."
-JOBS = "Threads of a long sweep; default: one a core."
+JOBS = "Threads of a long sweep; default: one for each core."
 
 
 def sweep(
@@ -68,10 +68,11 @@ def sweep(
     ] = None,
     dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.")] = "",
 ) -> None:
-    """Figures of many variants of an engine: numbers of its file over ranges, as a table, CSV, JSON
-    or Parquet.
+    """Quantities for many variants of an engine, whose numbers vary over ranges, as a table, CSV,
+    JSON or Parquet.
 
-    Ctrl-C leaves an older file as it was; in a folder, the same sweep computes the missing blocks.
+    Ctrl-C leaves an older file unchanged. In a folder, repeating the sweep computes the missing
+    files.
 
     \b
     Examples:
@@ -119,10 +120,11 @@ def sweep(
 def _choose_target(
     output: Place | None, form: VariantsFormat | None, plot: Path | None
 ) -> tuple[Path | None, VariantsFormat]:
-    """Return where to write the variants, None for standard output, and the format.
+    """Return the path for the variants (None: standard output) and the format.
 
     Raises:
-        BalcliError: as of `format_of`; options that do not go with a folder.
+        BalcliError: format and ending contradict each other, or an option does not go with a
+            folder.
     """
     file = None if output is None else output.path
     if output is None or not output.is_folder:

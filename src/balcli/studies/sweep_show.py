@@ -1,5 +1,5 @@
-"""Variants of a sweep: CSV and JSON in full precision, chunk by chunk as they are computed; a table
-of the first and the last; the columns of kept ones; pictures over one parameter or two.
+"""Show the variants of a sweep: CSV and JSON in full precision, written chunk by chunk; a table of
+the first and last variants; data frames; and pictures over one or two parameters.
 """
 
 from __future__ import annotations
@@ -32,19 +32,20 @@ if TYPE_CHECKING:
     from .sweep import Chunk, Sweep, Swept
 
 
-FIRST = 20  # rows of a table of many
+FIRST = 20  # first rows in a table of many variants
 
 
 @dataclass(frozen=True, kw_only=True)
 class SweepDocument:
-    """Variants of an engine, a row each: the figures that vary, in the units of the file, then the
-    quantities, in those of `balcli numbers`; null: what has no value, such as the axis of a circle.
+    """Variants of an engine. A row has the varied figures, in the units of the file, then the
+    quantities, in the units of `balcli numbers`. Null marks a quantity without a value, such as the
+    axis of a circle.
 
     Attributes:
         engine: The engine file.
-        assumed: Values taken because the engine file leaves them out.
-        columns: Names of the figures that vary, then of the quantities.
-        rows: One row a variant.
+        assumed: Values assumed because the engine file leaves them out.
+        columns: Names of the varied figures, then of the quantities.
+        rows: One row for each variant.
     """
 
     format: Literal["balcli.sweep/1"] = "balcli.sweep/1"
@@ -55,7 +56,7 @@ class SweepDocument:
 
 
 def columns(result: Swept) -> Columns:
-    """Return a variant a row: its parameters and its figures."""
+    """Return one row for each variant, with its parameters and quantities."""
     sweep = result.sweep
     grids = np.meshgrid(*(p.values for p in sweep.parameters), indexing="ij")
     every = (value.ravel() for value in (*grids, *result.values))
@@ -63,7 +64,7 @@ def columns(result: Swept) -> Columns:
 
 
 def document(result: Swept) -> Node:
-    """Return `balcli.sweep/1`."""
+    """Return the JSON document `balcli.sweep/1`."""
     cells = np.column_stack([*columns(result).values.values()])
     return to_document(_describe(result.sweep, cells))
 
@@ -73,8 +74,8 @@ def _describe(sweep: Sweep, rows: Array) -> SweepDocument:
 
 
 def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
-    """Yield a header, and one variant a line; what has no value (axis of a circle) is an empty
-    cell.
+    """Yield CSV: a header, and one line for each variant. Quantities without a value, such as the
+    axis of a circle, are empty cells.
     """
     yield ",".join(sweep.columns) + "\n"
     for chunk in chunks:
@@ -82,7 +83,7 @@ def sweep_csv(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
-    """Yield `balcli.sweep/1` as text."""
+    """Yield the JSON document `balcli.sweep/1` as text."""
     head = to_document(_describe(sweep, np.empty((0, 0))))
     yield json_text(head).removesuffix("]}")
     before = ""
@@ -93,25 +94,27 @@ def sweep_json(sweep: Sweep, chunks: Iterable[Chunk]) -> Iterator[str]:
 
 
 def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
-    """Yield the rows of a chunk, with commas: the shortest texts that read back to the numbers."""
+    """Yield the rows of a chunk, separated by commas. Each number is the shortest text that reads
+    back to the same value.
+    """
     for row in np.column_stack(split_columns(sweep, chunk)).tolist():
         yield ",".join([repr(value) if value == value else nothing for value in row])
 
 
 def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
-    """Return the table, each column in the unit that fits it.
+    """Return the table, with each column in a fitting unit.
 
     Args:
         sweep: Sweep of the variants.
         figures: Parameters and quantities, shape (variants, columns).
-        left_out: Number of variants that are missing after the first FIRST.
+        left_out: Number of variants left out after the first FIRST rows.
     """
     largest = np.nanmax(np.abs(figures), axis=0, initial=0).tolist()
     units = [
         unit_of_name(name).fit(size)
         for name, size in zip(sweep.units.values(), largest, strict=True)
     ]
-    asked = len(sweep.parameters)  # whose columns hold what the user gave
+    asked = len(sweep.parameters)  # columns of given values
     rows = [
         (*(given(value, 8) for value in row[:asked]), *map(number, row[asked:]))
         for row in (figures / [unit.size for unit in units]).tolist()
@@ -137,10 +140,10 @@ LEVELS = 12
 
 
 def check_drawable(sweep: Sweep) -> None:
-    """Check that a picture is possible, before anything is computed for it.
+    """Check that a picture of the sweep is possible, before anything is computed.
 
     Raises:
-        BalcliError: more than two parameters, fewer than two values of one, or too many variants.
+        BalcliError: not one or two parameters have several values, or there are too many variants.
     """
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:
@@ -163,7 +166,7 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
 
     Args:
         sweep: Sweep of the variants.
-        values: each quantity on the whole grid.
+        values: Values of each quantity on the whole grid.
     """
     first, *others = _varied_parameters(sweep)
     name = style.fit_name(sweep.file.name)
@@ -201,5 +204,5 @@ def make_sweep(sweep: Sweep, values: Sequence[Array]) -> Figure:
 
 
 def _fit(name: str, value: Array) -> ShownUnit:
-    """Return the unit for the largest of these values, which are in SI units of this name."""
+    """Return the unit that fits the largest of these values; `name` is their SI unit."""
     return unit_of_name(name).fit(float(np.nan_to_num(abs(value)).max(initial=0)))

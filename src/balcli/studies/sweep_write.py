@@ -1,10 +1,10 @@
-"""Variants of a sweep, written as they are computed: as a text, a Parquet file with its units, or a
-folder of numbered Parquet files, each written by the thread or dask worker that computes it (extra
-`balcli[scale]`).
+"""Write the variants of a sweep as they are computed: as text, as a Parquet file with units, or as
+a folder of numbered Parquet files (blocks). The thread or dask worker that computes a block writes
+it (extra `balcli[scale]`).
 
-The folder holds a manifest that names the sweep. A block exists or not: it is written under a
-hidden name and renamed when it is whole. The same sweep into the same folder computes the missing
-blocks. Nothing but blocks and manifests is ever replaced or deleted.
+The folder holds a manifest that identifies the sweep. A block is written under a hidden name and
+renamed when it is complete. Repeating the same sweep computes only the missing blocks. Nothing but
+blocks and manifests is ever replaced or deleted.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ from .sweep import (
 )
 from .sweep_show import FIRST, make_sheet, sweep_csv, sweep_json
 
-ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8  # each box has a tenth of a second's work
-MANIFEST = "_balcli_sweep.json"  # readers of Parquet pass over names that begin with _
+ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8  # a box takes about a tenth of a second
+MANIFEST = "_balcli_sweep.json"  # Parquet readers skip names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
-# An unfinished block is called as `files.name_hidden` has it.
+# The hidden name of an unfinished block is that of `files.name_hidden`.
 _OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
-_LAST = 10  # rows of a table of many
-RETRIES = 3  # of what a worker has not finished
-AHEAD = 4  # tasks for each thread that may wait to be fetched
+_LAST = 10  # last rows in a table of many variants
+RETRIES = 3  # of a task that a worker has not finished
+AHEAD = 4  # pending tasks for each thread
 
 
 # ------------------------------------------------------------------ one file
@@ -65,7 +65,7 @@ def _describe(sweep: Sweep) -> dict[str, Any]:
 
 
 def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> None:
-    """Write variants as they come.
+    """Write variants to a Parquet file as they are computed.
 
     Args:
         sweep: Sweep of the variants.
@@ -96,11 +96,10 @@ def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> N
 def write_sweep(
     sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, output: Path | None
 ) -> None:
-    """Write all chunks as csv, json or parquet, or a table of them. A file takes its place when it
-    is whole.
+    """Write all chunks as CSV, JSON, Parquet or a table. A file gets its name when it is complete.
 
     Raises:
-        BalcliError: Parquet without a file, the file cannot be written, or pyarrow is missing.
+        BalcliError: Parquet needs a file, the file cannot be written, or pyarrow is missing.
     """
     if output is None and kind is VariantsFormat.PARQUET:
         raise BalcliError("parquet is written into a file: name one with -o")
@@ -120,7 +119,7 @@ def _make_text(
     sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, *, seen: bool = False
 ) -> Iterator[str]:
     waiting = iter(chunks)
-    # A variant that cannot be is reported before a heading is written.
+    # An impossible variant is reported before a heading is written.
     whole = chain(list(islice(waiting, 1)), waiting)
     if kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN):
         return iter([lay_out([_make_table(sweep, whole)], Format(kind), seen=seen)])
@@ -128,7 +127,7 @@ def _make_text(
 
 
 def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
-    """Return a table of all variants if there are few, else of the first and the last."""
+    """Return a table of all variants if there are few, otherwise of the first and last ones."""
     first = last = np.empty((0, len(sweep.columns)))
     for chunk in chunks:
         rows = np.stack(split_columns(sweep, chunk), axis=1)
@@ -149,16 +148,15 @@ def write_blocks(
     *,
     force: bool,
 ) -> None:
-    """Write all variants into a folder; blocks that an interrupted run of this sweep has left there
-    stay.
+    """Write all variants into a folder. Blocks from an interrupted run of the same sweep are kept.
 
     Args:
         share: Function that shares work among threads or workers.
-        force: Whether an earlier sweep in this folder is deleted first.
+        force: Whether to delete another sweep in this folder first.
 
     Raises:
-        BalcliError: the folder holds something else or another sweep, it cannot be written, or
-            pyarrow is missing.
+        BalcliError: the folder holds other files or another sweep, it cannot be written, or pyarrow
+            is missing.
     """
     try:
         _claim(folder, _name_sweep(sweep), force)
@@ -178,7 +176,7 @@ def write_blocks(
 
 
 def _give_up(folder: Path) -> None:
-    """Delete the manifest, and the folder if it is empty then, where no block has been written."""
+    """If no block has been written, delete the manifest, and then the folder if it is empty."""
     if not any(_BLOCK.fullmatch(path.name) for path in folder.iterdir()):
         (folder / MANIFEST).unlink()
         with suppress(OSError):
@@ -186,7 +184,7 @@ def _give_up(folder: Path) -> None:
 
 
 def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
-    """Compute and write a block unless it is there; returns its number of variants."""
+    """Compute and write a block unless it exists; return its number of variants."""
     number, block = numbered
     target = folder / f"part-{number:06}.parquet"
     if not target.exists():
@@ -196,7 +194,7 @@ def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
 
 
 def _name_sweep(sweep: Sweep) -> str:
-    """Return the manifest: the same for the same engine, numbers, values and quantities."""
+    """Return the text of the manifest; equal sweeps have equal texts."""
     whole = repr((sweep.file, [(p.path, p.values.tobytes()) for p in sweep.parameters]))
     content = _describe(sweep) | {
         "columns": sweep.columns,
@@ -208,11 +206,10 @@ def _name_sweep(sweep: Sweep) -> str:
 
 
 def _claim(folder: Path, manifest: str, force: bool) -> None:
-    """Make the folder and its manifest, unless they are there.
+    """Create the folder and its manifest, unless they exist.
 
     Raises:
-        BalcliError: there is a file of this name, or the folder holds something else or another
-            sweep.
+        BalcliError: there is a file of this name, or the folder holds other files or another sweep.
     """
     if folder.exists() and not folder.is_dir():
         raise BalcliError(f"{folder}/: is a file; choose another name for the folder")
@@ -231,7 +228,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
         raise BalcliError(
             f"{folder}/: holds another sweep; choose another folder, or --force to replace it"
         )
-    for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: a run may be interrupted
+    for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: the run may be interrupted
         (folder / name).unlink()
     try:
         with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
@@ -242,7 +239,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
 
 # ------------------------------------------------------------------ dask
 def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
-    """Return the context that shares work among threads, or on a cluster at a given address."""
+    """Return the context whose function shares work among threads or on a cluster."""
     if dask:
         return connect_cluster(dask)
     threads = jobs or min(count_cores(), MOST_THREADS)
@@ -251,8 +248,8 @@ def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
 
 @contextmanager
 def connect_cluster(address: str) -> Iterator[Share]:
-    """Yield the function that shares work among the workers of the scheduler at an address such as
-    tcp://host:8786, or of a temporary cluster on this machine (`local`).
+    """Yield a function that shares work among the workers of a cluster: of the scheduler at an
+    address such as tcp://host:8786, or of a temporary cluster on this machine (`local`).
 
     Raises:
         BalcliError: dask is not installed, or no scheduler responds.
@@ -264,7 +261,7 @@ def connect_cluster(address: str) -> Iterator[Share]:
     dask: Any = distributed
     options: dict[str, Any] = {"address": address, "timeout": 10}
     if address == "local":
-        # Its workers, when it ends, complain of the scheduler's absence.
+        # When it ends, its workers log the loss of their scheduler.
         quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL}
         options = {"threads_per_worker": 1, **quiet}
     try:
@@ -278,10 +275,10 @@ def connect_cluster(address: str) -> Iterator[Share]:
 def run_on_cluster(
     client: Any, work: Callable[[Item], Outcome], items: Iterable[Item]
 ) -> Iterator[Outcome]:
-    """Yield `work(item)` for each item, in their order, by the workers of a client's cluster.
+    """Yield `work(item)` for each item, in order, computed by the workers of a client's cluster.
 
     Raises:
-        BalcliError: All workers are lost, again and again.
+        BalcliError: Workers are lost repeatedly.
     """
     from distributed import KilledWorker  # an extra
 

@@ -1,5 +1,5 @@
-"""Torque of an engine: by order and over the cycle, its means and extremes, and the flywheel:
-`analyze_torque`.
+"""Analysis of the torque on an engine's crank, `analyze_torque`: by order and over the cycle, with
+means, extremes and the flywheel.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ def analyze_torque_of_engine(
     """Return the torque of gas and inertia on the crank of an engine.
 
     Args:
-        engine: With gas, without trailing axes. An uneven speed in its file does not count here.
-        orders: Orders to show; default: halves to 12, of a two-stroke engine whole ones; of many
-            cylinders also the order of their firing and its double.
+        engine: Single engine with gas (no trailing axes). An uneven speed in its file is ignored.
+        orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
+            with many cylinders also the firing order and its double.
         cylinder: Cylinder whose torque is shown next to the engine's.
-        fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
+        fluctuation: (highest - lowest)/mean speed for which to compute the inertia.
         loads: "pin" (of crank pins), "main" (of main bearings), or both.
 
     Raises:
-        BalcliError: No gas; no such cylinder; a fluctuation that is not between 1e-9 and 2; loads
-            that are not known.
-        TypeError: An argument of another type.
+        BalcliError: The engine has no gas or no such cylinder, the fluctuation is not between 1e-9
+            and 2, or a name in `loads` is unknown.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2

@@ -1,4 +1,4 @@
-"""`balcli torque`"""
+"""The command `balcli torque`: its options, and the file that `--write` makes."""
 
 from __future__ import annotations
 
@@ -49,11 +49,11 @@ EngineFile = Annotated[
     ),
 ]
 Fluctuation = Annotated[
-    str | None, optional("1/200", "Also the inertia for this fluctuation of the speed; or 0.5%.")
+    str | None, optional("1/200", "Also compute the inertia for this speed fluctuation; or 0.5%.")
 ]
-Cylinder = Annotated[int, typer.Option(metavar="N", help="Also the torque of cylinder N.")]
+Cylinder = Annotated[int, typer.Option(metavar="N", help="Also show the torque of cylinder N.")]
 LoadsOption = Annotated[
-    str | None, optional("pin,main", "Also loads of pins and main bearings.", "--loads")
+    str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
 ]
 Curve = Annotated[
     Path | None, optional("CSV", "Instead of an engine: angle_deg,torque_Nm over a period.")
@@ -62,7 +62,7 @@ Load = Annotated[
     Path | None, optional("CSV", "With --curve: torque of the load; default: the constant mean.")
 ]
 Inertia = Annotated[
-    str | None, optional("KG_MM2", "With --curve: of all that turns, in kg mm^2 or as '2 kg m^2'.")
+    str | None, optional("KG_MM2", "With --curve: inertia of the shaft, kg mm^2 or '2 kg m^2'.")
 ]
 Write = Annotated[
     Path | None, optional("OUT.toml", "Write the file with this speed_ripple and the misfires.")
@@ -88,8 +88,9 @@ def torque(
     """Torque of gas and inertia on the crank: by order and over the cycle, mean torque and power,
     the uneven speed and the flywheel; or the effect of a given torque curve.
 
-    `balcli torque v8.toml --fluctuation 1/200` computes the inertia that keeps the speed within
-    this. If the crank stalls with its inertia, the results are followed by an error with the angle.
+    `balcli torque v8.toml --fluctuation 1/200` computes the inertia that limits the fluctuation to
+    1/200. If the inertia is too small and the crank stalls, an error after the results names the
+    angle.
 
     \b
     Examples:
@@ -141,10 +142,10 @@ def torque(
 
 
 def parse_fluctuation(text: str | None) -> float | None:
-    """Return the share of `1/200`, `0.005` or `0.5%`.
+    """Return the fluctuation in a text such as `1/200`, `0.005` or `0.5%`.
 
     Raises:
-        BalcliError: Anything else.
+        BalcliError: The text has another form.
     """
     if text is None:
         return None
@@ -155,11 +156,11 @@ def parse_fluctuation(text: str | None) -> float | None:
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:
-    """Write the engine file with the uneven speed that the torque causes, and without the gas of
-    misfiring cylinders.
+    """Write the engine file with the uneven speed that the torque causes; misfiring cylinders lose
+    their gas.
 
     Raises:
-        BalcliError: The inertia is not known, or too small; the target cannot be written.
+        BalcliError: The inertia is unknown or too small, or the target cannot be written.
     """
     refuse_leaving_files(source, path, target)
     flywheel = result.flywheel

@@ -22,24 +22,24 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
-_WORTH = 1e-4  # share of the largest line of the speed below which one is left out
+_WORTH = 1e-4  # smaller orders of the speed, as a share of the largest, are left out
 
 
 @dataclass(frozen=True, kw_only=True)
 class Flywheel:
-    """Inertia on the shaft, and the fluctuation of speed with it, as far as known.
+    """Inertia on the shaft and the resulting fluctuation of speed, as far as known.
 
     Attributes:
-        inertia_kg_m2: Mean inertia of all that turns and moves; left out where the file gives none.
-        moving_parts_kg_m2: Mean inertia of the moving parts in it.
+        inertia_kg_m2: Mean inertia of all moving parts; left out if the file gives no inertia.
+        moving_parts_kg_m2: Part of `inertia_kg_m2` that belongs to pistons, rods and throw masses.
         fluctuation: (highest - lowest)/mean speed.
-        fluctuation_small: Fluctuation by the rule for small ones, surplus/(I omega^2).
-        needed_kg_m2: Mean inertia of all parts with which the speed fluctuates as requested.
+        fluctuation_small: Fluctuation by the approximation for small values, surplus/(I omega^2).
+        needed_kg_m2: Mean inertia of all moving parts that yields the requested fluctuation.
         speed_max_rpm: Highest speed.
         speed_min_rpm: Lowest speed.
-        stall: Where the crank stalls, in words.
+        stall: Message with the angle at which the crank stalls.
         speed_max_deg, speed_min_deg: Crank angles of highest and lowest speed.
-        lines: Orders of the uneven speed that are worth naming.
+        lines: Orders of the uneven speed, without negligible ones.
     """
 
     inertia_kg_m2: float | None = None
@@ -63,26 +63,27 @@ def find_flywheel(
     moving: Function | None = None,
     fluctuation: float | None = None,
 ) -> Flywheel | None:
-    """Return inertia and fluctuation of speed; None without a known inertia or a
-    requested fluctuation.
+    """Return the inertia and the fluctuation of speed; None if neither an inertia is known nor a
+    fluctuation requested.
 
     Args:
-        torque: Torque of gas or a given curve, less an uneven load, N m.
+        torque: Torque of the gas, or a given curve minus its load, N m.
         surplus: Largest surplus of the total torque, J.
         mean_speed: Mean speed, rad/s; None: not known.
-        constant: Constant inertia, kg m2; None: not known.
-        moving: Inertia of moving parts, kg m2 at angles (rad); None: there are none.
+        constant: Constant part of the inertia, kg m2; None: not known.
+        moving: Function that returns the inertia of pistons, rods and throw masses, kg m2, at crank
+            angles (rad); None: there are none.
         fluctuation: Largest allowed fluctuation; None: not requested.
 
     Raises:
-        BalcliError: A requested fluctuation is not between 1e-9 and 2, or the mean speed is not
-            known.
+        BalcliError: A requested fluctuation is not between 1e-9 and 2, or needs the unknown mean
+            speed.
     """
     if constant is None and fluctuation is None:
         return None
     course = resolved(
         moving or np.zeros_like, torque.breaks
-    )  # a resolved curve is quicker than the mechanism
+    )  # quicker to evaluate than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
@@ -114,8 +115,8 @@ def find_flywheel(
 
 
 def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, ...]:
-    """Return lines whose sum is the speed, in shares of its mean: multiples of 1/2, or of 1, as far
-    as an engine file may have them.
+    """Return the harmonics of the speed relative to its mean, up to the order and number that an
+    engine file may contain.
     """
     turns = speed.period / (2 * np.pi)
     count = min(MOST_RIPPLES, int(HIGHEST_RIPPLE_ORDER * turns + 0.1))

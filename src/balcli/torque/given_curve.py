@@ -1,4 +1,4 @@
-"""A torque that is given as a curve, of a press or from a book, without an engine."""
+"""Analysis of a given torque curve without an engine, for example that of a press."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ from .records import (
     write_whole,
 )
 
-SAME_MEAN = 1e-6  # of the largest torque: figures of files are rounded
-_NOISE = 1e-14  # of the largest torque: rounding errors of a harmonic
-_SAME = 1e-9  # of a turn, by which periods may differ
-_WHOLE = 1e-4  # of itself, by which a period in a file may be rounded: 102.86 deg of 720/7
+SAME_MEAN = 1e-6  # relative to the largest torque: figures in files are rounded
+_NOISE = 1e-14  # relative to the largest torque: rounding errors of a harmonic
+_SAME = 1e-9  # turns by which equal periods may differ
+_WHOLE = 1e-4  # relative rounding error of a period in a file: 102.86 deg for 720/7
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
-    """Return a torque from CSV headed angle_deg,torque_Nm (or in other units): straight lines
-    between rows, the last of which closes the period.
+    """Return the torque in a CSV file with columns angle_deg,torque_Nm (or other units). The torque
+    is linear between rows; the last row closes the period.
 
     Raises:
-        BalcliError: The file is none of that kind, or angles do not rise.
+        BalcliError: The file has other columns, or the angles do not rise.
     """
     angles = Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS)
     columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
@@ -63,8 +63,8 @@ def read_curve(path: Path) -> PiecewiseCurve:
 
 
 def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
-    """Yield a warning where a period is neither whole turns nor an even share of two, as of a curve
-    sampled from 0 to 359 degrees.
+    """Yield a warning if the period is neither a whole number of turns nor 720 degrees over a whole
+    number: a curve sampled from 0 to 359 degrees lacks its last row.
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
@@ -84,19 +84,22 @@ def analyze_curve(
     fluctuation: float | None = None,
     orders: list[float] | None = None,
 ) -> TorqueAnalysis:
-    """Return the analysis of a torque and of the speed of its shaft.
+    """Return the analysis of a torque curve and of the speed of its shaft.
 
     Args:
         name: Name of the result.
-        torque, load: N m, over one and the same period; without a load it takes the mean evenly.
+        torque, load: Torque and load, N m, over the same period; without a load it is the constant
+            mean.
         speed_rpm: Mean speed of the shaft, rpm; None: not known.
         inertia: Inertia of all that turns, kg m2; None: not known.
         fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
-        orders: Cycles in 360 degrees; default: all that the period has, up to
-            HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED.
+        orders: Orders (cycles in 360 degrees) to show; default: the harmonics of the period up to
+            the order HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED of
+            them.
 
     Raises:
-        BalcliError: Different periods, or orders that the period does not have.
+        BalcliError: Torque and load have different periods, or the period does not contain an
+            order.
     """
     net = torque if load is None else _subtract(torque, load)
     turns, speed = torque.period / (2 * np.pi), None if speed_rpm is None else speed_rpm * RPM
@@ -129,7 +132,9 @@ def analyze_curve(
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
-    """Return the harmonics of a period of some turns that are shown, or belong to these orders."""
+    """Return the numbers of the harmonics that belong to the orders, by default of those shown
+    without request. `turns` is the period.
+    """
     if orders is None:
         usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
         return np.arange(1, min(usual, MOST_HARMONICS_UNASKED) + 1)
@@ -141,7 +146,7 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
             f"of {1 / turns:g}"
         )
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
-        highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # that may be asked for
+        highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
         raise BalcliError(
             f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
             f"orders to {highest:g}"

@@ -1,4 +1,4 @@
-"""Loads of crank pins and main bearings over a cycle, at the mean speed."""
+"""Loads of crank pins, knuckle pins and main bearings over a cycle, at the mean speed."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class CycleLoad:
     Attributes:
         cylinder: Number of the cylinder whose rod turns on the pin.
         bearing: Number of the main bearing from the free end.
-        position_mm: Place of the main bearing along the crank.
+        position_mm: Position of the main bearing along the crank.
         max_N: Largest load.
         max_deg: Crank angle at which it is reached.
         mean_N: Mean load.
-        pressure_Pa: Largest load over diameter times width; left out where the file does not give
-            these.
+        pressure_Pa: Largest load over diameter times width; left out if the file does not give
+            both.
     """
 
     cylinder: int | None = None
@@ -50,13 +50,13 @@ class CycleLoad:
 
 @dataclass(frozen=True, kw_only=True)
 class CycleLoads:
-    """Loads of pins and bearings, as far as they were asked for.
+    """Requested loads of pins and bearings.
 
     Attributes:
         pin: Loads of crank pins, by the cylinders whose rods turn on them.
-        knuckle: Loads of the knuckle pins in master rods, by their articulated cylinders.
+        knuckle: Loads of the knuckle pins in master rods, by articulated cylinder.
         main: Loads of main bearings.
-        obstacle: Why loads of main bearings are not known, if they were requested with others.
+        obstacle: Reason why loads of main bearings are unknown, if pins were requested as well.
     """
 
     pin: tuple[CycleLoad, ...] | None = None
@@ -68,16 +68,17 @@ class CycleLoads:
 def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> CycleLoads:
     """Return loads of pins and bearings.
 
-    The main bearings stand half-way between neighbouring throws and as far outside the end ones,
-    and the shaft counts as cut in each of them. Where `place_main_bearings` refuses them, the
-    loads of pins are returned alone.
+    Main bearings are assumed half-way between neighbouring throws and as far outside the end
+    throws; the shaft is treated as cut at each bearing. If `place_main_bearings` raises and loads
+    of pins are requested as well, the result has these and the obstacle.
 
     Args:
-        engine: With gas.
-        asked: Names of KINDS_OF_LOAD.
+        engine: Engine with gas.
+        asked: Some of KINDS_OF_LOAD.
 
     Raises:
-        BalcliError: No gas of known pressure; refused main bearings that are asked for alone.
+        BalcliError: The gas pressure is unknown, or only main bearings are requested and their
+            positions are unknown.
     """
     steady, sizes = replace(engine, ripple=()), engine.bearings
     pin = knuckle = main = obstacle = None
@@ -103,23 +104,25 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
 
 
 def find_pin_loads(engine: Engine) -> Vectors:
-    """Return the force of each rod on its crank pin or knuckle pin at crank angles (deg), in the
-    cylinder's frame: u along its axis away from the crank, v 90 deg ahead; cylinders in the order
-    of `engine.numbers`.
+    """Return a function of crank angles (deg) to the force of each rod on its crank pin or knuckle
+    pin. Forces are complex in the cylinder's frame: real along its axis away from the crank,
+    imaginary 90 deg ahead. Cylinders follow `engine.numbers`.
     """
     return lambda degrees: compute_rod_forces(engine, degrees).pin
 
 
 def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
-    """Return places of the main bearings, m, and the force of the shaft on each at crank angles
-    (deg), x + iy; errors as of `place_main_bearings`.
+    """Return the positions of the main bearings, m, and a function of crank angles (deg) to the
+    force of the shaft on each, x + iy. `place_main_bearings` may raise.
     """
     span = place_main_bearings(engine)
     return span, lambda degrees: compute_bearing_loads(engine, degrees)
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
-    """Yield the load of each vector over the cycle; 0 where it is a rounding error of others."""
+    """Yield the load of each vector over the cycle; vectors that are rounding errors, relative to
+    the largest, become 0.
+    """
 
     compute, breaks = partial(compute_in_pieces, engine, vectors), find_breaks(engine)
     panels = find_panels(compute, breaks, 1.0)

@@ -1,6 +1,6 @@
 """Pictures of an engine with gas: pressure, torque over the cycle, and polar diagrams of loads.
 
-Curves are computed at close angles over one cycle, at the mean speed.
+Curves are computed every half degree over one cycle, at the mean speed.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
 
     Args:
         fig: Empty figure.
-        engine: Engine without trailing axes.
+        engine: One engine, not a batch.
         what: Name of the page: pressure, p-v, torque, pin or main.
         system: Units.
 
     Raises:
-        BalcliError: The engine has no gas, or lacks what the page shows.
+        BalcliError: The engine has no gas, or lacks data for the page.
     """
     steady = replace(engine, ripple=())
     if what in ("pressure", "p-v"):
@@ -57,11 +57,12 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
 
 
 def find_pressures(engine: Engine) -> tuple[Array, Array, Array]:
-    """Return what counts in cylinder 1 over its cycle, each of shape (angles,).
+    """Return cycle angle, pressure and volume of cylinder 1 over its cycle, each of shape
+    (angles,).
 
     Returns:
-        Cycle angle from one gas-exchange dead centre to the next, deg, 0 at firing; pressure, Pa;
-        volume, m3, above the smallest one if the compression ratio is not given.
+        Cycle angle (deg) from one gas-exchange dead centre to the next, 0 at firing; pressure (Pa);
+        volume (m3), counted from the smallest volume if the compression ratio is not given.
     """
     gas = take_gas(engine)
     cylinder = gas.cylinders[engine.numbers.index(1)]
@@ -97,8 +98,8 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
 
 
 def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
-    """Draw gas, inertia and total torque, the surplus areas above and below the mean, and where the
-    crank is slowest and fastest.
+    """Draw gas, inertia and total torque, the surplus areas above and below the mean, and the
+    angles at which the crank is slowest and fastest.
     """
     curves = find_torque_curves(engine)
     crank = _divide(0.0, take_gas(engine).cycle_deg, np.degrees(curves.gas.breaks))
@@ -128,8 +129,8 @@ def _list_angles(engine: Engine) -> Array:
 
 
 def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
-    """Draw the load of the crank pin of cylinder 1, or of its master rod, as the crank feels it
-    (real outward along the throw) and as the rod does (real towards the piston).
+    """Draw the load of the crank pin of cylinder 1 (or of its master rod) twice: relative to the
+    crank (real outward along the throw) and relative to the rod (real towards the piston).
     """
     first = engine.numbers.index(1)
     on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
@@ -147,7 +148,7 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
 
 
 def _draw_main(fig: Figure, engine: Engine, force: ShownUnit) -> None:
-    """Draw the load of every main bearing as the block feels it, and as the shaft does."""
+    """Draw the load of every main bearing relative to the block and relative to the shaft."""
     angle = _list_angles(engine)
     in_block = find_bearing_loads(engine)[1](angle)
     columns = min(len(in_block), _COLUMNS)
@@ -165,7 +166,9 @@ def _draw_main(fig: Figure, engine: Engine, force: ShownUnit) -> None:
 def _draw_polar(
     ax: Axes, force: Complex, crank_deg: Array, unit: ShownUnit, largest: float
 ) -> None:
-    """Draw the path of a force's tip, x up and y to the right; `largest` of all its pictures, N."""
+    """Draw the path of a force's tip, x up and y to the right; `largest` (N) is the largest force
+    of all pictures with the same scale.
+    """
     s = unit.fit(largest)
     limit = set_up_plane(ax, largest / s.size)
     draw_path(ax, force / s.size, crank_deg, 45, limit)

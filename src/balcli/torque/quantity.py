@@ -1,5 +1,5 @@
-"""Single figures of the cycle of an engine with gas, for variants: `torque.mean`, `torque.max`,
-`fluctuation`.
+"""Quantities of an engine's cycle that sweeps, searches and tolerances evaluate: `torque.mean`,
+`torque.max`, `torque.min`, `fluctuation`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise BalcliError if the engine has no gas.
+    """Check that the engine has gas, which all these quantities need.
 
     Raises:
         BalcliError: The engine has no gas.
@@ -40,7 +40,8 @@ def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> lis
     """Return the value of each quantity of one engine with gas.
 
     Raises:
-        BalcliError: A fluctuation without inertia; the crank stalls.
+        BalcliError: The fluctuation needs an inertia that the file does not give, or the crank
+            stalls.
     """
     found = dict[str, float]()
     if any(q.name != "fluctuation" for q in quantities):

@@ -23,7 +23,7 @@ class Torques(NamedTuple):
     Attributes:
         inertia_torque_Nm: Torque of the inertia.
         gas_torque_Nm: Torque of the gas.
-        torque_Nm: Both together, or the given curve.
+        torque_Nm: Torque of inertia and gas together, or of the given curve.
     """
 
     inertia_torque_Nm: Harmonic | None = None
@@ -35,9 +35,9 @@ class TorqueOrder(NamedTuple):
     """One order of the engine, and of one cylinder.
 
     Attributes:
-        order: Times the crank speed.
+        order: Order, in multiples of the crank speed.
         torques: Torques of the engine.
-        one_cylinder: Torques of one cylinder alone.
+        one_cylinder: Torques of the chosen cylinder.
     """
 
     order: float
@@ -50,10 +50,10 @@ class Extremes(NamedTuple):
 
     Attributes:
         max_Nm: Largest torque.
-        max_deg: Its crank angle.
+        max_deg: Crank angle of the largest torque.
         min_Nm: Smallest torque.
-        min_deg: Its crank angle.
-        reversals: How often the torque changes its sign.
+        min_deg: Crank angle of the smallest torque.
+        reversals: Number of sign changes over the cycle.
     """
 
     max_Nm: float
@@ -64,13 +64,13 @@ class Extremes(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """Energy that the torque gives above its mean between two angles.
+    """Surplus energy: work of the torque above its mean between two crank angles.
 
     Attributes:
-        surplus_J: The largest such energy.
-        from_deg: Crank angle at which it begins, where the crank is slowest.
-        to_deg: Crank angle at which it ends, where the crank is fastest.
-        work_J: Work of a cycle.
+        surplus_J: Largest surplus energy.
+        from_deg: Crank angle at which the surplus begins and the crank is slowest.
+        to_deg: Crank angle at which the surplus ends and the crank is fastest.
+        work_J: Work of the torque in one cycle.
     """
 
     surplus_J: float
@@ -81,31 +81,31 @@ class Energy(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class TorqueAnalysis(Result):
-    """Torque on the crank over the cycle, of an engine or of a given curve, at the mean speed.
+    """Torque on the crank of an engine, or a given torque curve, over the cycle at the mean speed.
 
     Attributes:
         speed_rpm: Mean speed.
         no_gas_in: Cylinders without gas force.
         no_burning_in: Cylinders that compress and burn nothing.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values assumed because the engine file leaves them out.
         cycle_deg: Cycle of the engine, or period of the curve.
         imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.
         bmep_Pa: Brake mean effective pressure.
         max_pressure_Pa: Highest pressure in any cylinder that has gas.
-        max_pressure_deg: Its cycle angle, from the firing dead centre.
-        mean_torque_Nm: Mean torque, indicated.
-        power_W: Power, indicated.
+        max_pressure_deg: Cycle angle of the highest pressure, from the firing dead centre.
+        mean_torque_Nm: Indicated mean torque.
+        power_W: Indicated power.
         torque: Largest and smallest torque.
         orders: Torque by order.
         energy: Surplus energy of the torque.
-        flywheel: Inertia and uneven speed; left out where no inertia is given or requested.
-        loads: Loads of pins and bearings, as far as they were asked for.
+        flywheel: Inertia and uneven speed; left out if no inertia is given or requested.
+        loads: Requested loads of pins and bearings.
         name: Name of the engine or curve.
-        curve: Torque over the crank angle (rad), N m: of gas and inertia, or the given one.
-        engine: The engine as analyzed; None of a given curve.
+        curve: Torque of gas and inertia, or the given curve, N m, over the crank angle (rad).
+        engine: Analyzed engine; None for a given curve.
         spectra: Gas, inertia and total torque of the engine by order.
         cylinder: Number of the cylinder in `orders`.
-        load_Nm: Mean of the given load of a curve, and the mean torque above it.
+        load_Nm: Mean of the given load, and mean of the torque minus the load.
     """
 
     format: Literal["balcli.torque/1"] = "balcli.torque/1"
@@ -149,7 +149,7 @@ def measure_curve(torque: PiecewiseCurve) -> Extremes:
 
 
 def measure_energy(surplus: Surplus, period: float, work: float) -> Energy:
-    """Return the surplus energy of a torque with this work (J) in a period (rad)."""
+    """Return the record of a surplus, given the period (rad) and the work in a period (J)."""
     start, end = (degrees_in_cycle(at, period) for at in (surplus.start, surplus.end))
     return Energy(surplus_J=surplus.energy, from_deg=start, to_deg=end, work_J=work)
 
@@ -162,5 +162,5 @@ def list_torques(spectra: Spectra) -> list[Torques]:
 
 
 def write_whole(value: float) -> float | int:
-    """Return a number to 1e-9, a whole one without a decimal point."""
+    """Return a number rounded to 1e-9, as an int if it is whole."""
     return order_number(round(float(value), 9))

@@ -1,4 +1,4 @@
-"""The torque on the crank, of an engine or of a given curve: for people, as JSON and as CSV."""
+"""Show the torque of an engine or of a given curve as tables and CSV."""
 
 from __future__ import annotations
 
@@ -31,21 +31,21 @@ from .loads import CycleLoads
 from .records import TorqueAnalysis, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
-_size = partial(size_text, digits=None)  # with as many digits as most figures
+_size = partial(size_text, digits=None)  # with the default number of digits
 _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 
 # ------------------------------------------------------------------ CSV
 def rows(result: TorqueAnalysis, system: System) -> Rows:
-    """Return a figure a line, as of `analyze`; cylinder 0 is the engine, an empty order the
-    cycle.
+    """Return CSV with one figure in each line, as for `analyze`. Cylinder 0 is the engine; lines
+    with an empty order refer to the whole cycle.
     """
     header = ("cylinder", "quantity", "order", "figure", "value", "unit")
     return Rows(header, _list_rows(result, to_document(result), system))
 
 
 def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[FigureRow]:
-    # Torque by order of an engine is that of inertia here, as in `analyze`.
+    # In lines of an engine, "torque" is the inertia torque, as in `analyze`.
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
     places = [(0, found["orders"])]
     if result.engine is None:
@@ -72,8 +72,8 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
 
 
 def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
-    """Yield a line for every figure: pins by their cylinder, bearings by their number in place of
-    an order.
+    """Yield a line for every figure. Lines of pins have their cylinder, lines of bearings have the
+    number of the bearing in place of an order.
     """
     cylinder, order = part.get("cylinder", 0), part.get("bearing")
     for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
@@ -85,7 +85,7 @@ def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
 
 # ------------------------------------------------------------------ for people
 def sheet(result: TorqueAnalysis, system: System) -> Sheet:
-    """Return work, torque over the cycle, flywheel, and torque by order."""
+    """Return the sheet: work, torque over the cycle, flywheel, loads, and torque by order."""
     title = f"{result.name or NAMELESS}: torque{' on the crank' if result.engine else ''}"
     parts: list[Grid | Facts | Text] = [Facts(tuple(_list_work(result, system)))]
     parts.append(_describe_course(result, system))
@@ -99,7 +99,7 @@ def sheet(result: TorqueAnalysis, system: System) -> Sheet:
 
 
 def tenths(angle_deg: float) -> str:
-    """Return an angle within a cycle, to a tenth of a degree."""
+    """Return an angle within a cycle as text, rounded to a tenth of a degree."""
     return f"{round(angle_deg, 6) + 0.0:.1f}"
 
 
@@ -129,7 +129,7 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
         ("power", result.power_W, system.power),
     ):
         if value is not None:
-            unit = of.fit(value)  # one for all kinds
+            unit = of.fit(value)  # the same unit for all kinds
             sizes = (f"{number(unit.of(value * k))} {unit.name}{kind}" for kind, k in kinds.items())
             yield name, ", ".join(sizes)
     if result.load_Nm is not None:
@@ -212,7 +212,9 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
 
 
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
-    """Return a table of the orders in which the engine or the one cylinder has something."""
+    """Return a table of torque by order; orders without torque of the engine and the cylinder are
+    left out.
+    """
     orders, alone = list(result.orders), f"gas of {result.cylinder}"
     many = len(orders) == MOST_HARMONICS_UNASKED
     note = "--orders asks for higher ones." if many else ""

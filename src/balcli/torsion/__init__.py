@@ -1,1 +1,1 @@
-"""Torsional vibration: a chain file, or an engine file, goes in; modes, criticals, response out."""
+"""Torsional vibration of engine or chain files: modes, critical speeds, forced response."""

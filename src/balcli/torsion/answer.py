@@ -34,16 +34,16 @@ from .response import (
 )
 from .system import TorsionalSystem
 
-BEYOND = 1.5  # times the file's own speed to which criticals are listed: engines overspeed
-BREAKING = 1000e6  # Pa of vibratory stress: the best steel yields below
-ASTOUNDING = 45.0  # deg: engines have fractions of a degree, on soft couplings some
-WIDE_SWING = 20.0  # deg; on a circle its frequency is 0.8 % low there, by swing^2/16
+BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
+BREAKING = 1000e6  # vibratory stress, Pa, beyond the yield strength of the best steel
+ASTOUNDING = 45.0  # deg; usual are fractions of a degree, and a few degrees on soft couplings
+WIDE_SWING = 20.0  # deg; a circular pendulum's frequency is 0.8 % (swing^2/16) low there
 
-_ASTRAY = 1e-3  # of the largest angle: so far from the mode's shape a table is rounding errors
+_ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
 
 
 class HolzerAsked(NamedTuple):
-    """Frequency at which Holzer's table is wanted: that of a mode by its number, or rad/s."""
+    """Request for a Holzer table: at the frequency of a mode (by number) or at omega (rad/s)."""
 
     mode: int | None
     omega: float = 0.0
@@ -55,7 +55,7 @@ class TorsionQuestion(NamedTuple):
     Attributes:
         speeds_rpm: Rising speeds of the response, shape (speeds,); None: no response.
         holzer: Requested Holzer tables.
-        damper: Damper to size; the results are then those of the system with it.
+        damper: Damper to size; the results include it.
     """
 
     speeds_rpm: Real | None = None
@@ -69,7 +69,7 @@ class ChainNode(NamedTuple):
     Attributes:
         name: Name of the node.
         inertia_kg_m2: Moment of inertia.
-        gear: Speed relative to that of the crankshaft or the first node.
+        gear: Speed relative to the crankshaft or the first node.
     """
 
     name: str
@@ -95,10 +95,10 @@ class HolzerRow(NamedTuple):
     Attributes:
         node: Name of the node.
         inertia_kg_m2: Moment of inertia.
-        angle: Angle of the node, relative to the first.
+        angle: Angle of the node, relative to the first node.
         torque_Nm: Torque of its inertia for 1 rad of the first node.
-        sum_Nm: Torque of all inertias up to this node, which its shaft onward carries.
-        stiffness_Nm_per_rad: Stiffness of this shaft; null if it is rigid, 0 of the last node.
+        sum_Nm: Torque of all inertias up to this node, carried by the shaft to the next node.
+        stiffness_Nm_per_rad: Stiffness of this shaft; null if it is rigid, 0 at the last node.
         twist: Twist of this shaft.
     """
 
@@ -118,7 +118,7 @@ class HolzerTable:
     Attributes:
         mode: Number of the mode; left out for a trial frequency.
         frequency_Hz: Frequency.
-        rows: One row a node.
+        rows: One row for each node.
         residual_Nm: Torque that is left at the last node.
         end: Node at which the table ends.
     """
@@ -139,18 +139,19 @@ class TorsionAnalysis(Result):
         name: Name of the engine or chain; null if the file gives none.
         no_gas_in: Cylinders without gas; left out if there are none.
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
-        assumed: Values taken because the file leaves them out.
+        assumed: Values assumed because the file leaves them out.
         nodes: Inertias, front to rear.
         shafts: Shafts.
         modes: Modes in which shafts twist, lowest first.
         orders: Orders of the excitation that were used; left out without an excitation.
-        criticals: Critical speeds, those with most work first: in the range of speeds, else to one
-            and a half times the file's own speed, if it gives one. Left out without an excitation.
-        holzer: Holzer's tables; left out if none was asked for.
+        criticals: Critical speeds, most work first, in the range of speeds; without a range, up to
+            one and a half times the file's own speed, if it gives one. Left out without an
+            excitation.
+        holzer: Holzer's tables; left out if none was requested.
         response: Forced vibration; left out without speeds.
-        damper: Damper that was sized; the system has it. Left out if none was asked for.
-        barred_rpm: First and last speed of each range in which a limit is passed; left out without
-            a limit or without speeds.
+        damper: Damper that was sized, which the results include; left out if none was requested.
+        barred_rpm: First and last speed of each range in which a limit is exceeded; left out
+            without a limit or without speeds.
         system: Analyzed system.
     """
 
@@ -172,8 +173,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings on system and response: shafts without inertia, swings too large for the linear
-        model, a stress that breaks the shaft.
+        """Warnings of shafts without inertia, swings too large for the linear model, and a stress
+        that breaks the shaft.
         """
         found = () if self.response is None else _find_doubts(self.system, self.response)
         return *self.system.doubts, *found
@@ -214,17 +215,17 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
 def answer_question(
     source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
-    """Return the answer about a chain or an engine.
+    """Return the analysis of a chain or an engine, with the damper that is to be sized.
 
     Args:
         source: File of the chain or engine.
         question: Request.
-        tell: Called with the share of the work that is done.
+        tell: Called with the share of the work done so far.
 
     Raises:
-        BalcliError: node or inertia of a damper without its kind; a damper without speeds; a
-            response without excitation or through an undamped resonance; a mode that does not
-            exist; Holzer's table of a chain with loops; a damper that no node can carry.
+        BalcliError: a damper's node or inertia is given without its kind, or a damper without
+            speeds; a response lacks excitation or passes an undamped resonance; a mode does not
+            exist; a Holzer table is requested for a chain with loops; no node can carry the damper.
         InputError: contradictions in the file.
     """
     kind, node, inertia = question.damper
@@ -237,7 +238,7 @@ def answer_question(
         raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
-    found = _analyze_system(fitted, question)  # one response after dozens
+    found = _analyze_system(fitted, question)  # one response after dozens: no progress is reported
     for each in (found.response and found.response.dampers) or ():
         if each.node == sized.node:
             sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)
@@ -247,7 +248,7 @@ def answer_question(
 def _analyze_system(
     system: TorsionalSystem, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
-    """Return the answer about a system as it is."""
+    """Return the analysis of a system without sizing a damper."""
     speeds, modes = question.speeds_rpm, find_natural_modes(system)
     chain, excitation = system.chain, system.excitation
     span = (0.0, BEYOND * system.rated_rpm) if system.rated_rpm else None
@@ -283,7 +284,7 @@ def _tabulate(
             count = counted(len(modes), "mode")
             raise system.refusal(f"has {count}, but --holzer asks for {asked.mode}")
         omega, shape = modes[asked.mode - 1].omega, modes[asked.mode - 1].shape
-    # Holzer's angle of 1 stands at a free end; a clamped one is where the table leads to
+    # Holzer's table begins with an angle of 1 at a free end; a clamped end comes last
     first, end = system.ends[::-1] if chain.clamped[0] else system.ends
     try:
         table = tabulate_holzer(chain, omega, first, end)
@@ -300,7 +301,7 @@ def _tabulate(
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
 
 
-_UNNAMED = "chain file"  # in messages, a text or dict
+_UNNAMED = "chain file"  # name in messages if the chain is a text or dict
 
 
 @tell_arguments(speeds="speeds_rpm")
@@ -317,16 +318,16 @@ def analyze_torsion(
     vibratory torque and stress over a range of speeds.
 
     Args:
-        source: an Engine whose file has [torsion]; or a chain of inertias and shafts: its path, its
-            text or a dict of its tables (or those of such an engine).
-        speeds_rpm: Speeds of the forced vibration; default: modes and criticals alone.
-        orders: Orders of the excitation to use, multiples of 1/2; default: all of a chain; for an
-            engine orders to 32, the firing order and its double.
-        damper: Kind of damper to size such that the largest stress over `speeds_rpm`, which must be
-            given, is smallest; the results are then those with the damper.
+        source: Engine whose file has [torsion]; or the path, text or dict of tables of such a file
+            or of a chain file.
+        speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
+        orders: Orders of the excitation to use, multiples of 1/2; default: all orders of a chain;
+            for an engine, orders to 32, the firing order and its double.
+        damper: Kind of damper to size. It minimizes the largest stress over `speeds_rpm`, which
+            must be given; the results include it.
         damper_at: Name of the node that carries it; default: the foremost part.
-        damper_inertia: Inertia of its ring, or of its pendulums about the axis, kg m2; default:
-            that in the file, or a usual share.
+        damper_inertia: Inertia of its ring, or of its pendulums about the axis, kg m2; default: the
+            inertia in the file, or a usual share of the mode's inertia.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
@@ -334,10 +335,10 @@ def analyze_torsion(
         largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
 
     Raises:
-        BalcliError: no [torsion]; impossible orders or inertia; a response without excitation or
-            through an undamped resonance; a damper that no node can carry.
-        InputError: every mistake of the file.
-        TypeError: an argument of another type.
+        BalcliError: the file has no [torsion]; orders or inertia are impossible; a response lacks
+            excitation or passes an undamped resonance; no node can carry the damper.
+        InputError: the file has mistakes; the error lists all of them.
+        TypeError: an argument has the wrong type.
 
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm

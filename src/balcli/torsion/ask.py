@@ -1,4 +1,4 @@
-"""The request of `balcli torsion`, and its answer."""
+"""Translate the options of `balcli torsion` into a request, and draw the pictures of a file."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 
 
 def parse_half_orders(text: str | None) -> Real | None:
-    """Orders of `0.5-8` (in steps of a half), `1-8` (whole ones), `1,2.5,4`.
+    """Return the orders in a text: `0.5-8` in steps of a half, `1-8` in whole steps, or `1,2.5,4`.
 
     Raises:
-        BalcliError: anything else, with the text.
+        BalcliError: the text has another form.
     """
     if text is None:
         return None
@@ -42,10 +42,10 @@ def parse_half_orders(text: str | None) -> Real | None:
 
 
 def _parse_trial(text: str) -> HolzerAsked:
-    """The number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
+    """Return the number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
 
     Raises:
-        BalcliError: anything else, with the text.
+        BalcliError: the text has another form.
     """
     if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
         return HolzerAsked(int(text))
@@ -67,7 +67,7 @@ def parse_question(
     damper_inertia: str | None = None,
     units: Units = Units.SI,
 ) -> TorsionQuestion:
-    """Return the request that these options make.
+    """Return the request in these options.
 
     Raises:
         BalcliError: one of them cannot be read.
@@ -80,7 +80,7 @@ def parse_question(
 
 
 def require_speeds(asked: TorsionQuestion, what: str) -> None:
-    """Refuse a picture over speed without a range of speeds.
+    """Check that a picture over speed has a range of speeds.
 
     Raises:
         BalcliError: no range was given.
@@ -92,13 +92,13 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 def make_figures_of_torsion(
     path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
 ) -> list[Figure]:
-    """Return figures of the chain or engine at a path, one a page.
+    """Return one figure for each page, of the chain or engine at a path.
 
     Args:
         path: File; - for standard input.
         pages: Names of the pictures.
-        speeds: Range, as typed; None: that of an engine's own speed.
-        orders: Orders that excite, as typed.
+        speeds: Range of speeds, as typed; None: the default range about an engine's own speed.
+        orders: Orders of the excitation, as typed.
         units: System of units.
     """
     asked = parse_question(speeds)

@@ -1,11 +1,11 @@
-"""Nodes and shafts, as chain files and engine files describe them -> torsional system with its
-dampers fitted.
+"""Build a torsional system, with its dampers, from a chain file or from [torsion] of an engine
+file.
 
-A chain file -> torsional system in SI units; joints that contradict each other are reported by
-their paths.
+For a chain file, nodes and shafts are converted to SI units, and joints that contradict each other
+are reported by their paths.
 
-[torsion] of an engine file and the engine -> torsional system: a node for each throw, with the
-mean inertia of the parts that move with it, and one for each part in front and behind.
+For an engine, each throw is a node with the mean inertia of the parts that move with it, and each
+part in front or behind is another node.
 """
 
 from __future__ import annotations
@@ -59,23 +59,21 @@ from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
-_LIGHT = 0.05  # of the smaller neighbor: an inertia of a shaft that nobody misses
+_LIGHT = 0.05  # share of the smaller neighbor's inertia: a lighter shaft may be neglected
 _MOST_NAMED = 4  # shafts, in a message
 _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node, described by its table in the units of the file, and its damping against ground,
-    N m s/rad.
-    """
+    """A node: its table, in the units of the file, and its damping against ground (N m s/rad)."""
 
     table: NodeKeys
     damping: float = 0.0
 
 
 class PlannedShaft(NamedTuple):
-    """A shaft between two nodes (their indices), described by its table in the units of the file;
-    `ratio` is the speed of its end over that of its start.
+    """A shaft between two nodes (their indices) and its table, in the units of the file; `ratio` is
+    the speed of its end over the speed of its start.
     """
 
     name: str
@@ -93,15 +91,15 @@ def assemble_system(
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
-    """Return the system; its rubber rings are nodes and shafts after all others. Half of the
-    inertia of a shaft counts at either end.
+    """Return the system of planned nodes and shafts. Rubber rings become additional nodes and
+    shafts at the end of the lists. Half of the inertia of a shaft is added to each of its nodes.
 
     Args:
         planned: Nodes, front to rear.
         joining: Shafts between them.
-        keys: Loss of shafts without their own, and limits of stress and angle.
+        keys: Default loss factor of shafts, and limits of stress and angle.
         clamped: Nodes that are held.
-        fitted: Dampers by the name of their node, in place of those that nodes have.
+        fitted: Dampers by the name of their node; they replace the node's own damper.
         others: Further attributes of the system.
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
@@ -147,13 +145,13 @@ def assemble_system(
 
 
 def _find_stress(table: ShaftKeys) -> float:
-    """Return the stress at the surface for 1 N m, Pa; 0 without a diameter."""
+    """Return the shear stress at the surface for a torque of 1 N m, Pa; 0 without a diameter."""
     outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
     return find_shear_stress(outer, inner) if outer else 0.0
 
 
 def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterator[str]:
-    """Yield a warning of plain shafts without a density whose inertia would count."""
+    """Yield a warning of plain shafts without a density if their inertia would matter."""
     lost = np.array([find_shaft_inertia(each.table, STEEL) for each in shafts])
     lost[[each.table.density is not None for each in shafts]] = 0
     ends = np.where(chain.clamped, np.inf, chain.inertia)
@@ -181,7 +179,7 @@ def build_chain(
         file: Tables of the file.
         name: Name of the file, for messages.
         orders: Orders of the excitation to use, shape (orders,); None: all.
-        fitted: Dampers of some nodes in place of those in the file.
+        fitted: Dampers by node name; they replace those in the file.
 
     Raises:
         InputError: nodes without a shaft, gears that lock each other, no node that can turn.
@@ -217,7 +215,7 @@ def build_chain(
 
 
 def _tell_apart(names: Sequence[str]) -> Iterator[str]:
-    """Return the names, repeated ones with a number: `a-b`, `a-b (2)`."""
+    """Yield the names, and number repeated ones: `a-b`, `a-b (2)`."""
     for k, name in enumerate(names):
         before = names[:k].count(name)
         yield f"{name} ({before + 1})" if before else name
@@ -236,7 +234,9 @@ def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Exci
 
 
 def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Problem]:
-    """Yield mistakes in how nodes are joined. `paths` are those of shafts and gears in the file."""
+    """Yield mistakes in how nodes are joined; `paths` are the paths of shafts and gears in the
+    file.
+    """
     chain, names = system.chain, system.nodes
     meshes, free = np.isinf(chain.stiffness), ~np.any(chain.clamped)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
@@ -270,8 +270,8 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
 def _find_contradiction(
     chain: Chain, paths: Sequence[str], joining: NDArray[np.bool_]
 ) -> Iterator[Problem]:
-    """Yield the first of these shafts (shafts,) that closes a loop with contradictory ratios: gears
-    alone would lock, a turning chain would wind up its shafts.
+    """Yield a problem for the first of the `joining` shafts that closes a loop with contradictory
+    ratios. A loop of gears would lock; a loop with elastic shafts would wind them up as it turns.
     """
     pieces = find_pieces(chain, joining)
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
@@ -289,8 +289,8 @@ def _find_contradiction(
 def _name_loop(
     chain: Chain, paths: Sequence[str], closing: int, roots: list[int], joining: NDArray[np.bool_]
 ) -> str:
-    """Return the names of the other shafts of a loop, from the start of the closing shaft to its
-    end, and of the fixed nodes, if the loop leads from one to another.
+    """Return the paths of the other shafts in a loop, in order from the start of the closing shaft
+    to its end. If the loop leads from one fixed node to another, "the fixed nodes" follow.
     """
     inward = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
     ways, found = [list[str](), list[str]()], set[int]()
@@ -306,7 +306,7 @@ def _name_loop(
 
 # ------------------------------------------------------------------ an engine file
 class _Joint(NamedTuple):
-    """A part, and the name of the node that it is joined to; `path` is its place in the file."""
+    """A part, its path in the file, and the name of the node (`of`) that it is joined to."""
 
     path: str
     part: Part
@@ -321,7 +321,7 @@ def require_torsion(model: EngineFile, name: str) -> Torsion:
         name: Name of the file, for messages.
 
     Raises:
-        BalcliError: The file has none.
+        BalcliError: The file has no [torsion].
     """
     if model.torsion is None:
         raise BalcliError(
@@ -341,11 +341,11 @@ def build_engine_system(
     """Return the system of an engine.
 
     Args:
-        model: Its file, which has [torsion].
-        engine: Of this file.
+        model: Engine file with [torsion].
+        engine: Engine of this file.
         excitation: Torques of its cylinders, from `excite_engine`.
         name: Name of the file, for messages.
-        fitted: Dampers of some parts in place of those in the file.
+        fitted: Dampers by part name; they replace those in the file.
 
     Raises:
         InputError: contradictions in [torsion], by their paths.
@@ -361,7 +361,7 @@ def build_engine_system(
     led, gears = _lead_outward(joints, throws), dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
-    leading = [  # shaft of every part from what it hangs on, stiff in its own speed
+    leading = [  # the shaft from a part's neighbor to the part; stiffness at the part's speed
         PlannedShaft(part.name, place[of], place[part.name], part, gears[part.name] / gears[of])
         for _, part, of in joints
     ]
@@ -406,12 +406,12 @@ def _name_between(throws: Sequence[str]) -> list[str]:
 
 
 def _each(values: Sequence[float], count: int) -> list[float]:
-    """Return one value for each of so many, from one for all or a list."""
+    """Return a list of `count` values: the single value repeated, or the list itself."""
     return list(values) * count if len(values) == 1 else list(values)
 
 
 def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
-    """Return all parts with the nodes that they are joined to: front first, each list outward."""
+    """Return every part with the node that it is joined to: front parts, then rear parts."""
     found = []
     lists = (("front", torsion.front, throws[0]), ("rear", torsion.rear, throws[-1]))
     for key, parts, before in lists:
@@ -422,8 +422,8 @@ def _join_parts(torsion: Torsion, throws: Sequence[str]) -> list[_Joint]:
 
 
 def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Joint]:
-    """Return the joints from the throws outward; those that nothing joins to a throw are left out.
-    A part may hang on one that comes later in the file.
+    """Return the joints in order from the throws outward, since a part may be joined to one that
+    comes later in the file. Parts without a connection to a throw are left out.
     """
     known, found = {*throws}, list[_Joint]()
     while new := [each for each in joints if each.of in known and each.part.name not in known]:
@@ -433,12 +433,12 @@ def _lead_outward(joints: Sequence[_Joint], throws: Sequence[str]) -> list[_Join
 
 
 def _find_end(led: Sequence[_Joint], gears: Mapping[str, float], start: str) -> str:
-    """Return the name of the node at crank speed with the most shafts between it and a start; of
-    equals the one with the largest inertia. Parts on gears are branches.
+    """Return the name of the node at crank speed with the most shafts between it and a start; among
+    several, the one with the largest inertia. Geared parts are branches and do not count.
 
     Args:
         led: Joints from the start outward.
-        gears: Speed over crank speed of every node, by name.
+        gears: Speed of every node over crank speed, by name.
         start: Name of the first or last throw.
     """
     steps = {start: (0, 0.0, start)}
@@ -464,24 +464,25 @@ def weigh_running_gear(engine: Engine) -> Real:
 
 
 def _weigh_throws(torsion: Torsion, engine: Engine) -> Real:
-    """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear: the sum
-    of those of the file's throws that are one.
+    """Return the moment of inertia of the crankshaft at each throw, kg m2, front to rear. Throws of
+    the file that form one node are added.
     """
     joined, throws = engine.joined_throws, len(engine.throws_m)
     given = torsion.throw_inertia or [float(engine.crank_inertia or 0.0) * 1e6 / throws]
-    if len(given) == len(joined) < throws:  # already those of the throws of the crank
+    if len(given) == len(joined) < throws:  # one value for each joined throw
         return np.array(given) / 1e6
     by_throw = _each(given, throws)
     return np.array([sum(by_throw[throw] for throw in together) for together in joined]) / 1e6
 
 
 def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Excitation:
-    """Return the torque of every cylinder on the node of its throw, of inertia and of gas if the
-    engine has gas.
+    """Return the torque of every cylinder on the node of its throw: inertia torque and, if the
+    engine has gas, gas torque.
 
     Args:
-        orders: Orders, shape (orders,); None: orders to HIGHEST_TORSION_ORDER_UNASKED, with halves
-            where gas has them, and the firing orders of `list_gas_orders`.
+        orders: Orders, shape (orders,); None: orders to HIGHEST_TORSION_ORDER_UNASKED, including
+            half orders for a four-stroke engine with gas, and the firing orders of
+            `list_gas_orders`.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
     nodes = front + np.array(engine.joined_throw_of_rows)
@@ -498,7 +499,7 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     return Excitation(orders[moves], nodes, steady[moves], growing[moves])
 
 
-# ------------------------------------------------------------------ what does not fit together
+# ------------------------------------------------------------------ contradictions in [torsion]
 def _find_misfits(
     torsion: Torsion, engine: Engine, throws: Sequence[str], joints: Sequence[_Joint]
 ) -> Iterator[Problem]:
@@ -523,7 +524,9 @@ def _find_misfits(
 
 
 def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Problem]:
-    """Check the keys of throws; lists may count the throws of the file, before some are one."""
+    """Check the keys of throws. The list of inertias may have a value for each throw of the file,
+    even where several form one node.
+    """
     places, in_file = throws - 1, len(engine.throws_m)
     if torsion.throw_stiffness is None and places:
         hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "

@@ -1,14 +1,11 @@
-"""Torsional chains: inertias on shafts and gears, and how the nodes are joined.
+"""Torsional chains: inertias (nodes) joined by shafts and gears; and dampers as complex inertias.
 
-A chain is a tree of nodes joined by shafts. A shaft from one node to another twists by `ratio
-x_start - x_end`: its stiffness counts in the speed of its end, and a gear ratio other than 1 means
-a mesh at its start. A mesh alone is a shaft that is rigid (stiffness inf). Loops are allowed, where
-power is split.
+A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A ratio other than 1
+means a gear mesh at its start; its stiffness refers to the speed of its end. A gear mesh is a rigid
+shaft (stiffness inf). Nodes and shafts usually form a tree; loops (split power) are allowed.
 
-Torsional dampers as complex inertias.
-
-A damper is a complex moment of inertia J (kg m2) that is added to that of its node: the damper
-takes the torque `-w^2 J x` when the node turns by x. It takes energy if the imaginary part of J is
+A damper adds a complex moment of inertia J (kg m2) to its node: when the node vibrates with the
+angle x, the damper takes the torque `-w^2 J x`. It absorbs energy if the imaginary part of J is
 negative.
 """
 
@@ -23,11 +20,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.vibration import Complex, Indices, Real
 
-SAME_RATIO = 1e-9  # two ways round a loop of gears that differ by less turn alike
+SAME_RATIO = 1e-9  # relative difference below which two gear ratios count as equal
 
 
 class ChainShaft(NamedTuple):
-    """A shaft between two nodes (their indices), N m/rad in the speed of its end; inf: rigid."""
+    """A shaft between two nodes (their indices); stiffness in N m/rad at the speed of its end, inf
+    if rigid.
+    """
 
     start: int
     end: int
@@ -39,8 +38,8 @@ class Pieces(NamedTuple):
     """Nodes that turn together, piece by piece.
 
     Attributes:
-        first: (nodes,) the first node of the piece that each belongs to.
-        pace: (nodes,) speed of each over that of this first node.
+        first: (nodes,) first node of the piece that each node belongs to.
+        pace: (nodes,) speed of each node over that of the first node of its piece.
         locked: (nodes,) whether a loop of the piece has ratios that contradict each other.
     """
 
@@ -54,10 +53,10 @@ class Chain(NamedTuple):
 
     Attributes:
         inertia: (nodes,) kg m2; 0: massless.
-        start, end: (shafts,) nodes that each shaft joins.
+        start, end: (shafts,) indices of the two nodes of each shaft.
         ratio: (shafts,) speed of the end over that of the start.
-        stiffness: (shafts,) N m/rad in the speed of the end; inf: a mesh of gears.
-        clamped: (nodes,) which are held.
+        stiffness: (shafts,) N m/rad at the speed of the end; inf: a mesh of gears.
+        clamped: (nodes,) whether a node is held.
     """
 
     inertia: Real
@@ -69,12 +68,12 @@ class Chain(NamedTuple):
 
 
 class Damping(NamedTuple):
-    """Losses of a chain, without those of dampers that are given as complex inertias.
+    """Losses of shafts and nodes; dampers, which are complex inertias, are not included.
 
     Attributes:
-        loss: (shafts,) loss factors: stiffness k (1 + i loss).
-        dashpots: (shafts,) N m s/rad, parallel to each shaft.
-        nodes: (nodes,) N m s/rad, against ground.
+        loss: (shafts,) loss factors; the complex stiffness is k (1 + i loss).
+        dashpots: (shafts,) dashpot parallel to each shaft, N m s/rad.
+        nodes: (nodes,) damping of each node against ground, N m s/rad.
     """
 
     loss: Real
@@ -95,8 +94,8 @@ class Branch(NamedTuple):
 def join_chain(
     inertia: ArrayLike, shafts: Iterable[ChainShaft], clamped: Sequence[int] = ()
 ) -> Chain:
-    """Return the chain of nodes with these moments of inertia (kg m2, 0: massless), joined by
-    shafts, whether or not it can turn.
+    """Return the chain of nodes with these moments of inertia (kg m2, 0: massless). The result is
+    not checked: gears may lock it.
     """
     table = np.array(list(shafts), float).reshape(-1, len(ChainShaft._fields))
     start, end = table[:, 0].astype(np.intp), table[:, 1].astype(np.intp)
@@ -106,7 +105,9 @@ def join_chain(
 
 
 def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
-    """Return the nodes that are connected by some of the shafts (shafts,), or by all."""
+    """Return which nodes are connected by the selected shafts (mask, shape (shafts,)), by default
+    by all.
+    """
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
     first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
     for node in range(len(first)):
@@ -120,14 +121,16 @@ def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces
 
 
 def find_still(chain: Chain) -> NDArray[np.bool_]:
-    """Return which nodes (nodes,) stand still: clamped ones, and nodes that mesh with these."""
+    """Return a mask (nodes,) of the nodes that cannot move: clamped nodes, and nodes that mesh with
+    them.
+    """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     return np.isin(meshes.first, meshes.first[chain.clamped])
 
 
 def rigid_motions(chain: Chain) -> Real:
-    """(count, nodes): the angles of nodes that turn together without twisting a shaft, 1 at the
-    first of them; one row for each piece that can.
+    """Return the rigid-body motions, shape (motions, nodes): for each piece that can turn freely,
+    the angles of its nodes, 1 at its first node.
     """
     pieces = find_pieces(chain, chain.stiffness > 0)
     stopped = np.unique(pieces.first[chain.clamped | pieces.locked])
@@ -136,7 +139,7 @@ def rigid_motions(chain: Chain) -> Real:
 
 
 def incidence(chain: Chain) -> Real:
-    """(shafts, nodes): twist of every shaft for a unit angle of each node."""
+    """Return the twist of every shaft for a unit angle of each node, shape (shafts, nodes)."""
     rows = np.zeros((len(chain.start), len(chain.inertia)))
     each = np.arange(len(chain.start))
     rows[each, chain.start] = chain.ratio
@@ -145,8 +148,9 @@ def incidence(chain: Chain) -> Real:
 
 
 def follow_gears(chain: Chain) -> tuple[Real, Indices]:
-    """Return the angle of every node for a unit angle of each independent one, shape (nodes, dof),
-    and the independent nodes (dof,): the first of nodes joined by meshes; none at rest.
+    """Return the angle of every node for a unit angle of each independent node, shape (nodes, dof),
+    and the independent nodes (dof,). Of nodes that mesh, the first is independent; nodes that
+    cannot move are left out.
     """
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
     independent = np.unique(meshes.first[~find_still(chain)])
@@ -154,7 +158,9 @@ def follow_gears(chain: Chain) -> tuple[Real, Indices]:
 
 
 def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_]) -> list[Branch]:
-    """Return the branches from these roots outward, along some of the shafts (shafts,)."""
+    """Return the branches from these roots outward, along the selected shafts (mask, shape
+    (shafts,)).
+    """
     joined: dict[int, list[Branch]] = {}
     for shaft in np.flatnonzero(shafts).tolist():
         start, end = int(chain.start[shaft]), int(chain.end[shaft])
@@ -171,41 +177,42 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
-_TUNED = 1e-12  # a damper tuned closer than this holds its node as still as figures can say
+_TUNED = 1e-12  # smallest detuning; a closer tuned damper would divide by zero
 
 
 def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Real) -> Complex:
-    """Return the inertia of a ring (J, kg m2) in a fluid (c, N m s) at w rad/s, or of several that
-    broadcast: `J/(1 + i w J/c)`.
+    """Return the complex inertia `J/(1 + i w J/c)` of a viscous ring, from its inertia J (kg m2),
+    its damping c (N m s) and the frequency w (rad/s); the arguments broadcast.
     """
     return inertia / (1 + 1j * frequency * (inertia / damping))
 
 
 def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
-    """Return the inertia of a mass (kg) on a pendulum of a length L (m), hung up at a radius R (m),
-    at an order of the speed of its node: `m (R + L)^2/(1 - n^2 L/R)`. Tuned to n^2 = R/L, it
-    holds its node still.
+    """Return the effective inertia `m (R + L)^2/(1 - n^2 L/R)` of a centrifugal pendulum of mass m
+    (kg) and length L (m), hung up at a radius R (m), at an order n of its node's speed. A pendulum
+    with n^2 = R/L holds its node at rest.
     """
     return mass * (radius + length) ** 2 / _detune(radius, length, order)
 
 
 def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
-    """Return the angle of a pendulum against its node for each rad of swing of the node, both
-    small: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
+    """Return the angle of a pendulum relative to its node over the angle of the node, for small
+    angles: `n^2 (1 + L/R)/(1 - n^2 L/R)`.
     """
     return order**2 * (1 + length / radius) / _detune(radius, length, order)
 
 
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
-    """Return the damping c (N m s) of a viscous ring (kg m2) for the smallest largest response of a
-    system of one degree of freedom with a natural frequency w (rad/s) and 1/ratio of its inertia:
-    `2 J w / sqrt(2 (1 + ratio) (2 + ratio))`. The response is then 1 + 2/ratio times the static one
-    (Den Hartog, Mechanical Vibrations, Houdaille damper).
+    """Return the damping c (N m s) with which a viscous ring minimizes the peak response of a
+    system of one degree of freedom: `c = 2 J w / sqrt(2 (1 + ratio) (2 + ratio))`, where J (kg m2)
+    is the ring's inertia, `ratio` is J over the system's inertia, and w (rad/s) is the natural
+    frequency. The peak is then 1 + 2/ratio times the static response (Den Hartog, Mechanical
+    Vibrations, Houdaille damper).
     """
     return 2 * inertia * frequency / sqrt(2 * (1 + ratio) * (2 + ratio))
 
 
 def _detune(radius: float, length: float, order: Real) -> Complex:
-    """Return `1 - n^2 L/R`, where it is not 0."""
+    """Return `1 - n^2 L/R`, and a tiny number in place of 0."""
     detuning = 1 - order**2 * (length / radius) + 0j
     return np.where(np.abs(detuning) < _TUNED, _TUNED, detuning)

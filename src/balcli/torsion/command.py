@@ -1,4 +1,4 @@
-"""`balcli torsion`"""
+"""The command `balcli torsion`: its options."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def torsion(
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders that excite; default: all of a chain, of an engine to 32 and that of firing.",
+            "Orders of excitation; default: all (chain), or to 32 and firing orders (engine).",
         ),
     ] = None,
     holzer: Annotated[
@@ -53,7 +53,7 @@ def torsion(
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional("KGMM2", "Of its ring or pendulums; default: the file's or a usual one."),
+        optional("KGMM2", "Inertia of its ring or pendulums; default: the file's or a usual one."),
     ] = None,
     write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,

@@ -1,10 +1,10 @@
-"""A damper sized on the whole system: from the optimum of a system with one degree of freedom to
-the one that makes the largest stress over a range of speeds least.
+"""Size a damper on the whole system, so that the largest stress over a range of speeds is smallest.
 
-Oil begins with Houdaille's damping, rubber with Den Hartog's tuning, pendulums with the order
-itself; then the damping, stiffness or length is searched about this start.
+The search begins at the optimum of a system with one degree of freedom: Houdaille's damping for a
+viscous ring, Den Hartog's stiffness for rubber, the length tuned to the order for pendulums. It
+varies this damping, stiffness or length.
 
-A damper written into the text of the file that was sized, comments and all.
+`insert_damper` writes a damper into the text of a file and keeps its comments.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from .motion import compute_curves
 from .response import find_largest
 from .system import TorsionalSystem
 
-# Figures of a damper: key in JSON, how many of the file's units are one SI unit, and its label.
+# Figures of a damper: key in JSON, number of the file's units in one SI unit, and label.
 DAMPER_KEYS = {
     "inertia": ("inertia_kg_m2", 1e6, "ring"),
     "damping": ("damping_Nms_per_rad", 1.0, "damping"),
@@ -46,18 +46,18 @@ DAMPER_KEYS = {
     "radius": ("radius_m", 1e3, "hung up at a radius of"),
     "length": ("length_m", 1e3, "length to the centre of mass"),
 }
-RUBBER_LOSS = 0.15  # usual for damper rubber
-FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # that is sized
-_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # range of the search, times and over
-# of the mode's inertia at the node, where nothing says how heavy a damper is
+RUBBER_LOSS = 0.15  # usual loss factor of damper rubber
+FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # sized figure
+_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # search from start/width to start*width
+# default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
-_PLACES = 13  # looked at over the range before the best is approached
-_RESPONSES = _PLACES + 2 + ROUNDS + 2  # of one valley; the last of the best damper, and of none
-_END = 0.99  # of the range: a best one farther out is at its end
-_HARDLY = 0.99  # of the largest stress without it: one that leaves more is no use
-_HEAVY = 10.0  # times the inertia of what carries it: for more there is no room
-_LOSS = 0.01  # of shafts, where nothing damps a resonance: modes are compared with it
-_MOVES = 2.0  # times the whole inertia: with more at a node in a mode it hardly moves there
+_PLACES = 13  # grid points of the search before the best is refined
+_RESPONSES = _PLACES + 2 + ROUNDS + 2  # expected; the last two are with and without the best damper
+_END = 0.99  # share of the (logarithmic) range beyond which an optimum counts as at its end
+_HARDLY = 0.99  # of the largest stress without a damper: one that leaves more is useless
+_HEAVY = 10.0  # times the inertia of the carrier: there is no room for more
+_LOSS = 0.01  # loss factor of shafts for comparing modes if nothing damps a resonance
+_MOVES = 2.0  # times the whole inertia: above this equivalent inertia a node hardly moves
 
 
 class DamperAsked(NamedTuple):
@@ -65,9 +65,9 @@ class DamperAsked(NamedTuple):
 
     Attributes:
         kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
-        node: Name of the node that carries it; None: the first that can.
-        inertia: Inertia of ring or pendulums, kg m2; None: that of the file's damper there, or a
-            usual share of the mode's.
+        node: Name of the node that carries it; None: the first node that can carry one.
+        inertia: Inertia of ring or pendulums, kg m2; None: the inertia of the file's damper on that
+            node, or a usual share of the mode's inertia.
     """
 
     kind: str | None = None
@@ -77,7 +77,7 @@ class DamperAsked(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class SizedDamper:
-    """Damper that was sized, and the largest stress (or torque) without and with it.
+    """Sized damper, and the largest stress (or torque) without and with it.
 
     Attributes:
         node: Name of the node that carries it.
@@ -89,20 +89,20 @@ class SizedDamper:
         mass_kg: Mass of all pendulums.
         radius_m: Radius at which pendulums hang.
         length_m: Length of a pendulum.
-        mode: Number of the mode that it was tuned to.
-        before_Pa: Largest stress without a damper there; null if it has no bound.
+        mode: Number of the mode that it is tuned to.
+        before_Pa: Largest stress without a damper on the node; null if it has no bound.
         after_Pa: Largest stress with it.
-        before_Nm: Largest torque without a damper there, where no shaft has a diameter; null if it
-            has no bound.
-        after_Nm: Largest torque with it, where no shaft has a diameter.
-        heat_W: Largest power that it turns to heat.
+        before_Nm: Largest torque without a damper on the node, if no shaft has a diameter; null if
+            it has no bound.
+        after_Nm: Largest torque with it, if no shaft has a diameter.
+        heat_W: Largest power that it dissipates.
         heat_rpm: Speed of this largest power.
         doubts: Warnings of unlikely figures; left out if there are none.
-        damper: The damper as a file describes it.
-        start: Value of the sized figure (damping, stiffness or length) that is optimal for a system
-            with one degree of freedom, in the file's unit.
-        measure: Minimized quantity: stress, or torque where no shaft has a diameter.
-        before: Largest stress (Pa) or torque (N m) without a damper there; inf: without bound.
+        damper: Damper in the units of a file.
+        start: Value of the sized figure (damping, stiffness or length) at which the search began,
+            in the file's unit.
+        measure: Minimized quantity: stress, or torque if no shaft has a diameter.
+        before: Largest stress (Pa) or torque (N m) without a damper on the node; inf: no bound.
         after: Largest stress (Pa) or torque (N m) with it.
     """
 
@@ -133,16 +133,16 @@ class SizedDamper:
 def size_damper(
     source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
 ) -> SizedDamper:
-    """Return the damper that makes the largest stress of all shafts over speeds least.
+    """Return the damper that minimizes the largest stress of all shafts over a range of speeds.
 
     Args:
         source: File of the chain or engine.
         asked: Damper to size.
         speeds: Rising speeds, rpm, shape (speeds,).
-        tell: Called with the share of the work that is done.
+        tell: Called with the share of the work done so far.
 
     Raises:
-        BalcliError: no node can carry it, or the system has no excitation.
+        BalcliError: no node can carry the damper, or the system has no excitation.
     """
     free_end = source.system(NO_DAMPERS).free_end
     node, own = _find_carrier(source.dampers, asked.node, free_end)
@@ -193,8 +193,8 @@ def size_damper(
 def _find_carrier(
     carriers: Mapping[str, Damper | None], asked: str | None, free_end: str
 ) -> tuple[str, Damper | None]:
-    """Return the name of the node that is to carry the damper, and the damper it has: the asked
-    one, else the free end or the foremost that can.
+    """Return the name of the node for the damper, and the damper that the file gives it. By default
+    it is the free end, or the foremost node that can carry a damper.
     """
     first = free_end if free_end in carriers else next(iter(carriers), free_end)
     name, able = asked or first, ", ".join(map(printable, carriers))
@@ -207,12 +207,12 @@ def _find_carrier(
 
 
 def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, float]:
-    """Return the shaft with the largest stress over a range of speeds, its speed (rpm), and its
-    stress, Pa; where no shaft has a diameter, with the largest torque, N m. Rubber rings are left
-    out.
+    """Return the shaft with the largest stress over a range of speeds, the speed (rpm) and the
+    stress (Pa). If no shaft has a diameter, torque (N m) takes the place of stress. The shafts of
+    rubber rings are ignored.
 
     Args:
-        system: With an excitation.
+        system: System with an excitation.
         speeds: (speeds,) rising, rpm.
     """
     rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
@@ -223,8 +223,8 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
 
 
 def _minimise(judge: Callable[[float], float], width: float) -> float:
-    """Return where a function is least within a width either way: by golden section in every
-    valley that a few places show.
+    """Return the minimum of a function within [-width, width]: golden-section search in every
+    valley of a coarse grid.
     """
     places = np.linspace(-width, width, _PLACES).tolist()
     values = np.array([judge(place) for place in places])
@@ -236,15 +236,15 @@ def _minimise(judge: Callable[[float], float], width: float) -> float:
     return min(found, key=judge, default=-width)
 
 
-# ------------------------------------------------------------------ where the search begins
+# ------------------------------------------------------------------ start of the search
 def _find_mode_to_damp(
     system: TorsionalSystem, speeds: Real, node: int
 ) -> tuple[NaturalMode, float]:
-    """Return the mode that a damper at a node has to damp, and the order that drives it.
+    """Return the mode that a damper on a node should damp, and the order that drives it.
 
-    Of the modes in which the node moves, it is the one nearest in frequency to the largest order in
-    the largest stress of the range. Work alone would select the mode of a soft coupling, which
-    hardly twists the crankshaft.
+    The order is the largest one in the largest stress of the range. Of the modes in which the node
+    moves, the one nearest to this excitation in frequency is returned. Selection by work would pick
+    the mode of a soft coupling, which hardly twists the crankshaft.
     """
     modes = find_natural_modes(system)
     if not modes:
@@ -266,7 +266,7 @@ def _find_mode_to_damp(
 
 
 def _find_inertia_in(mode: NaturalMode, system: TorsionalSystem, node: int) -> float:
-    """Return the equivalent inertia of a mode at a node, kg m2; inf where the node is at rest."""
+    """Return the equivalent inertia of a mode at a node, kg m2; inf if the node is at rest."""
     moved = mode.shape[node] ** 2
     return float(np.sum(system.chain.inertia * mode.shape**2)) / moved if moved else math.inf
 
@@ -280,12 +280,12 @@ def _propose(
     order: float,
     crank_radius: float | None,
 ) -> Damper:
-    """Return a damper of the wanted inertia, tuned as the optimum of a system with one degree of
-    freedom. Pendulums hang at the radius in the file, else at the radius of the crank pins (m).
+    """Return a damper of the requested inertia with the optimal tuning for a system with one degree
+    of freedom. Pendulums hang at the radius in the file, else at the crank radius (m).
 
     Raises:
-        BalcliError: the node that carries it is at rest in the mode; the radius of pendulums is not
-            known; no damper has such figures.
+        BalcliError: the node is at rest in the mode, the radius of pendulums is unknown, or the
+            tuning is impossible.
     """
     if mode.shape[node] == 0:
         raise BalcliError(f"--damper: {system.nodes[node]} does not move in mode {mode.number}")
@@ -320,9 +320,9 @@ def _propose(
 
 # ------------------------------------------------------------------ doubts
 def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
-    """Yield warnings of unlikely figures of a damper; `given`: its size was not proposed here."""
+    """Yield warnings of unlikely figures of a damper; `given`: its inertia comes from the user."""
     node, inertia = printable(found.node), found.inertia_kg_m2
-    if inertia is None:  # of pendulums, as they hang
+    if inertia is None:  # pendulums, about the axis
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2
     carrier = float(bare.chain.inertia[bare.nodes.index(found.node)])
     whole, width = float(np.sum(bare.chain.inertia)), _WIDTH[found.kind]
@@ -346,7 +346,7 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:
-    """Return the text of a chain or engine file with this damper on the node or part of that name.
+    """Return the text of a chain or engine file with this damper on the node or part `name`.
 
     Args:
         text: Text of the file, UTF-8.

@@ -23,7 +23,7 @@ from .read import describes_chain, read_chain_tables
 from .system import TorsionalSystem
 from .tables import ChainFile
 
-_SMALL = 1.0  # kg mm2, mm: a steel disc of 10 mm across and 10 mm thick has 0.08 kg mm2
+_SMALL = 1.0  # kg mm2 or mm; a steel disc 10 mm across and 10 mm thick has 0.08 kg mm2
 
 
 class Source(NamedTuple):
@@ -31,12 +31,12 @@ class Source(NamedTuple):
 
     Attributes:
         text: Text of the file; empty if nothing can be written into it.
-        doubts: Warnings of figures that are allowed and yet unlikely.
-        system: Function of dampers by the names of their nodes to the system that the file
-            describes, with these in place of its own; it raises InputError where the file
-            contradicts itself.
-        dampers: Nodes that may carry a damper, by name, each with the damper it has.
-        engine: Engine of the file; None: it describes a chain.
+        doubts: Warnings of figures that are allowed but unlikely.
+        system: Function that returns the system that the file describes. Its argument, dampers by
+            node name, replaces dampers of the file. It raises InputError if the file contradicts
+            itself.
+        dampers: Names of the nodes that may carry a damper, with the damper that each has.
+        engine: Engine of the file; None for a chain.
     """
 
     text: bytes
@@ -49,7 +49,7 @@ class Source(NamedTuple):
 def make_chain_source(
     model: ChainFile, name: str, orders: Real | None = None, text: bytes = b""
 ) -> Source:
-    """Return the source of a chain file that has been read."""
+    """Return the source for the tables of a chain file."""
     losses = [(f"shaft.{k}.loss", shaft.loss) for k, shaft in enumerate(model.shaft, 1)]
     damped = [(k, node.damper) for k, node in enumerate(model.node, 1) if node.damper]
     losses += [(f"node.{k}.damper.loss", damper.loss) for k, damper in damped]
@@ -75,13 +75,13 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     """Read the source in a file, or in standard input for "-".
 
     Args:
-        orders: Orders of the excitation to use, shape (orders,); None: all of a chain, of an engine
-            those of `excite_engine`.
-        misfires: Numbers of an engine's cylinders without gas force.
+        orders: Orders of the excitation to use, shape (orders,); None: all orders of a chain; for
+            an engine, the default of `excite_engine`.
+        misfires: Numbers of the cylinders that lose their gas force.
 
     Raises:
-        BalcliError: The file cannot be read, or has mistakes; a misfire of an engine without gas,
-            or of a cylinder that the engine does not have.
+        BalcliError: The file cannot be read or has mistakes, a misfire is given for an engine
+            without gas, or the engine has no such cylinder.
     """
     name, text = name_file(path), read_bytes(path)
     data: Mapping[str, object] = parse_toml(text, name)
@@ -99,8 +99,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
 
 
 def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
-    """Return the source of an engine file that has been read and built. It has no text, so that
-    nothing can be written into it.
+    """Return the source for an engine and its file. It has no text, so nothing can be written into
+    it.
 
     Raises:
         BalcliError: The file has no [torsion].

@@ -1,7 +1,7 @@
-"""Natural modes of a torsional system: frequencies, shapes, positions of nodes, losses; and
-critical speeds, at which orders excite them.
+"""Natural modes of a torsional system: frequencies, shapes, positions of nodes, losses. Critical
+speeds are those at which orders excite modes.
 
-Holzer's table: a torsional chain at one frequency, node by node, as in textbooks.
+Holzer's table lists angles and torques of a chain at one frequency, node by node, as in textbooks.
 """
 
 from __future__ import annotations
@@ -29,13 +29,14 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(0.25j * np.pi)  # a shift at which there is no pole: what lies there would grow
-_INFINITE = 1e-6  # share of the largest: smaller eigenvalues are zeros, double ones and so inexact
+_SIGMA = np.exp(0.25j * np.pi)  # shift of the eigenvalues; no pole lies there: it would grow
+_INFINITE = 1e-6  # smaller eigenvalues, relative to the largest, are (double) zeros
 
 
 def find_chain_modes(chain: Chain) -> Modes:
-    """Return natural modes with shapes (modes, nodes), of unit modal mass. Relative errors of
-    frequencies are about 1e-15; rigid motions have exactly 0. Massless nodes add no mode.
+    """Return the natural modes with shapes (modes, nodes) of unit modal mass. Frequencies have
+    relative errors of about 1e-15; those of rigid motions are exactly 0. Massless nodes add no
+    mode.
     """
     follow, independent = follow_gears(chain)
     mass = chain.inertia @ follow**2
@@ -56,11 +57,12 @@ def find_chain_modes(chain: Chain) -> Modes:
 def _condense(
     springs: Real, stiffness: Real, massless: Indices
 ) -> tuple[Real, Real, list[tuple[int, Real]]]:
-    """Return springs (springs, dof) and stiffness (springs,) without the massless degrees of
-    freedom, and how each of these follows from the remaining ones: (dof, (dof,)).
+    """Return springs (springs, dof) and their stiffness (springs,) with the massless degrees of
+    freedom eliminated. The third result lists each eliminated degree of freedom with its factors
+    (dof,): its angle is their product with the other angles.
 
-    A star of springs k_i that meet becomes a spring `k_i k_j/sum k` between any two of its ends
-    (Lagrange's identity): sums of positive terms alone, so that nothing cancels.
+    The springs k_i that meet at a massless node become a spring `k_i k_j/sum k` between any two of
+    their other ends (Lagrange's identity). All terms are positive, so nothing cancels.
     """
     carried = []
     for dof in massless.tolist():
@@ -80,11 +82,11 @@ def chain_loss(
     chain: Chain, damping: Damping, modes: Modes, attached: Complex | float = 0.0
 ) -> Real:
     """Return the loss factor (modes,) of every mode: energy lost in a cycle over 2 pi times the
-    vibration energy; rigid modes have 0.
+    vibration energy; 0 for rigid modes.
 
     Args:
-        attached: Complex inertias (modes, nodes) of dampers at the natural frequencies, or one
-            that broadcasts.
+        attached: Complex inertias of dampers at the natural frequencies; they broadcast to (modes,
+            nodes).
     """
     elastic = np.isfinite(chain.stiffness)
     twist = (modes.shapes @ incidence(chain)[elastic].T) ** 2
@@ -97,8 +99,9 @@ def chain_loss(
 
 
 def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
-    """Return where the nodes of a mode lie: shafts whose ends turn against each other, and nodes of
-    the chain at rest between others that turn against each other; of meshed wheels only the first.
+    """Return where the vibration nodes of a mode lie: the shafts whose ends turn against each
+    other, and the nodes of the chain that are at rest between neighbors that turn against each
+    other. Of meshed wheels at rest only the first is listed.
 
     Args:
         chain: Inertias and shafts.
@@ -108,7 +111,7 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     ahead = np.where(moves, np.sign(shape), 0)
     across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    pulled = np.zeros((2, len(shape)), bool)  # one way and the other
+    pulled = np.zeros((2, len(shape)), bool)  # whether a neighbor turns one way, and the other
     for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
         way, wheel = ahead[there] * np.sign(chain.ratio * meshes.pace[here]), meshes.first[here]
         pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
@@ -117,12 +120,13 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
 
 
 def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
-    """Return the poles (poles,) of the damped chain, rad/s: s of vibrations `x e^{s t}` without
-    load. A pole s is a resonance at the frequency `Im s`, `-2 Re s` wide between half powers. With
-    loss factors of shafts, only poles with `Im s > 0` have a meaning.
+    """Return the poles (poles,) of the damped chain, rad/s: the s of free vibrations `x e^{s t}`. A
+    pole s is a resonance at the frequency `Im s` with a half-power width of `-2 Re s`. With loss
+    factors of shafts, only poles with `Im s > 0` have a meaning.
 
-    They are `s = sigma + 1/mu` of the eigenvalues mu of `(A - sigma B)^-1 B`, with the equations of
-    motion `A z = s B z` of angles and speeds z: massless nodes have mu = 0, and no pole.
+    The equations of motion are `A z = s B z`, with the angles and speeds z. With the eigenvalues mu
+    of `(A - sigma B)^-1 B`, the poles are `s = sigma + 1/mu`. Massless nodes have mu = 0 and no
+    pole.
     """
     follow, _ = follow_gears(chain)
     bends = np.isfinite(chain.stiffness)
@@ -143,7 +147,7 @@ def find_chain_poles(chain: Chain, damping: Damping) -> Complex:
     return np.asarray(unit * (_SIGMA + 1 / mu[finite]), complex)
 
 
-_UNDRIVEN = 1e-10  # work up to this share of what all torques could do together is rounding
+_UNDRIVEN = 1e-10  # work below this share of the sum of the torques' magnitudes is rounding
 
 
 class NaturalMode(NamedTuple):
@@ -151,10 +155,10 @@ class NaturalMode(NamedTuple):
 
     Attributes:
         frequency_Hz: Natural frequency.
-        shape: Angle of each node by itself, relative to the largest.
-        nodes: Number of places that do not move.
-        node_in: Names of the shafts with such a place, because their ends turn against each other.
-        node_at: Names of the nodes of the chain that do not move between others that do.
+        shape: Angle of each node at its own speed, relative to the largest.
+        nodes: Number of vibration nodes, places that do not move.
+        node_in: Names of the shafts with a vibration node: their ends turn against each other.
+        node_at: Names of the nodes of the chain that are at rest between others that move.
         loss: Loss factor of dampers and shafts together.
         number: Number of the mode, from 1.
     """
@@ -180,10 +184,12 @@ class Critical(NamedTuple):
         mode: Number of the mode, from 1.
         order: Order of the excitation.
         speed_rpm: Critical speed.
-        phase_sum: Vector sum over the cylinders of the mode's angle at each, with the phase of its
-            torque, relative to the largest torque.
-        work_share: Share of all work that is done on the mode at its critical speeds.
-        work: Work of all torques in one cycle of vibration by 1 rad where the shape is 1, J.
+        phase_sum: Vector sum over the cylinders of the torque's phasor times the mode's angle,
+            relative to the largest torque.
+        work_share: Work at this critical speed as a share of the work at all critical speeds of the
+            mode.
+        work: Work (J) of all torques in one cycle of vibration with an amplitude of 1 rad where the
+            shape is 1.
     """
 
     mode: int
@@ -215,11 +221,11 @@ def find_natural_modes(system: TorsionalSystem) -> tuple[NaturalMode, ...]:
 
 
 def find_poles(system: TorsionalSystem, order: float | None = None) -> Complex:
-    """Return the poles (poles,) of the damped system, rad/s, as of `find_chain_poles`.
+    """Return the poles (poles,) of the damped system, rad/s (see `find_chain_poles`).
 
     Args:
-        system: Its rings in oil become nodes, each behind a pure dashpot.
-        order: Order at which pendulums have their inertia; None: they are left out.
+        system: Torsional system. Each viscous ring becomes a node behind a dashpot.
+        order: Order for which the inertia of pendulums is computed; None: they are left out.
     """
     chain, damping, rings = system.chain, system.damping, system.rings
     inertia, more = chain.inertia, (0, len(rings))
@@ -271,16 +277,17 @@ def find_criticals(
 
 
 class Holzer(NamedTuple):
-    """Holzer's table, one row a node, in the nodes' order.
+    """Holzer's table, one row for each node, in the order of the chain's nodes.
 
     Attributes:
-        angle: of each node.
-        torque: of its inertia, `J w^2 angle`.
-        total: torque of all inertias up to this node, which its shaft onward carries.
-        stiffness: of the shaft onward in the node's own speed; of the last node 0.
-        twist: of that shaft, total over stiffness.
-        residual: residual torque at the last node; 0 at a natural frequency. If that node is
-            clamped, its angle is 0 instead.
+        angle: (nodes,) angle of each node, rad.
+        torque: (nodes,) torque of its inertia, `J w^2 angle`, N m.
+        total: (nodes,) torque of all inertias up to this node, carried by the shaft to the next.
+        stiffness: (nodes,) stiffness of the shaft to the next node at the node's own speed; 0 at
+            the last node.
+        twist: (nodes,) twist of that shaft, total over stiffness.
+        residual: torque that is left at the last node; 0 at a natural frequency. If the last node
+            is clamped, the angle of the last row is 0 at a natural frequency instead.
     """
 
     angle: Real
@@ -292,12 +299,13 @@ class Holzer(NamedTuple):
 
 
 def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = -1) -> Holzer:
-    """Return Holzer's table at w (rad/s), from the first node, whose angle is 1, to the last.
+    """Return Holzer's table at a frequency w (rad/s); it begins at the first node with an angle of
+    1.
 
-    Its angles x and torques T of shafts solve the equations of the chain, `near x_child + far
-    x_parent = T/k` for each shaft and `w^2 J x = sum of T` for each node but the last: there the
-    sum is the residual. A branch off the line from the first node to the last follows the line.
-    Dampers and loss are left out, as in textbooks.
+    Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft and
+    `w^2 J x = sum of T` for each node except the last, where the difference is the residual.
+    Branches off the line from the first node to the last are allowed. Dampers and losses are
+    ignored, as in textbooks.
 
     Args:
         chain: Inertias and shafts.
@@ -306,8 +314,8 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         last: Node at which the table ends.
 
     Raises:
-        ValueError: the chain has a loop or two pieces; a node meshes with a clamped one; a node of
-            the line before the last is clamped; a branch is at resonance by itself.
+        ValueError: the chain has a loop or two pieces; a node meshes with a clamped node; a node on
+            the line other than the last is clamped; a branch resonates by itself.
     """
     count = len(chain.inertia)
     last, stiff = last % count, chain.stiffness > 0
@@ -322,7 +330,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
             raise ValueError("Holzer's table can lead to a clamped node, but not over it")
         node = parents[node]
     inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
-    unit = float(inertial.max()) or 1.0  # N m; torques are as large as angles in it
+    unit = float(inertial.max()) or 1.0  # N m; in this unit torques are about as large as angles
     softness = np.diag(unit / chain.stiffness[stiff])
     matrix = np.block([[np.diag(inertial / unit), -twisting.T], [twisting, -softness]])
     alone, held = np.eye(len(matrix)), np.flatnonzero(chain.clamped)

@@ -1,9 +1,7 @@
-"""Steady vibration of a torsional system at any speeds, order by order.
+"""Forced steady vibration of a torsional system, order by order at given speeds.
 
-Forced vibration of torsional chains.
-
-Angles and torques by order are complex, their values in time `Re(c e^{i w t})`; frequencies are in
-rad/s and of any shape, nodes or shafts on the last axis. See `vibration`.
+Angles and torques are phasors c; their values in time are `Re(c e^{i w t})`. Frequencies w (rad/s)
+may have any shape; nodes or shafts are on the last axis of results. See `vibration`.
 """
 
 from __future__ import annotations
@@ -38,17 +36,17 @@ from .chain import (
 from .modes import chain_loss, find_chain_modes, find_poles
 from .system import TorsionalSystem
 
-_WEAK_PIVOT = 1e-3  # sums that cancel to less than this are solved anew, with pivoting
-_RESONANT = 1e-9  # the same of the whole chain
+_WEAK_PIVOT = 1e-3  # sums that cancel to a smaller share need a solution with pivoting
+_RESONANT = 1e-9  # share to which the sum of the whole chain cancels at resonance
 
 
 class Twist(NamedTuple):
     """Forced vibration.
 
     Attributes:
-        angle: (*frequency, nodes) rad.
-        torque: (*frequency, shafts) N m in the speed of each shaft's end, positive where it drives
-            the end on; its damping part included.
+        angle: (*frequency, nodes) angle of each node, rad.
+        torque: (*frequency, shafts) torque of each shaft at the speed of its end, N m, with its
+            damping part; positive if it drives the end forward.
     """
 
     angle: Complex
@@ -68,13 +66,13 @@ def respond_chain(
         chain: Inertias and shafts.
         damping: Losses of shafts and nodes.
         frequency: w (rad/s), any shape, commonly (orders, speeds).
-        load: Torques (N m) on the nodes, that broadcast to (*frequency, nodes).
-        attached: Complex inertias of dampers (kg m2) that broadcast to (*frequency, nodes); see
+        load: Torques on the nodes (N m); they broadcast to (*frequency, nodes).
+        attached: Complex inertias of dampers (kg m2); they broadcast to (*frequency, nodes); see
             `TorsionalSystem.attached`.
 
     Raises:
         UndampedResonanceError: a load drives an undamped mode at its own frequency.
-        ValueError: a shaft that is a dashpot alone, at a frequency of 0.
+        ValueError: a shaft is a dashpot without a spring, and a frequency is 0.
     """
     frequency = np.asarray(frequency, float)
     shape, w = (*frequency.shape, len(chain.inertia)), frequency.ravel()
@@ -99,7 +97,7 @@ def respond_chain(
 def _find_flexibilities(
     chain: Chain, damping: Damping, w: Real, carrying: NDArray[np.bool_]
 ) -> Complex:
-    """Return 1/stiffness (shafts, points) of every shaft that carries anything, of others 0."""
+    """Return 1/stiffness (shafts, points) of every shaft that carries torque; 0 for others."""
     k, c = np.where(np.isinf(chain.stiffness), 0, chain.stiffness), damping.dashpots
     stiffness = (k * (1 + 1j * damping.loss))[:, None] + 1j * np.outer(c, w)
     bends = carrying & np.isfinite(chain.stiffness)
@@ -109,7 +107,7 @@ def _find_flexibilities(
 
 
 def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
-    """Return the free node of every piece with the largest inertia at common speed."""
+    """Return for every piece the free node with the largest inertia, referred to a common speed."""
     pieces = find_pieces(chain, shafts)
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     return [
@@ -121,25 +119,27 @@ def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
 def _solve_tree(
     chain: Chain, carrying: NDArray[np.bool_], own: Complex, flexible: Complex, load: Complex
 ) -> tuple[Complex, Complex, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Solve the equations by taking the nodes off the tree one by one, from its ends to the
-    heaviest. It takes a fifteenth of the time of `_solve_dense`.
+    """Solve the equations by eliminating the nodes of the tree one by one, from its ends to the
+    heaviest node. This takes a fifteenth of the time of `_solve_dense`.
 
-    Each node goes with its shaft as a flexibility s, so that stiff shafts, meshes and massless
-    nodes need no exception and a twist is no small difference of large angles: with stiffness d
-    and load f of a node and all that hangs on it, the parent feels `far^2 d/(near^2 + s d)` and
-    `-near far f/(near^2 + s d)`. A chain with loops is weak everywhere.
+    Let d and f be the dynamic stiffness and load of a node and all its branches, and s the
+    flexibility of the shaft to its parent. Elimination adds the stiffness `far^2 d/(near^2 + s d)`
+    and the load `-near far f/(near^2 + s d)` to the parent. With flexibilities, rigid shafts,
+    meshes and massless nodes need no exception, and a twist is no small difference of large angles.
+    A chain with loops cannot be solved in this way; all its points are marked as weak.
 
     Args:
         chain: Inertias and shafts.
-        carrying: (shafts,) which shafts carry anything.
+        carrying: (shafts,) whether a shaft carries torque.
         own: (nodes, points) dynamic stiffness of each node by itself; a point is a frequency.
         flexible: (shafts, points) 1/stiffness of each shaft.
         load: (nodes, points) torques, N m.
 
     Returns:
-        Angles (nodes, points); torques (shafts, points); where a sum cancelled too much (points,),
-        because a branch by itself or the whole chain is near a resonance without damping: there the
-        solution needs pivoting; and where the whole chain is at such a resonance (points,).
+        Angles (nodes, points), torques (shafts, points) and two masks (points,). The first marks
+        weak points, where a sum cancelled because a branch or the whole chain is near an undamped
+        resonance; they need a solution with pivoting. The second marks points where the whole chain
+        is at such a resonance.
     """
     roots = _find_roots(chain, carrying)
     branches = grow_branches(chain, roots, carrying)
@@ -148,7 +148,7 @@ def _solve_tree(
     torque = np.zeros(flexible.shape, complex)
     weak = np.full(own.shape[1], len(branches) < np.count_nonzero(carrying))
     singular = np.zeros(own.shape[1], bool)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # there it is weak
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # such points are weak
         for child, parent, shaft, near, far in reversed(branches):
             if chain.clamped[child]:
                 mesh = flexible[shaft] == 0
@@ -184,9 +184,9 @@ def _solve_dense(
     w: Real,
     singular: NDArray[np.bool_],
 ) -> tuple[Complex, Complex]:
-    """Solve for angles (nodes, points) and torques (shafts, points) with pivoting:
-    `d x + B^T T = f`, `B x = s T`, all scaled by a stiffness of the chain. Arguments as for
-    `_solve_tree`, with the frequencies, and where the chain is at a resonance.
+    """Solve `d x + B^T T = f`, `B x = s T` for angles (nodes, points) and torques (shafts, points)
+    with pivoting, scaled by a stiffness of the chain. The arguments are those of `_solve_tree`, the
+    frequencies w, and the mask of points at a resonance.
     """
     elastic = np.isfinite(chain.stiffness) & (chain.stiffness > 0)
     scale = float(np.median(chain.stiffness[elastic])) if np.any(elastic) else 1.0
@@ -205,12 +205,12 @@ def _solve_dense(
     return solution[:nodes], torque
 
 
-_EDGE = 1e-10  # share of a speed by which a resonance may lie beyond the range
-_AT_A_TIME = 1 << 18  # angles and torques by order, at all speeds, which bounds the memory
+_EDGE = 1e-10  # a resonance counts as in the range if it lies beyond an end by less than this share
+_AT_A_TIME = 1 << 18  # angles and torques computed at once, which bounds the memory
 
 
 def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
-    """Return curves and heat as of `compute_curves`."""
+    """Return the curves and heat that `compute_curves` describes."""
     excitation, speeds = system.require_excitation(), rpm * RPM
     w = frequencies(excitation.orders, speeds)
     load = excitation.at(speeds) @ np.equal.outer(excitation.nodes, np.arange(len(system.nodes)))
@@ -231,8 +231,8 @@ def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
 
 
 def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex) -> Real:
-    """Return the power (orders, speeds, dampers) that dampers turn to heat, W: rings in oil
-    `-w^3 Im J |x|^2/2`, rubber, which is the last of the shafts, `w loss |T|^2/(2 k (1 + loss^2))`.
+    """Return the power that dampers dissipate, W, shape (orders, speeds, dampers): viscous rings
+    `-w^3 Im J |x|^2/2`, then rubber (the last shafts) `w loss |T|^2/(2 k (1 + loss^2))`.
     """
     nodes, inertia, damping = np.array(system.rings, float).reshape(-1, 3).T
     ring = viscous_inertia(inertia, damping, w[..., None])
@@ -245,8 +245,8 @@ def _find_heat(system: TorsionalSystem, w: Real, angle: Complex, torque: Complex
 
 
 def compute_in_parts(system: TorsionalSystem, rpm: Real) -> Iterator[tuple[Complex, Real]]:
-    """Yield curves and heat, as of `compute_curves`, at some of the speeds after the others, which
-    bounds the memory.
+    """Yield the curves and heat of `compute_curves` for consecutive groups of speeds, which bounds
+    the memory.
     """
     work = len(system.require_excitation().orders) * (len(system.nodes) + len(system.shafts))
     for some in np.array_split(rpm, len(rpm) * work // _AT_A_TIME + 1):
@@ -257,24 +257,23 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
     """Return torques, swings and the heat of dampers at speeds (speeds,), rpm.
 
     Returns:
-        Phasors (orders, speeds, curves) of torques of all shafts (N m), the angle of the free end
-        and those of pendulums (rad), and heat (speeds, dampers), W; rings in oil first, then
-        rubber.
+        Phasors (orders, speeds, curves): the torques of all shafts (N m), the angle of the free end
+        and the angles of pendulums (rad). Heat (speeds, dampers), W: viscous rings, then rubber.
 
     Raises:
-        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     curves, heat = zip(*compute_in_parts(system, rpm), strict=True)
     return np.concatenate(curves, axis=1), np.concatenate(heat)
 
 
-# ------------------------------------------------------------------ what cannot be computed
+# ------------------------------------------------------------------ limits of the computation
 def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
-    """Refuse a range of speeds (rpm) that is beyond computing.
+    """Check that the vibration over a range of speeds (rpm) is bounded and fits into memory.
 
     Raises:
-        BalcliError: more torques by order, shaft and speed than memory is meant for; an undamped
-            mode that is driven at its own frequency.
+        BalcliError: there are too many torques by order, shaft and speed, or an undamped mode is
+            driven at its own frequency.
     """
     excitation = system.require_excitation()
     count = len(excitation.orders) * len(rpm) * len(system.shafts)
@@ -282,18 +281,18 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
         text = f"{count} torques by order, speed and shaft, and at most {MOST_TORSION_TORQUES} are"
         raise BalcliError(f"{text} kept: take fewer speeds or orders")
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
-    if np.all(lossy | np.isinf(system.chain.stiffness)):  # whatever twists, loses
+    if np.all(lossy | np.isinf(system.chain.stiffness)):  # every elastic shaft has losses
         return
     modes = find_chain_modes(system.chain)
     loss = chain_loss(system.chain, system.damping, modes, system.attached(modes.omega))
     free = modes.omega[(modes.omega > 0) & (loss <= UNDAMPED)]
     none = Damping(*(np.zeros_like(each) for each in system.damping))
     for order in excitation.orders.tolist():
-        if system.pendulums:  # their inertia differs from order to order, and so do the modes
+        if system.pendulums:  # their inertia, and so the modes, depend on the order
             poles = find_poles(system, order)
             free = poles.imag[(poles.imag > 0) & (-2 * poles.real <= UNDAMPED * np.abs(poles))]
         met = free / (RPM * order)
         met = met[(met >= rpm[0] * (1 - _EDGE)) & (met <= rpm[-1] * (1 + _EDGE))]
-        if len(met):  # raises where the order drives the mode
+        if len(met):  # raises if the order drives the mode
             alone = excitation.only(np.array([order]))
             compute_curves(replace(system, damping=none, rings=(), excitation=alone), met)

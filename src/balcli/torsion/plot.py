@@ -37,17 +37,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_MOST_MODES = 4  # whose shapes are drawn: more lie on one another
-_MOST_SHAFTS = 8  # whose torque is drawn: the largest
-_WIDEST = 0.9  # of an order in a waterfall, over the gap between orders: none covers another
-_MOST_ORDERS = 15  # in a Campbell diagram or a waterfall: the largest
+_MOST_MODES = 4  # number of drawn shapes; more would hide each other
+_MOST_SHAFTS = 8  # number of shafts whose torque is drawn, the largest
+_WIDEST = 0.9  # width of a waterfall's orders over their gap: none overlap
+_MOST_ORDERS = 15  # number of orders in a Campbell diagram or waterfall, the largest
 _LEAST_ORDER = 0.01  # of the largest order: smaller ones are left out
-_WORTH = 1e-3  # share of work from which a critical is drawn
+_WORTH = 1e-3  # smallest share of work of a drawn critical
 
 
 class _Curves(NamedTuple):
-    """Curves over the speeds and over those of their peaks: torques of shafts, then the swing of
-    the free end; `phasors` (orders, speeds, curves), `swings` half of peak to peak, SI.
+    """Torques of shafts and the swing of the free end, in SI units, at the given speeds and at the
+    speeds of their peaks: `phasors` (orders, speeds, curves) and half peak to peak, `swings`.
     """
 
     rpm: Real
@@ -70,7 +70,7 @@ def make_torsion(
     """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
 
     Raises:
-        BalcliError: there is no shaft whose torque could be drawn.
+        BalcliError: a waterfall needs a shaft, and there is none.
     """
     if what == "waterfall" and not result.shafts:
         raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
@@ -88,7 +88,7 @@ def make_torsion(
 def _choose_parts(
     result: TorsionAnalysis, what: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
-    """Yield a function for each picture of a page, as far as its figures were computed."""
+    """Yield a drawing function for each picture of a page whose figures were computed."""
     if what in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
@@ -182,8 +182,8 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
-    """Draw half of peak to peak of the shafts with the largest torque; the stress of the shafts
-    with a diameter where the file limits it.
+    """Draw half of peak to peak of the largest torques of shafts; of stresses instead if the file
+    limits the stress and a shaft has a diameter.
     """
     limit, stress = result.system.limit_pa, result.system.stress_by_torque
     by_stress = limit is not None and any(stress)
@@ -226,7 +226,7 @@ def _finish(
 
 
 def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
-    """Draw each order of the largest torque of a shaft as a stream up the speeds."""
+    """Draw a waterfall of the shaft with the largest torque: an order's width is its amplitude."""
     shaft = int(curves.swings[:, : len(result.shafts)].max(axis=0).argmax())
     every = np.abs(curves.phasors[:, :, shaft])
     shown = _find_largest(every.max(axis=1))

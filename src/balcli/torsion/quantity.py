@@ -1,5 +1,5 @@
-"""Single figures of the torsional vibration of an engine, for variants: `torsion.1.Hz`,
-`shaft.flywheel.torque`, `shaft.flywheel.stress`.
+"""Quantities of an engine's torsional vibration that sweeps, searches and tolerances evaluate:
+`torsion.1.Hz`, `shaft.flywheel.torque`, `shaft.flywheel.stress`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .modes import find_chain_modes
 from .response import find_largest
 from .system import Excitation, TorsionalSystem
 
-SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # range of speeds, over the file's own, and how many
+SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # ends relative to the file's speed, and count
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -35,12 +35,11 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Refuse quantities of a mode or shaft that the file does not have, and the stress of a shaft
-    without diameter.
+    """Check that the file has the mode or shaft of each quantity, and that a stress has a diameter.
 
     Raises:
-        BalcliError: The quantity does not exist; the error lists those there are.
-        InputError: contradictions in [torsion].
+        BalcliError: The quantity does not exist; the error says which do.
+        InputError: [torsion] contradicts itself.
     """
     require_torsion(model, quantities[0].name)
     system = _build(model)
@@ -55,10 +54,11 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities of variants of a file one by one; constant parts are computed once.
+    """Evaluates quantities for one variant of a file after another; constant parts are computed
+    once.
 
     Args:
-        model: with [torsion].
+        model: Engine file with [torsion].
     """
 
     def __init__(self, model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
@@ -67,10 +67,11 @@ class Variants:
         self._excitations: dict[Values, Excitation] = {}
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
-        """Return the value of each quantity for one variant, by the figures that vary.
+        """Return the value of each quantity for one variant; `values` are its varied figures by
+        path.
 
         Raises:
-            InputError, BalcliError: it cannot be.
+            InputError, BalcliError: the variant is impossible.
         """
         own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
         engine = self._engines.build(own)
@@ -103,7 +104,7 @@ def _find_frequencies(system: TorsionalSystem) -> Real:
 
 def choose_torsion_speeds(engine: Engine) -> Real:
     """Return the speeds (speeds,), rpm, over which the largest torque and stress of a shaft are
-    found: half to one and a half times that of the engine.
+    found: 0.5 to 1.5 times the engine's speed.
     """
     return np.asarray(np.linspace(SLOWEST, FASTEST, SPEEDS) * float(engine.speed_rpm))
 

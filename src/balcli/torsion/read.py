@@ -1,4 +1,4 @@
-"""A chain file: read and checked, every mistake at once by its path."""
+"""Read and check a chain file; all mistakes are reported at once by their paths."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from .tables import LISTS, ChainFile
 KEYS = ("node", "shaft", "gear", "excitation")
 
 
-# keys of these tables that name nodes
+# the keys in each kind of table that name nodes
 _ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",)}
 
 
 def describes_chain(data: Mapping[str, object]) -> bool:
-    """Return whether tables of a file are those of a chain, not of an engine."""
+    """Return whether the tables of a file describe a chain, not an engine."""
     return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
 
 
 def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
-    """The chain that the tables of a file describe; `file` is its name in messages.
+    """Return the chain that the tables of a file describe; `file` is its name in messages.
 
     Raises:
         InputError: The file has mistakes; the error lists all of them.
@@ -43,7 +43,7 @@ def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:
 
 
 def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
-    """Yield contradictions between the readable tables."""
+    """Yield contradictions between the tables."""
     nodes = _tables(data, "node")
     if "node" not in data:
         hint = 'write [[node]] for every inertia, such as name = "flywheel"'

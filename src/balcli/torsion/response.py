@@ -1,9 +1,9 @@
-"""Forced vibration at speeds: torque of every shaft, added up in time, with stress and heat; and
-the largest values over a range of speeds.
+"""Forced torsional vibration over speeds: torque and stress of every shaft, with all orders added
+up in time, swings and heat; and their largest values over a range of speeds.
 
-Largest values between the given speeds are found as well. The speeds at which an order meets a
-damped resonance are added to the given ones, and those at which a mode alone would have half the
-power of its top. Every peak at these speeds that may be the highest is then approached.
+The largest values may lie between the given speeds. Therefore the speeds at which an order meets a
+damped resonance are added, with the half-power speeds on both sides. Every peak that may be the
+highest is then refined.
 """
 
 from __future__ import annotations
@@ -24,29 +24,29 @@ from .modes import find_poles
 from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds about a resonance, in its widths
-_WIDE = 3.0  # steps of the speeds: of a wider resonance one of them shows 95 %
-_NEAR = 0.9  # of the largest value at the speeds looked at: a peak beside them may exceed this
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # added speeds about a resonance, in units of its width
+_WIDE = 3.0  # in steps of the speeds; the given speeds show at least 95 % of a wider resonance
+_NEAR = 0.9  # of the largest value at these speeds: a higher point may lie between two of them
 
 
 def find_largest(
     system: TorsionalSystem, rpm: Real, weights: Real | None = None, *, together: bool = False
 ) -> tuple[Real, Real]:
-    """Return where each column is largest, and how large, between the first and last of the speeds:
-    speeds (columns,), rpm, and values (columns,).
+    """Return the largest value of each column between the first and last speed: its speed
+    (columns,), rpm, and the value (columns,).
 
     The columns are half of peak to peak of the torque of each shaft (N m), half of the swing of the
     free end and of each pendulum (rad), and the heat of each damper (W).
 
     Args:
-        system: With an excitation.
-        rpm: (speeds,) rising.
-        weights: Factors of the first columns; those without a factor, or with 0, are not looked
-            at. Default: 1 for all.
-        together: whether only the highest of all columns is wanted, which takes less time.
+        system: System with an excitation.
+        rpm: Rising speeds, shape (speeds,).
+        weights: Factors of the first columns; columns with the factor 0 or without one are skipped.
+            Default: 1 for all.
+        together: Whether only the highest of all columns is needed, which takes less time.
 
     Raises:
-        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
     orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
@@ -57,7 +57,7 @@ def find_largest(
     factors = np.pad(weights, (0, len(columns) - len(weights)))
 
     def judge(at: Real, which: Indices) -> Real:
-        """Return the values at speeds, each of one of the columns."""
+        """Return the values at speeds `at`, each for the column in `which`."""
         speeds, column = (each.ravel() for each in np.broadcast_arrays(at, which))
         rpm, point = np.unique(speeds, return_inverse=True)
         phasors, heat = compute_curves(system, rpm)
@@ -68,7 +68,7 @@ def find_largest(
         values[~swings] = heat[point[~swings], column[~swings] - count]
         return (values * factors[column]).reshape(at.shape)
 
-    heights *= factors  # the values are at most so high
+    heights *= factors  # now upper bounds of the values
     level = judge(speeds[heights.argmax(axis=0)], columns)
     least = _NEAR * (level.max() if together else level)
     near = np.nonzero((heights > 0) & (heights >= least))
@@ -78,12 +78,12 @@ def find_largest(
 
 
 def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
-    """Return the speeds (rpm), and those about damped resonances which an order meets between them;
-    without resonances so wide that the speeds show them.
+    """Return the speeds (rpm) and additional speeds about the damped resonances that orders meet
+    between them. Resonances that are wide compared with the steps need none.
     """
     if len(rpm) == 1:
         return rpm
-    of_all = None if system.pendulums else find_poles(system)  # else they differ by order
+    of_all = None if system.pendulums else find_poles(system)  # else they vary by order
     found = []
     for order in system.require_excitation().orders.tolist():
         poles = find_poles(system, order) if of_all is None else of_all
@@ -110,13 +110,14 @@ class OrderTorque(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class WorstTorque:
-    """Largest vibratory torque of a shaft over the range of speeds, between the speeds as well.
+    """Largest vibratory torque of a shaft over the range of speeds; it may lie between given
+    speeds.
 
     Attributes:
         speed_rpm: Speed at which it occurs.
         half_peak_to_peak_Nm: Half of peak to peak.
-        stress_Pa: Stress there; left out without a diameter.
-        orders: Torque by order.
+        stress_Pa: Stress at that speed; left out without a diameter.
+        orders: Torque by order at that speed.
     """
 
     speed_rpm: float
@@ -133,7 +134,7 @@ class ShaftResponse:
         name: Name of the shaft.
         half_peak_to_peak_Nm: Half of peak to peak, by speed.
         sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
-        stress_Pa: Stress by half of peak to peak, by speed; left out without a diameter.
+        stress_Pa: Stress for half of peak to peak, by speed; left out without a diameter.
         worst: Largest torque over the range of speeds.
     """
 
@@ -145,7 +146,7 @@ class ShaftResponse:
 
 
 class WorstSwing(NamedTuple):
-    """Largest swing over the range of speeds, between the speeds as well.
+    """Largest swing over the range of speeds; it may lie between given speeds.
 
     Attributes:
         speed_rpm: Speed at which it occurs.
@@ -157,7 +158,7 @@ class WorstSwing(NamedTuple):
 
 
 class WorstHeat(NamedTuple):
-    """Largest power that a damper turns to heat, over the range of speeds.
+    """Largest power that a damper dissipates over the range of speeds.
 
     Attributes:
         speed_rpm: Speed at which it occurs.
@@ -169,7 +170,7 @@ class WorstHeat(NamedTuple):
 
 
 class DamperHeat(NamedTuple):
-    """Power that a damper turns to heat.
+    """Power that a damper dissipates.
 
     Attributes:
         node: Name of the node that carries the damper.
@@ -205,8 +206,8 @@ class TorsionResponse:
         shafts: Torque of each shaft.
         free_end_deg: Half of the swing of the free end, by speed.
         free_end_worst: Largest swing of the free end.
-        dampers: Heat of dampers, rings in oil first; left out without any.
-        pendulums: Swing of pendulums; left out without any.
+        dampers: Heat of dampers, viscous rings first; left out if there are none.
+        pendulums: Swing of pendulums; left out if there are none.
     """
 
     speeds_rpm: Real
@@ -223,12 +224,12 @@ def find_response(
     """Return the vibration at speeds.
 
     Args:
-        system: With an excitation.
-        speeds_rpm: (speeds,) rising.
-        tell: Called with the share of the speeds that is done.
+        system: System with an excitation.
+        speeds_rpm: Rising speeds, shape (speeds,).
+        tell: Called with the share of the speeds computed so far.
 
     Raises:
-        BalcliError: nothing excites the system; an undamped mode is driven at its own frequency.
+        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
     orders, end = system.require_excitation().orders, len(system.shafts)
@@ -239,7 +240,7 @@ def find_response(
     swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
     at, value = find_largest(system, speeds_rpm)
     there, _ = compute_curves(system, at[:end])
-    by_order = np.abs(there[:, range(end), range(end)])  # of each shaft where it is largest
+    by_order = np.abs(there[:, range(end), range(end)])  # torque of each shaft at its worst speed
     named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
     shafts = []
     for k, name in enumerate(system.shafts):
@@ -277,19 +278,19 @@ def find_response(
 
 
 # ------------------------------------------------------------------ barred speeds
-_FINE = 0.003  # of a speed: steps in which a range is looked through for barred speeds
-_CLOSE = 0.9  # of a limit: a top or valley so near to it at these speeds may pass it between them
-_HALVINGS = 24  # of an interval of speeds in which a limit is passed
+_FINE = 0.003  # relative steps in which a range is searched for barred speeds
+_CLOSE = 0.9  # share of a limit: a peak or valley this near may pass it between the steps
+_HALVINGS = 24  # bisections of an interval of speeds in which a limit is passed
 
 
 def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:
-    """Return ranges of speed (rpm) in which a limit of the file is passed, between the first and
-    the last of rpm (speeds,); None without a limit that can be judged: a stress limit needs a shaft
-    with a diameter.
+    """Return the ranges of speed (rpm) in which a limit of the file is exceeded, between the first
+    and last of the speeds `rpm` (speeds,). None if no limit can be checked: a stress limit needs a
+    shaft with a diameter.
 
-    The speeds examined depend only on the ends of the range: fine steps, resonances, the highest
-    points of peaks below a limit and the lowest points of valleys above it. The ends of a barred
-    range are found by halving.
+    The examined speeds depend only on the ends of the range: fine steps, resonances, the tops of
+    peaks just below a limit and the bottoms of valleys just above it. The ends of a barred range
+    are found by bisection.
     """
     stress = system.stress_by_torque / (system.limit_pa or np.inf)
     weights = np.append(stress, 1 / (system.angle_limit or np.inf))
@@ -298,7 +299,7 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     orders = system.require_excitation().orders
 
     def measure(some: Real) -> Real:
-        """Return the largest of what has a limit, over this, at speeds; 0 where it is far below."""
+        """Return the largest ratio of stress or angle to its limit at speeds; 0 if far below 1."""
         found = []
         for phasors, _ in compute_in_parts(system, some):
             curves = phasors[:, :, : len(weights)] * weights
@@ -315,7 +316,7 @@ def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float]
     speeds = _add_resonances(system, np.geomspace(rpm[0], rpm[-1], steps + 1))
     values = measure(speeds)
     inner, before, after = values[1:-1], values[:-2], values[2:]
-    sign = np.where(inner <= 1, 1, -1)  # tops below the limit, valleys above it
+    sign = np.where(inner <= 1, 1, -1)  # peaks below the limit, valleys above it
     turns = np.all(sign * (inner - np.stack([before, after])) >= 0, axis=0)
     places = np.flatnonzero(turns & (inner > _CLOSE) & (inner < 1 / _CLOSE))
     if len(places):

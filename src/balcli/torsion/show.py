@@ -1,5 +1,5 @@
-"""Torsional vibration for people (modes, criticals, Holzer's tables, forced vibration over speed, a
-damper that was sized) and for programs.
+"""Show the result of `balcli torsion` as tables (modes, criticals, Holzer's tables, forced
+vibration over speed, sized damper) and as CSV.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import ShaftResponse, TorsionResponse
 from .system import TorsionalSystem
 
-_MOST_MODES = 5  # shown with their shapes: more do not fit into a terminal
-_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # shown: those that do most work, and this share of it
-_MOST_LISTED = 8  # orders of the excitation, shafts without a diameter
-_MOST_ORDERS = 3  # of a shaft's torque, named with it
+_MOST_MODES = 5  # with shapes; more do not fit into a terminal
+_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # most work first, and smallest share
+_MOST_LISTED = 8  # orders of the excitation or shafts without a diameter, in one sentence
+_MOST_ORDERS = 3  # listed for a shaft's torque
 
 
 # ------------------------------------------------------------------ for programs
@@ -43,13 +43,13 @@ class Line(NamedTuple):
 
 
 def rows(result: TorsionAnalysis, system: System) -> Rows:
-    """Return CSV: one figure a row."""
+    """Return CSV with one figure in each row."""
     units = {} if system == SI else _choose_units(system)
     return Rows(Line._fields, (_convert(line, units) for line in _list_lines(to_document(result))))
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
-    """Return the units that replace the SI units of CSV."""
+    """Return the units of `system` that replace SI units in CSV."""
     return {
         "kg m2": system.inertia,
         "N m s/rad": system.torsional_damping,
@@ -63,7 +63,7 @@ def _choose_units(system: System) -> dict[str, ShownUnit]:
 
 
 def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
-    """Return a row in the units that replace SI units."""
+    """Return a row converted to these units."""
     if line.unit not in units or not isinstance(line.value, (int, float)):
         return line
     unit = units[line.unit]
@@ -78,7 +78,7 @@ def _put(head: Line, figures: Iterable[Figure]) -> Iterator[Line]:
 
 
 def _list_lines(found: Node) -> Iterator[Line]:
-    """Yield the lines of CSV in their order."""
+    """Yield all lines of CSV."""
     for key in ("no_gas_in", "no_burning_in"):
         if key in found:
             yield Line("engine", figure=key, value=" ".join(map(str, found[key])))
@@ -114,7 +114,7 @@ def _list_extras(found: Node) -> Iterator[Line]:
 
 
 def _list_response(response: Node) -> Iterator[Line]:
-    """Yield the lines at every speed, then those of the largest values over all speeds."""
+    """Yield the lines for every speed, then lines for the largest values over all speeds."""
     shafts, dampers = response.get("shafts", ()), response.get("dampers", ())
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):
@@ -163,7 +163,7 @@ _RING = ShownUnit("kg·mm²", 1e-6, SI.inertia, 1e7)
 
 
 def _show_damper(sized: SizedDamper, system: System) -> Facts:
-    """Return the figures of the sized damper, and its effect."""
+    """Return the figures of the sized damper and its effect on the largest stress."""
     kind = system.stress if sized.measure == "stress" else system.moment
     unit = kind.fit(max(filter(math.isfinite, (sized.before, sized.after))))
     units = _choose_units(system)
@@ -247,7 +247,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
-    """Return which orders, speeds, dampers and torques critical speeds are of."""
+    """Return a note on the orders, speeds, dampers and torques that critical speeds include."""
     rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
     note += _name_left_out(result.system, ", which shift them.")
     if result.response is not None:
@@ -257,14 +257,14 @@ def _name_scope(result: TorsionAnalysis) -> str:
 
 
 def _list_orders(orders: Sequence[float]) -> str:
-    """Return a few orders by name, of many the first and the last."""
+    """Return the orders by name; if there are many, only the first and the last."""
     if len(orders) > _MOST_LISTED:
         return f"{len(orders)} orders, {order_name(orders[0])} to {order_name(orders[-1])}"
     return f"order{'s' * (len(orders) > 1)} {', '.join(map(order_name, orders))}"
 
 
 def _name_left_out(system: TorsionalSystem, end: str) -> str:
-    """Return the dampers that modes and criticals are without."""
+    """Return a note on the dampers that modes and criticals ignore."""
     dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
     return f" Without {' and '.join(dampers)}{end}" if dampers else ""
 
@@ -300,7 +300,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
 
 
 def _settle(value: float, others: Sequence[float]) -> float:
-    """Return an angle or torque, 0 where it is a rounding error of others."""
+    """Return an angle or torque, or 0 if it is a rounding error compared with others."""
     return 0.0 if abs(value) <= 1e-9 * sum(map(abs, others)) else value
 
 
@@ -341,7 +341,7 @@ def _name_span(ends: Sequence[float] | Real) -> str:
 
 
 def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
-    """Return how far the gas of an engine counts; nothing of a chain."""
+    """Return a note on whether gas torque is included; empty for a chain."""
     excitation = result.system.excitation
     if excitation is None or not excitation.growing.any():
         return ""
@@ -350,7 +350,9 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
 
 
 def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
-    """Return the largest swing of the free end and of pendulums, the heat of dampers, and where."""
+    """Return sentences on the largest swing of free end and pendulums, and the largest heat of
+    dampers.
+    """
     swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
     swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
     parts = [(f"{what} by ±{number(w.half_swing_deg)} deg", w.speed_rpm) for what, w in swings]
@@ -361,7 +363,7 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
 
 
 def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
-    """Return the largest orders of a shaft's torque with their amplitudes in this unit."""
+    """Return the largest orders of a shaft's torque and their amplitudes in this unit."""
     falling = sorted(shaft.worst.orders, key=lambda each: -each.amplitude_Nm)
     return ", ".join(
         f"{order_name(each.order)}: {number(unit.of(each.amplitude_Nm), 3)}"
@@ -371,7 +373,7 @@ def _name_orders(shaft: ShaftResponse, unit: ShownUnit) -> str:
 
 
 def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str, str]]:
-    """Yield the limits of the file, and which speeds pass them."""
+    """Yield the limits of the file, the barred speeds, and the shafts that cannot be checked."""
     system, limits, bare = result.system, [], []
     if system.limit_pa is not None:
         limits.append(size_text(system.limit_pa, units.stress, None))

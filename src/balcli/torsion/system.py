@@ -1,5 +1,5 @@
-"""A torsional system in SI units: nodes and shafts with their names, damping and excitation. Speeds
-and orders are those of its reference, the crankshaft or the first node of a chain.
+"""A torsional system in SI units: nodes and shafts with names, damping and excitation. Speeds and
+orders refer to a reference node, the crankshaft or the first node of a chain.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing
 
 
 class ViscousRing(NamedTuple):
-    """A ring (kg m2) in oil (N m s) on a node."""
+    """A viscous damper on a node: inertia of the ring (kg m2) and damping of the oil (N m s)."""
 
     node: int
     inertia: float
@@ -25,7 +25,7 @@ class ViscousRing(NamedTuple):
 
 
 class Pendulums(NamedTuple):
-    """Masses (kg in all) that swing on arms of a length (m) hung up at a radius (m) on a node."""
+    """Pendulums on a node: total mass (kg), radius of suspension (m) and length of an arm (m)."""
 
     node: int
     mass: float
@@ -34,13 +34,15 @@ class Pendulums(NamedTuple):
 
 
 class Excitation(NamedTuple):
-    """Torques by order, complex, their values `Re(c e^{i n t})`, t the angle of the reference.
+    """Torques by order as phasors c: the torque of order n is `Re(c e^{i n t})`, where t is the
+    angle of the reference node.
 
     Attributes:
-        orders: (orders,) rising, above 0.
-        nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
-        steady: (orders, sources) N m, whatever the speed.
-        growing: (orders, sources) kg m2, the part that grows with the square of the speed.
+        orders: Rising orders above 0, shape (orders,).
+        nodes: Node on which each source (a cylinder, or a torque of a chain) acts, shape
+            (sources,).
+        steady: Part that is independent of the speed, N m, shape (orders, sources).
+        growing: Part that grows with the square of the speed, kg m2, shape (orders, sources).
     """
 
     orders: Real
@@ -49,7 +51,7 @@ class Excitation(NamedTuple):
     growing: Complex
 
     def at(self, speeds: Real) -> Complex:
-        """Return torques (orders, speeds, sources) in N m at speeds (speeds,) in rad/s."""
+        """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
         return np.asarray(self.steady[:, None, :] + grown, complex)
 
@@ -67,20 +69,20 @@ class TorsionalSystem:
         name: Name of the engine or chain; may be empty.
         nodes: Names of the nodes, front to rear.
         shafts: Names of the chain's shafts.
-        chain: Inertias and shafts; a rubber ring is a node of it.
+        chain: Inertias and shafts, including rubber rings.
         damping: Losses of shafts and nodes.
         stress_by_torque: (shafts,) shear stress at the surface for 1 N m, Pa; 0 without a diameter.
-        rings, pendulums: Dampers that are no nodes.
+        rings, pendulums: Dampers that are not nodes of the chain.
         excitation: Torques by order; None: no excitation.
         limit_pa: Stress above which a speed is barred.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
-        last: Last node that is no rubber ring.
-        ends: Nodes at which the main line begins and ends: the free end, and the one at the rear.
+        last: Index of the last node that is not a rubber ring.
+        ends: Nodes at which the main line begins (the free end) and ends (at the rear).
         doubts: Warnings of unlikely figures.
-        reference: Node whose speed and orders are those of the system.
-        rated_rpm: Speed in the file; None: it gives none.
+        reference: Node to which speeds and orders refer.
+        rated_rpm: Speed in the file; None if it gives none.
         silent: Cylinders of the engine that do not fire.
-        assumed: Values taken because the file leaves them out.
+        assumed: Values assumed because the file leaves them out.
         file: Name of the file, for messages; may be empty.
     """
 
@@ -112,7 +114,7 @@ class TorsionalSystem:
         """Return the excitation.
 
         Raises:
-            BalcliError: There is none, or none at the requested orders.
+            BalcliError: Nothing excites the system, or nothing at the requested orders.
         """
         if self.excitation is None:
             raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
@@ -127,21 +129,24 @@ class TorsionalSystem:
 
     @cached_property
     def gears(self) -> Real:
-        """(nodes,) speed of each node over that of the reference, where it hangs with it."""
+        """Speed of each node over the speed of the reference, if the two are connected; shape
+        (nodes,).
+        """
         pace = find_pieces(self.chain).pace
         return np.asarray(pace / pace[self.reference])
 
     @property
     def dampers(self) -> tuple[str, ...]:
-        """Names of the nodes of dampers that turn work to heat: rings in oil, then on rubber."""
+        """Names of the dampers that dissipate: nodes with viscous rings, then rubber rings."""
         return (*(self.nodes[ring.node] for ring in self.rings), *self.nodes[self.last + 1 :])
 
     def attached(self, frequency: Real, order: Real | None = None) -> Complex:
-        """Complex inertias (*frequency, nodes) of dampers that are no nodes.
+        """Return the complex inertias, kg m2, that rings and pendulums add to nodes, shape
+        (*frequency, nodes).
 
         Args:
-            frequency: rad/s.
-            order: that broadcasts to frequency; without it pendulums are left out.
+            frequency: Frequency, rad/s, any shape.
+            order: Order, which broadcasts to `frequency`; if it is None, pendulums are left out.
         """
         found = np.zeros((*frequency.shape, len(self.nodes)), complex)
         for ring in self.rings:
@@ -151,7 +156,9 @@ class TorsionalSystem:
         return found
 
     def attached_pendulums(self, order: Real) -> Complex:
-        """Inertias (*order, nodes) of pendulums at orders of the reference, any shape, kg m2."""
+        """Return the inertias of pendulums, kg m2, shape (*order, nodes), at orders of the
+        reference.
+        """
         found = np.zeros((*order.shape, len(self.nodes)), complex)
         for swung in self.pendulums:
             own = order / self.gears[swung.node]
@@ -159,8 +166,9 @@ class TorsionalSystem:
         return found
 
     def swing_pendulums(self, orders: Real, angle: Complex) -> Complex:
-        """Angles of pendulums against their nodes (orders, speeds, pendulums), where these swing by
-        `angle` (orders, speeds, nodes) at orders (orders,) of the reference.
+        """Return the angles of pendulums relative to their nodes, shape (orders, speeds,
+        pendulums), for angles of nodes (orders, speeds, nodes) at orders (orders,) of the
+        reference.
         """
         found = [angle[..., :0]]
         for swung in self.pendulums:

@@ -1,6 +1,7 @@
-"""Tables of a chain file: inertias on shafts and gears, and excitations, without an engine.
+"""Tables of a chain file, which describes inertias on shafts and gears, and excitations, without an
+engine.
 
-Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own.
+Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own unit.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class Gear(FileTable):
 
 
 class Excitation(FileTable):
-    """A torque on a node, `cos * cos(n t) + sin * sin(n t)`, t the angle of the first node."""
+    """A torque on a node, `cos * cos(n t) + sin * sin(n t)`; t is the angle of the first node."""
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
     order: Annotated[float, _HalfOrder(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)] = Field(

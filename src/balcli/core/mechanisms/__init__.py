@@ -1,1 +1,1 @@
-"""The mechanisms between crank pin and piston pin: geometry in, motion and its harmonics out."""
+"""The mechanisms between crank pin and piston pin: their motion and its harmonics."""

@@ -15,13 +15,12 @@ and every other coefficient is a combination of these (docs/theory.md):
     K_n = [(n+1) c_{(n+1)/2} - (n-1) c_{(n-1)/2}] / x for odd n, S_n - (n = 2) for even n
     (beta'/lam)^2 = (cos psi/cos beta)^2 = sum S_n cos n psi, a geometric series
 
-Signs of c_m alternate from m = 1 on, and all terms of F after the first have one sign, so that
-nothing cancels. The relative error of order n is about n roundings: that of x^n.
+Signs of c_m alternate from m = 1 on, and all terms of F after the first have the same sign, so
+there is no cancellation. The relative error of order n is about n roundings, as for x^n.
 
-Fourier series of a mechanism over a revolution of its crank, with bounds of their errors.
-
-Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine series has
-real and a sine series imaginary coefficients. All is for one crank of radius 1 turning at speed 1.
+`Series` are Fourier series of a mechanism over a revolution of its crank, with bounds of their
+errors. Every function of the crank angle psi is written `Re sum c_n e^{i n psi}`, so a cosine
+series has real and a sine series imaginary coefficients. Crank radius and crank speed are 1.
 """
 
 from __future__ import annotations
@@ -35,21 +34,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..phasors import EPS, Array, Complex
 
-Rows: TypeAlias = NDArray[np.intp]  # the mechanism of each cylinder, by its number
+Rows: TypeAlias = NDArray[np.intp]  # index of the mechanism of each cylinder
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Coefficients of a Fourier series, of many mechanisms side by side.
+    """Coefficients of a Fourier series for many mechanisms side by side.
 
     Attributes:
-        c: shape (orders, cylinders, *trailing), or (orders, any axes); real for cosines alone.
-        noise: bound of their error, which broadcasts to `c`; 0 where it is some ulp of each.
+        c: Coefficients, shape (orders, cylinders, *trailing) or (orders, *any axes); real for a
+            series of cosines.
+        noise: Bound of their error, which broadcasts to `c`; 0 if the error is a few ulp of each
+            coefficient.
     """
 
     c: Array | Complex
     noise: Array | float = 0.0
-    __array_ufunc__ = None  # array * series is ours to answer
+    __array_ufunc__ = None  # array * series calls our __rmul__
 
     def __add__(self, other: Series) -> Series:
         return Series(self.c + other.c, self.noise + other.noise)
@@ -58,13 +59,13 @@ class Series:
         return Series(factor * self.c, abs(factor) * self.noise)
 
 
-# Series of a mechanism, or of many, by name:
+# Names of the series of one or many mechanisms:
 #   piston: -s''/r, acceleration towards the crank
 #   rod: -beta'', angular acceleration of the rod, in the crank's sense
 #   kinetic, rod_kinetic: (s'/r)^2 and beta'^2
-# and of unit mass on a closed curve z(psi) (complex, crank radii, x along the cylinder):
+# and for unit mass on a closed curve z(psi) (complex, in crank radii, x along the cylinder):
 #   along, across: -Re z'' and -Im z''
-#   couple: -Im(conj(z) z''), minus the rate of its moment of momentum
+#   couple: -Im(conj(z) z''), minus the rate of the moment of momentum
 #   energy: |z'|^2
 #   swirl: Im(conj(z) z'), moment of momentum
 Harmonics: TypeAlias = dict[str, Series]
@@ -88,7 +89,7 @@ def select_cylinders(harmonics: Harmonics, which: Rows) -> Harmonics:
 
     Args:
         harmonics: Series by name, shape (orders, mechanisms, *trailing).
-        which: Number of the mechanism of each cylinder, from 0.
+        which: Index of the mechanism of each cylinder.
     """
 
     def select(noise: Array | float) -> Array | float:
@@ -117,7 +118,7 @@ def find_harmonics(
     cosine = _expand_cosine(int(n.max(initial=0)) // 2 + 2, x)
 
     def take(step: int) -> Array:
-        """Return c_{(n + step)/2}, 0 where its index is not whole."""
+        """Return c_{(n + step)/2}; 0 if its index is not whole."""
         m = (n.ravel() + step) / 2
         return cosine[np.where(m % 1 == 0, m, -1).astype(np.intp)]  # the last row holds zeros
 
@@ -140,7 +141,7 @@ def _expand_cosine(count: int, x: Array) -> Array:
     binomials = np.cumprod(np.where(m == 0, 1.0, 1.5 / np.maximum(m, 1) - 1), axis=0)
     z = x**4
     gauss = np.ones((count, *x.shape))
-    terms = 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))  # the next is below rounding
+    terms = 1 + int(np.log(EPS / 64) / np.log(z.max(initial=1e-99)))  # the rest is rounding
     for j in range(terms, 0, -1):  # Horner's rule
         gauss *= (m + (j - 1.5)) / (m + j) * ((j - 1.5) / j * z)
         gauss += 1

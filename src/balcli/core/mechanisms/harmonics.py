@@ -1,11 +1,11 @@
-"""Fourier coefficients of slider-cranks: centred ones by their closed form, offset ones sampled.
+"""Fourier coefficients of slider-cranks: from a closed form if they are centred, else by the FFT of
+samples over one revolution.
 
-The closed form is good to about 1e-14 relative in every order, samples to about 1e-16 absolute.
-Mechanisms that are equal are computed once.
+The closed form has a relative error of about 1e-14 in every order, samples an absolute error of
+about 1e-16. Equal mechanisms are computed once.
 
-Harmonics of many mechanisms by the FFT of one revolution of samples.
-
-Accelerations are sampled as such, not differentiated, so that no order's error grows.
+Accelerations are sampled directly, not differentiated, so that the error does not grow with the
+order.
 """
 
 from __future__ import annotations
@@ -21,20 +21,21 @@ from . import closed_form
 from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
 
-HARDEST = 1 << 16  # samples of a revolution that a mechanism takes at 1 - 1e-6 of its lock
-CLOSED_FORM = 4096  # highest order of closed forms; only mechanisms near their lock have more
+HARDEST = 1 << 16  # samples of a revolution for a mechanism at 1 - 1e-6 of locking
+CLOSED_FORM = 4096  # highest order of closed forms; higher ones occur only close to locking
 
 
 def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
-    """Return the mechanisms that differ in some figure, in the order in which cylinders have them:
-    each figure that tells them apart, shape (mechanisms,), and the number of the mechanism that
-    each cylinder has, shape (cylinders or 1, *trailing).
+    """Return the figures of all different mechanisms, each of shape (mechanisms,), and the index of
+    each cylinder's mechanism, shape (cylinders or 1, *trailing). Mechanisms are in the order of the
+    cylinders.
 
-    A cylinder that does not vary along an axis has one mechanism there; cylinders with the same
-    figures at every variant have the same mechanisms.
+    A cylinder that does not vary along an axis has one mechanism there. Cylinders with the same
+    figures in every variant share their mechanisms.
 
     Args:
-        figures: each of shape (cylinders or 1, *trailing); trailing axes broadcast.
+        figures: Figures of the mechanisms, each of shape (cylinders or 1, *trailing); trailing axes
+            broadcast.
     """
     shape = np.broadcast_shapes(*(values.shape for values in figures))
     starts: dict[tuple[tuple[tuple[int, ...], bytes], ...], int] = {}
@@ -56,7 +57,7 @@ def find_distinct(*figures: Numbers) -> tuple[tuple[Numbers, ...], Rows]:
 
 
 def narrow(values: Numbers) -> Numbers:
-    """Return the values without repetition: axes along which they are equal get length 1."""
+    """Return the values with length 1 along axes on which they do not vary."""
     for axis, length in enumerate(values.shape):
         if length > 1 and (values == (first := values.take([0], axis))).all():
             values = first
@@ -66,13 +67,13 @@ def narrow(values: Numbers) -> Numbers:
 def find_harmonics(
     orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str] = SERIES
 ) -> Harmonics:
-    """Return the harmonics of one mechanism a cylinder.
+    """Return the harmonics of the mechanism of each cylinder.
 
     Args:
-        orders: shape (orders,), not negative.
-        lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing), with
+        orders: Orders, not negative, shape (orders,).
+        lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing), with
             lam + |eps| < 1.
-        wanted: names of series (`closed_form.SERIES`).
+        wanted: Names of series (`closed_form.SERIES`).
     """
     few, which = find_distinct_harmonics(orders, lam, eps, wanted)
     return select_cylinders(few, which)
@@ -81,12 +82,11 @@ def find_harmonics(
 def find_distinct_harmonics(
     orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
 ) -> tuple[Harmonics, Rows]:
-    """Return the harmonics of the mechanisms that differ, and the number of each cylinder's.
-
-    Where some mechanism has an offset, all are sampled.
+    """Return the harmonics of all different mechanisms, and the index of each cylinder's mechanism.
+    If some mechanism has an offset, all are sampled.
 
     Args:
-        orders, lam, eps, wanted: as in `find_harmonics`.
+        orders, lam, eps, wanted: As in `find_harmonics`.
     """
     highest = float(np.max(orders, initial=0))
     if np.any(eps) or highest > CLOSED_FORM:
@@ -97,21 +97,23 @@ def find_distinct_harmonics(
 
 
 def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
-    """Return how many mechanisms differ, and how many samples of a revolution they take together.
+    """Return the number of different mechanisms, and how many samples of a revolution they need
+    together.
 
     Args:
-        lam, eps: shape (cylinders or 1, *trailing).
+        lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing).
     """
     (ratios, offsets), _ = find_distinct(lam, eps)
     return len(ratios), int(count_samples(ratios, offsets).sum())
 
 
 def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
-    """Return the number of samples (a power of two) of each mechanism that leaves no alias above
-    rounding in orders up to the highest, and no order beyond the samples.
+    """Return the number of samples (a power of two) that each mechanism needs so that orders up to
+    the highest have no aliases above rounding, and none is missing.
 
-    Coefficients decay like `x^n`, x = tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos
-    beta is analytic in a strip of the complex plane; order n of N samples is mixed with N - n.
+    Order n of N samples is mixed with order N - n. Coefficients decay like `x^n`, x =
+    tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos beta is analytic in a strip of the
+    complex plane.
 
     Args:
         lam: Crank radius / rod length, any shape.
@@ -120,13 +122,13 @@ def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> ND
     """
     steep = np.clip(np.asarray(lam) / (1 - np.abs(eps)), 1e-99, 1 - EPS)
     decay = -np.log(steep / (1 + np.sqrt((1 - steep) * (1 + steep))))
-    last = -1.2 * np.log(EPS) / decay  # the order beyond which all is rounding
+    last = -1.2 * np.log(EPS) / decay  # highest order above rounding
     doublings = np.ceil(np.log2(np.maximum(last + np.minimum(highest, last), 16)))
     return np.asarray(1 << doublings.astype(np.intp))
 
 
 def find_highest_order(lam: Array, eps: Array) -> int:
-    """Return the order beyond which no coefficient of these mechanisms exceeds rounding.
+    """Return the order beyond which the coefficients of these mechanisms are below rounding.
 
     Args:
         lam: Crank radius / rod length, any shape.
@@ -145,10 +147,10 @@ def sample_harmonics(
     """Return the harmonics of mechanisms from one revolution of samples.
 
     Args:
-        orders: shape (orders,).
-        lam, eps: shape (mechanisms,).
-        wanted: names of series (`closed_form.SERIES`).
-        highest: order for which the samples must be enough.
+        orders: Orders, shape (orders,).
+        lam, eps: Crank radius and offset over rod length, shape (mechanisms,).
+        wanted: Names of series (`closed_form.SERIES`).
+        highest: Highest order for which the samples must suffice.
     """
     from .slidercrank import SliderCrank
 
@@ -158,8 +160,8 @@ def sample_harmonics(
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 16  # samples of all mechanisms together that stay in the processor's cache
-_LIMIT = SAMPLING / 16  # of the aliases of an order that is wanted
+_AT_ONCE = 1 << 16  # samples computed together, which fit into the processor's cache
+_LIMIT = SAMPLING / 16  # limit of the aliases of a wanted order
 
 _SAMPLED: dict[str, Callable[[Motion], Array]] = {
     "piston": lambda m: -m.acceleration,
@@ -183,18 +185,18 @@ def sample_mechanisms(
     counts: NDArray[np.intp],
     highest: float,
 ) -> tuple[Harmonics, NDArray[np.intp]]:
-    """Return series of many mechanisms by name, each of shape (orders, mechanisms), and the number
-    of samples of each mechanism, as many as it needs, shape (mechanisms,).
+    """Return the series of many mechanisms by name, each of shape (orders, mechanisms), and the
+    number of samples that each mechanism needed, shape (mechanisms,).
 
     Args:
-        orders: shape (orders,).
-        wanted: names of series (`closed_form.SERIES`).
-        move: the mechanisms in motion, by e^{i psi} of shape (samples, 1) and figures of shape
-            (mechanisms,).
-        figures: what distinguishes them, each of shape (mechanisms,).
-        counts: samples of a revolution that each takes at first, powers of two, shape
-            (mechanisms,); doubled until the orders up to `highest` have no alias above rounding.
-        highest: order.
+        orders: Orders, shape (orders,).
+        wanted: Names of series (`closed_form.SERIES`).
+        move: Function that returns the motion of mechanisms from e^{i psi}, shape (samples, 1), and
+            figures of shape (mechanisms,).
+        figures: Figures of the mechanisms, each of shape (mechanisms,).
+        counts: Samples of a revolution with which each begins, powers of two, shape (mechanisms,);
+            they are doubled until the orders up to `highest` have no aliases above rounding.
+        highest: Highest order for which the samples must suffice.
     """
     n = np.asarray(orders)
     taken = counts.copy()
@@ -208,7 +210,7 @@ def sample_mechanisms(
             rows = rows[:most]
         circle = unit(np.arange(count) * (360 / count))[:, None]
         motion = move(circle, *(values[rows] for values in figures))
-        inside = (n % 1 == 0) & (n < count // 2)  # orders that the samples have
+        inside = (n % 1 == 0) & (n < count // 2)  # orders below half the samples
         numbers = np.where(inside, n, 0).astype(int)
         scale = (np.where(numbers == 0, 1, 2) * inside)[:, None]
         enough = np.ones(len(rows), bool)
@@ -229,11 +231,11 @@ def sample_mechanisms(
 
 
 def _amplify_rounding(samples: Array, condition: Array | float) -> Array:
-    """Return the error of a coefficient by one rounding of every sample, in units of the rounding,
-    shape (mechanisms,).
+    """Return the error of a coefficient if every sample is rounded, in units of one rounding, shape
+    (mechanisms,).
 
-    It is the root mean square of the samples and, where they have larger errors than some ulp, the
-    mean of their sizes times `condition`.
+    It is proportional to the root mean square of the samples; if samples have errors of more than a
+    few ulp, the mean of their sizes times `condition` is added.
     """
     spread: Array = np.sqrt(2 * np.mean(samples**2, axis=0))
     if np.ndim(condition) == 0:
@@ -242,12 +244,12 @@ def _amplify_rounding(samples: Array, condition: Array | float) -> Array:
 
 
 def _is_enough(spectrum: Complex, rounding: Array, highest: float) -> NDArray[np.bool_]:
-    """Return whether the orders up to the highest have no alias above rounding.
+    """Return whether the orders up to the highest have no aliases above rounding.
 
-    Order n of N samples is mixed with order N - n, and orders from N/2 on are missing. The size of
-    that order follows from the decay in the upper half of the spectrum: the largest coefficient
-    falls by some factor from the third eighth of the N orders to the fourth, and by that factor
-    again in every further eighth, of which one half is left out as a margin.
+    Order n of N samples is mixed with order N - n, whose size is extrapolated from the upper half
+    of the spectrum. From the third to the fourth eighth of the N orders, the largest coefficient
+    falls by some factor; it is assumed to fall by the same factor in every further eighth, less
+    half an eighth as a margin.
 
     Args:
         spectrum: `rfft` of the samples with norm "forward", shape (N/2 + 1, mechanisms).

@@ -1,26 +1,24 @@
-"""Mechanisms with masses on planar curves: common parts of articulated rods and rotary engines.
+"""Mechanisms with masses on planar curves: articulated rods and rotary engines.
 
-A plain slider-crank needs no more than its piston's motion along the cylinder's axis. Here another
-mass moves on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the
-knuckle pin of an articulated rod, the piston of a cylinder that itself turns, or shares of it on
-both. It adds two components of force, a moment of momentum and a kinetic energy, all of which are
-harmonics of the crank angle like the others, sampled over a revolution.
+In a plain slider-crank, the reciprocating mass moves along the cylinder's axis. Here a mass moves
+on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the curve of the
+knuckle pin of an articulated rod, that of the piston in a turning cylinder, or both with shares of
+the mass. It causes two components of force, a moment of momentum and a kinetic energy, whose
+harmonics are computed from samples over a revolution.
 
-Articulated rods: hinged to the big end of a master rod, as in radials and some V engines
-(docs/theory.md).
+Articulated rods are hinged to the big end of a master rod, as in radial and some V engines
+(docs/theory.md). In crank radii, with the master rod at the angle -beta_m in its own frame, the
+knuckle pin moves on `K = e^{i psi_m} + k e^{-i beta_m}`. In the frame of the articulated cylinder,
+its rod is connected to K as a plain rod is to the crank pin. A master rod is the case k = 0.
 
-In crank radii, with the master rod at the angle -beta_m in its own frame, the knuckle pin moves on
-`K = e^{i psi_m} + k e^{-i beta_m}`; turned into the articulated cylinder's frame, its rod hangs on
-K as a plain one hangs on the crank pin. A master rod is the case k = 0.
-
-Rotary engines: the crank stands still and the cylinders turn about it, their pistons with them.
-
-Seen from its cylinder, the crank turns backward: with psi now the cylinder's angle ahead of the
-crank pin, and offset and rod angle counted as always towards the side to which the crank pin moves,
-all that moves does so in the mirror: a point w of the mechanism is at `e^{i psi} conj(w)` from the
-direction of the pin, the piston w = s + i e among them, and a rod that turns at `b` turns at `1 -
-b`. So in `Cylinders` pin and axis change their parts: `axis_deg` are the directions of the
-pins, which stand still, and `pin_deg` those of the cylinders, which turn.
+In rotary engines, the crank stands still and the cylinders turn about it with their pistons. Seen
+from its cylinder, the crank turns backward. Let psi be the cylinder's angle ahead of the crank pin;
+offset and rod angle count, as always, towards the side to which the crank pin moves. Then the
+motion is the mirror image of that of a stationary cylinder. A point w of the mechanism (such as the
+piston, w = s + i e) is at `e^{i psi} conj(w)` relative to the direction of the pin. The angular
+velocity `b` of a rod becomes `1 - b`. In `Cylinders`, pin and axis are therefore exchanged:
+`axis_deg` are the directions of the pins, which are at rest, and `pin_deg` are those of the
+cylinders, which turn.
 """
 
 from __future__ import annotations
@@ -39,26 +37,26 @@ from .harmonics import count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
 from .slidercrank import SliderCrank, on_circle
 
-STEPS = 1440  # crank angles that do not miss a lock
+STEPS = 1440  # samples of a revolution that do not miss a locking position
 _FEWEST_SAMPLES = 32
-_AT_ONCE = 1 << 16  # cylinders x angles of figures by themselves
-_SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay the slowest
+_AT_ONCE = 1 << 16  # cylinders x angles that are computed at once
+_SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay slowest
 
 
 @dataclass(frozen=True)
 class Linkage(ABC):
-    """The mechanism of an engine whose cylinders are more than slider-cranks.
+    """The mechanism of an engine whose cylinders are no plain slider-cranks.
 
     Attributes:
-        mass: mass that moves on each cylinder's curve, kg, shape (cylinders or 1, *trailing).
+        mass: Mass on each cylinder's curve, kg, shape (cylinders or 1, *trailing).
     """
 
     mass: Array
-    turning: ClassVar[bool] = False  # whether cylinders, and so rods, turn about a crank at rest
+    turning: ClassVar[bool] = False  # whether cylinders turn about a crank at rest
 
     @abstractmethod
     def figures(self, lam: Array, eps: Array) -> tuple[Array | Complex, ...]:
-        """Return the figures by which the cylinders' mechanisms differ, without masses, each of
+        """Return the figures that determine the mechanism of each cylinder, without masses, each of
         shape (cylinders or 1, *trailing).
 
         Args:
@@ -68,32 +66,35 @@ class Linkage(ABC):
 
     @abstractmethod
     def move(self, psi: Array | Complex, *figures: Numbers) -> Motion:
-        """Return the mechanisms in motion.
+        """Return the motion of mechanisms.
 
         Args:
-            psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
-            figures: as `figures` gives them, with a last axis of length 1 for the samples; or
-                without, where the samples are the first axis of psi.
+            psi: Crank angles of the mechanisms (rad) or e^{i psi}, shape (samples,) or one row for
+                each.
+            figures: Results of `figures`, with a last axis of length 1 for the samples; without
+                that if samples are the first axis of psi.
         """
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
-        """Return the cylinders in motion.
+        """Return the motion of all cylinders.
 
         Args:
-            psi: their own crank angles (rad) or e^{i psi}, shape (samples,) or one row each.
-            lam, eps: crank radius and offset over rod length, shape (cylinders or 1, *trailing).
+            psi: Crank angles of the cylinders (rad) or e^{i psi}, shape (samples,) or one row for
+                each.
+            lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing).
         """
         return self.move(psi, *(values[..., None] for values in self.figures(lam, eps)))
 
     def find_distinct_harmonics(
         self, orders: ArrayLike, lam: Array, eps: Array, wanted: Collection[str]
     ) -> tuple[Harmonics, Rows]:
-        """Return harmonics of the mechanisms that differ, and which of them each cylinder has.
+        """Return the harmonics of all different mechanisms, and the index of each cylinder's
+        mechanism.
 
         Args:
-            orders: whole, shape (orders,).
-            lam, eps: shape (cylinders or 1, *trailing).
-            wanted: names of series (`closed_form.SERIES`).
+            orders: Whole orders, shape (orders,).
+            lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing).
+            wanted: Names of series (`closed_form.SERIES`).
         """
         few, which = find_distinct(*self.figures(lam, eps))
         highest = float(np.max(orders, initial=0))
@@ -102,11 +103,11 @@ class Linkage(ABC):
     def sample(
         self, figure: Callable[[Motion], Array], psi: Array, lam: Array, eps: Array
     ) -> Array:
-        """Return a figure of the motion at crank angles that all cylinders share, shape (cylinders,
-        *trailing, angles); angles are taken in steps that keep memory small.
+        """Return a figure of the motion at crank angles that are the same for all cylinders, shape
+        (cylinders, *trailing, angles). Angles are divided into blocks to save memory.
 
         Args:
-            figure: Figure of a motion.
+            figure: Function that returns the figure of a motion.
             psi: Crank angles, rad, shape (angles,).
             lam: Crank radius / rod length, as in `Cylinders`.
             eps: Offset / rod length, as in `Cylinders`.
@@ -119,8 +120,8 @@ class Linkage(ABC):
         )
 
     def count_all_samples(self, lam: Array, eps: Array) -> tuple[int, int]:
-        """Return how many mechanisms differ, and about how many samples of a revolution all of them
-        take.
+        """Return the number of different mechanisms, and about how many samples of a revolution
+        they need together.
 
         Args:
             lam: Crank radius / rod length, as in `Cylinders`.
@@ -131,7 +132,7 @@ class Linkage(ABC):
         return count, count * int(count_samples(float(np.abs(leans).max()), 0.0))
 
     def find_highest_order(self, lam: Array, eps: Array) -> int:
-        """Return the order beyond which no coefficient exceeds rounding.
+        """Return the order beyond which all coefficients are below rounding.
 
         Args:
             lam: Crank radius / rod length, as in `Cylinders`.
@@ -148,7 +149,7 @@ class Linkage(ABC):
 
 
 def revolution(count: int) -> Array:
-    """Return crank angles of so many samples."""
+    """Return this many equally spaced crank angles of a revolution, rad."""
     return np.arange(count, dtype=float) * (2 * np.pi / count)
 
 
@@ -157,11 +158,11 @@ class Articulated(Linkage):
     """Master and articulated rods; `mass` is the mass of each articulated rod on its knuckle pin.
 
     Attributes:
-        master: row of each cylinder's master (its own for a master), shape (cylinders,).
-        knuckle: knuckle pins from the crank pin, x along the master rod, in crank radii, shape
-        (cylinders, *trailing).
-        lead_deg: crank angle of the master less the cylinder's own, deg, shape (cylinders,
-        *trailing).
+        master: Row of each cylinder's master cylinder (for a master its own), shape (cylinders,).
+        knuckle: Position of the knuckle pins from the crank pin, x along the master rod, in crank
+            radii, shape (cylinders, *trailing).
+        lead_deg: Crank angle of the master less that of the cylinder, deg, shape (cylinders,
+            *trailing).
     """
 
     master: NDArray[np.intp]
@@ -185,13 +186,13 @@ def hang(
     master_lam: Array,
     master_eps: Array,
 ) -> Motion:
-    """Return articulated rods in motion, which hang on their knuckle pins as plain ones on the
-    crank pin.
+    """Return the motion of articulated rods, whose lower ends are on their knuckle pins.
 
     Args:
-        psi: crank angles of the cylinders (rad) or e^{i psi}.
-        lam, eps, knuckle, lead_deg: of the articulated rods, as in `Articulated`.
-        master_lam, master_eps: of the master rods.
+        psi: Crank angles of the cylinders (rad) or e^{i psi}.
+        lam, eps: Crank radius and offset over rod length of the articulated rods.
+        knuckle, lead_deg: As in `Articulated`.
+        master_lam, master_eps: Crank radius and offset over rod length of the master rods.
     """
     crank, lead = on_circle(psi), unit(lead_deg)
     master = SliderCrank(crank * lead, master_lam, master_eps)  # e^{i psi_m}, turned back by lead
@@ -205,13 +206,13 @@ def hang(
 
 @dataclass(frozen=True)
 class Rotary(Linkage):
-    """Turning cylinders; `mass` is the reciprocating mass of each, which moves along no fixed line,
-    with the mass of an articulated rod on its knuckle pin.
+    """Turning cylinders; `mass` is the reciprocating mass of each, plus the mass of an articulated
+    rod on its knuckle pin.
 
     Attributes:
-        hung: master and articulated rods as seen from the cylinders, that is in the mirror; None
-        where all are on the crank pin.
-        on_knuckle: share of the mass that is on the knuckle pin, shape (cylinders, *trailing).
+        hung: Master and articulated rods as seen from the cylinders (mirrored); None if all rods
+            are on the crank pin.
+        on_knuckle: Share of the mass that is on the knuckle pin, shape (cylinders, *trailing).
     """
 
     hung: Articulated | None = None
@@ -232,13 +233,14 @@ class Rotary(Linkage):
 
 
 class TurningMotion(Motion):
-    """Cylinders that turn.
+    """Motion of cylinders that turn.
 
     Args:
-        psi: crank angles (rad) or e^{i psi}.
-        inside: the mechanisms as seen from their cylinders.
-        offset: of the pistons, in crank radii.
-        on_knuckle: share of the mass on the knuckle pin of `inside`, which then has one.
+        psi: Crank angles (rad) or e^{i psi}.
+        inside: Motion as seen from the cylinders.
+        offset: Offset of the pistons, in crank radii.
+        on_knuckle: Share of the mass on the knuckle pin of `inside`; None if there is no knuckle
+            pin.
     """
 
     def __init__(
@@ -258,7 +260,7 @@ class TurningMotion(Motion):
             self.points = self._see(piston, 1 - on_knuckle), knuckle
 
     def _see(self, point: PointMass, share: Figure) -> PointMass:
-        """Return a point of the mechanism as seen from the direction of the pin."""
+        """Return a point of the mechanism relative to the direction of the pin."""
         w, w1, w2 = map(np.conj, point[:3])
         first, second = w1 + 1j * w, w2 + 2j * w1 - w
         return PointMass(self._turned * w, self._turned * first, self._turned * second, share)

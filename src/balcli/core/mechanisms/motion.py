@@ -1,9 +1,9 @@
-"""Mechanisms in motion: a rod with its piston on a pin that moves, each figure worked out when it
-is first asked for.
+"""Motion of mechanisms: a rod with its piston, whose lower end is on a moving pin. Each figure is
+computed when it is first used.
 
-All figures have the shape (*mechanisms, samples), lengths are in crank radii; rates are derivatives
-with respect to the crank angle. With the rod's lower end at z (complex, x along the cylinder's
-axis), `sin beta = lam Im z - eps`, and
+All figures have the shape (*mechanisms, samples). Lengths are in crank radii; rates are derivatives
+by the crank angle. If the rod's lower end is at z (complex, x along the cylinder's axis), `sin beta
+= lam Im z - eps`, and
 
     s = Re z + cos beta/lam
     s' = Re z' - tan beta Im z'
@@ -22,17 +22,17 @@ import numpy as np
 
 from ..phasors import Array, Complex, Figure
 
-# Of mechanisms without masses on curves.
+# Sums for mechanisms without masses on curves.
 _NONE = np.zeros(())
 _NO_VECTOR = np.zeros((), complex)
 
 
 class PointMass(NamedTuple):
-    """A mass on a closed curve, complex, x along the cylinder's axis.
+    """A mass on a closed curve (complex, x along the cylinder's axis).
 
     Attributes:
-        z, z1, z2: the curve and its two derivatives.
-        share: of the mass on curves that moves on this one.
+        z, z1, z2: Curve and its first two derivatives by the crank angle.
+        share: Share of the linkage's mass that moves on this curve.
     """
 
     z: Complex
@@ -42,15 +42,15 @@ class PointMass(NamedTuple):
 
 
 class Motion:
-    """Pistons, rods and masses on curves of mechanisms in motion.
+    """Motion of the pistons, rods and masses on curves of mechanisms.
 
     Args:
-        pin: lower ends of the rods.
-        lam: crank radius over rod length.
-        lean: sine of the rods' angle beta to the cylinders' axes.
-        cosine: its cosine.
-        points: where masses on curves are; none in a plain slider-crank.
-        condition: relative error of piston and rod, in roundings: large near a lock.
+        pin: Lower ends of the rods.
+        lam: Crank radius over rod length.
+        lean: Sine of the rods' angle beta to the cylinders' axes.
+        cosine: Cosine of this angle.
+        points: Masses on curves; empty for plain slider-cranks.
+        condition: Relative error of piston and rod in roundings; it is large close to locking.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Motion:
 
     @cached_property
     def place(self) -> Array:
-        """s of the piston along its axis, from the crank's axis."""
+        """Distance s of the piston pin from the crank's axis along the cylinder, in crank radii."""
         return np.asarray(self.pin.z.real + self.cosine / self._lam)
 
     @cached_property
@@ -100,7 +100,7 @@ class Motion:
     # -------------------------------------------------------------- unit mass on its points
     @property
     def velocity_of_mass(self) -> Complex:
-        """Velocity of unit mass on its points; the figures below are for unit mass as well."""
+        """Momentum of unit mass on the curves (the figures below are for unit mass as well)."""
         return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
 
     @cached_property
@@ -110,7 +110,7 @@ class Motion:
 
     @property
     def swirl(self) -> Array:
-        """Moment of momentum of the linkage's masses about the crank."""
+        """Moment of momentum about the crank's axis."""
         return sum((p.share * (np.conj(p.z) * p.z1).imag for p in self.points), _NONE)
 
     @property
@@ -129,4 +129,4 @@ class Motion:
         return sum((p.share * (np.conj(p.z1) * p.z2).real for p in self.points), _NONE)
 
 
-Move: TypeAlias = Callable[..., Motion]  # of e^{i psi} and figures that tell mechanisms apart
+Move: TypeAlias = Callable[..., Motion]  # from e^{i psi} and figures of mechanisms

@@ -1,8 +1,9 @@
-"""Exact power series in lambda of the centred slider-crank, every order to any power, as fractions.
+"""Power series in lambda of the centred slider-crank, for every order to any power, in exact
+fractions.
 
-Generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from that of beta =
-arcsin(lam sin psi), whose powers of the sine are finite Fourier sums. A series is a dictionary from
-the power of lambda to its coefficient; powers whose coefficient vanishes are left out.
+They are generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from that of
+beta = arcsin(lam sin psi); powers of the sine are finite Fourier sums. A series is a dictionary
+from the power of lambda to its coefficient; powers with the coefficient 0 are omitted.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ def beta(order: int, power: int) -> Series:
 
 
 def piston(order: int, power: int) -> Series:
-    """Return A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi; A_1 = 1, other odd
-    orders vanish.
+    """Return A_n of the piston's acceleration j/(r omega^2) = sum A_n cos n psi. A_1 is 1; other
+    odd orders are 0.
 
     Args:
         order: Order n.
@@ -72,8 +73,8 @@ def rod(order: int, power: int) -> Series:
 
 
 def from_shaft(order: int, power: int) -> Series:
-    """Return the coefficients of the piston pin's distance from the shaft, s/r = cos psi + cos
-    beta/lam = sum cos n psi.
+    """Return the coefficient of cos n psi in the piston pin's distance from the shaft, s/r = cos
+    psi + cos beta/lam.
 
     Args:
         order: Order n.
@@ -85,8 +86,8 @@ def from_shaft(order: int, power: int) -> Series:
 
 
 def displacement(order: int, power: int) -> Series:
-    """Return the coefficients of the travel from top dead centre, x/r = 1 + 1/lam - s/r = sum cos n
-    psi.
+    """Return the coefficient of cos n psi in the travel from top dead centre, x/r = 1 + 1/lam -
+    s/r.
 
     Args:
         order: Order n.
@@ -97,8 +98,8 @@ def displacement(order: int, power: int) -> Series:
 
 
 def velocity(order: int, power: int) -> Series:
-    """Return the coefficients of the velocity v/(r omega) = sum sin n psi, positive away from the
-    top.
+    """Return the coefficient of sin n psi in the velocity v/(r omega), positive away from top dead
+    centre.
 
     Args:
         order: Order n.
@@ -112,7 +113,7 @@ def _scaled(series: Series, factor: int) -> Series:
 
 
 def _in_harmonics(in_sine: Series, order: int) -> Series:
-    """Return what each power of the sine contributes to one order."""
+    """Return the contribution of each power of the sine to one order."""
     parts = {p: c * _sine_power(p, order) for p, c in in_sine.items()}
     return {p: c for p, c in parts.items() if c}
 

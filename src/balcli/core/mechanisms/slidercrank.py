@@ -1,14 +1,14 @@
 """The slider-crank in closed form, centred or offset.
 
-Everything is dimensionless: lengths in crank radii r, the crank angle psi in radians from the
-position in which the crank pin lies along the cylinder's axis, derivatives with respect to psi.
-`lam` = r/l, `eps` = e/l with the offset e of the piston pin's path towards the side to which the
-crank pin moves; the mechanism turns if lam + |eps| < 1. Arguments are broadcast against each other.
-Instead of psi, every function but `displacement` also takes the complex e^{i psi}.
+All figures are dimensionless. Lengths are in crank radii r. The crank angle psi, in radians, is 0
+when the crank pin lies along the cylinder's axis; derivatives are by psi. `lam` = r/l and `eps` =
+e/l, where e is the offset of the piston pin's path towards the side to which the crank pin moves
+after psi = 0. The mechanism can turn if lam + |eps| < 1. Arguments broadcast against each other.
+Every function but `displacement` also accepts the complex e^{i psi} instead of psi.
 
-Source: the closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine
-Design, 1990, (1-2), (1-7), (1-10)). Errors are a few roundings of the largest value over a
-revolution, however near the lock: differences that vanish there are factorized.
+The closed forms are those of every textbook (Lu Jiqing, Meng Sizong, Automobile Engine Design,
+1990, (1-2), (1-7), (1-10)). Errors are a few roundings of the largest value over a revolution, even
+close to locking, because differences that vanish there are factorized.
 """
 
 from __future__ import annotations
@@ -21,10 +21,11 @@ from .motion import Motion, PointMass
 
 
 class SliderCrank(Motion):
-    """Slider-cranks in motion; arguments as everywhere in this module.
+    """Motion of slider-cranks; arguments as in the functions of this module.
 
     With h = |sin psi| and e = +-eps by the sign of sin psi, cos^2 beta = (1 - lam + e + lam (1 -
-    h))(1 - e + lam h), and 1 - h = cos^2 psi/(1 + h): nothing cancels near the lock.
+    h))(1 - e + lam h), and 1 - h = cos^2 psi/(1 + h). In this form, there is no cancellation close
+    to locking.
     """
 
     def __init__(self, psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> None:
@@ -38,14 +39,14 @@ class SliderCrank(Motion):
 
 
 def on_circle(psi: ArrayLike) -> Complex:
-    """Return e^{i psi}, psi being an angle (rad) or e^{i psi} itself."""
+    """Return e^{i psi}; the argument is an angle (rad) or e^{i psi} itself."""
     angle = np.asarray(psi)
     return angle if np.iscomplexobj(angle) else np.exp(1j * angle)
 
 
 def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Array, Array]:
-    """Return (sin beta, cos beta) of the rod's angle; the rod stands at -beta from the cylinder's
-    axis, sin beta = lam sin psi - eps.
+    """Return (sin beta, cos beta); the rod is at the angle -beta from the cylinder's axis, with sin
+    beta = lam sin psi - eps.
 
     Args:
         psi: Crank angles, rad.
@@ -57,14 +58,15 @@ def rod_angle(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> tuple[Arr
 
 
 def displacement(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return the travel x/r from top dead centre, with a small relative error near it as well.
+    """Return the travel x/r from top dead centre; its relative error is small even near top dead
+    centre.
 
     Top dead centre is at tau with sin tau = eps/(1 + lam). The formula is x/r = 2 sin((psi -
     tau)/2) sin((psi + beta)/2) / cos((beta - tau)/2), with beta = -tau at top dead centre.
 
     Args:
-        psi: crank angle, rad, a real number.
-        lam, eps: crank radius and offset over rod length.
+        psi: Crank angle, rad, real.
+        lam, eps: Crank radius and offset over rod length.
     """
     psi, lam, eps = np.asarray(psi, float), np.asarray(lam, float), np.asarray(eps, float)
     sin_beta, cos_beta = rod_angle(psi, lam, eps)
@@ -87,8 +89,7 @@ def velocity(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
 
 
 def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return the piston acceleration j/(r omega^2), positive towards the crankshaft (as near the
-    top).
+    """Return the piston acceleration j/(r omega^2), positive towards the crankshaft.
 
     Args:
         psi: Crank angles, rad.
@@ -121,11 +122,11 @@ def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Ar
 
 
 def fastest(lam: ArrayLike) -> tuple[Array, Array]:
-    """Return the crank angle (rad), between 0 and 90 degrees, at which the piston of the centred
-    mechanism is fastest, and its velocity over r omega.
+    """Return the crank angle (rad, below 90 degrees) at which the piston of the centred mechanism
+    is fastest, and its velocity over r omega.
 
-    The acceleration vanishes where cos psi = lam sin^2 psi cos beta, that is with t = sin^2 psi
-    where 1 - t = lam^2 t^2 (1 - lam^2 t); t is found by Newton's method.
+    The acceleration vanishes if cos psi = lam sin^2 psi cos beta; with t = sin^2 psi, this is 1 - t
+    = lam^2 t^2 (1 - lam^2 t), which Newton's method solves.
     """
     lam = np.asarray(lam, float)
     square = lam**2
@@ -138,8 +139,8 @@ def fastest(lam: ArrayLike) -> tuple[Array, Array]:
 
 
 def fastest_two_term(lam: ArrayLike) -> tuple[Array, Array]:
-    """Return the crank angle (rad) at which the two-term form sin psi + lam/2 sin 2 psi is largest,
-    and its value there: cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam).
+    """Return the crank angle (rad) at which the two-term velocity sin psi + lam/2 sin 2 psi is
+    largest, and its value there. The angle follows from cos psi = (sqrt(1 + 8 lam^2) - 1)/(4 lam).
     """
     lam = np.asarray(lam, float)
     psi = np.arccos(2 * lam / (1 + np.sqrt(1 + 8 * lam**2)))

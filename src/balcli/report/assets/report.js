@@ -99,7 +99,7 @@ draw(scene) {
       .map((c) => ({ c, eye: element("circle", { class: "pin", r: 0.13 * r }, crank) }));
     const webs = plain.map((c) => ({
       c,
-      web: element("path", { class: "web", d: web(r) }, crank),
+      web: element("path", { class: "web", d: web(radiusOf(c)) }, crank),
       pin: element("circle", { class: "pin", r: 0.2 * r }, crank),
     }));
     element("circle", { class: "pin", r: 0.26 * r }, crank);
@@ -116,7 +116,7 @@ draw(scene) {
         set(piston, { transform: `translate(${at[1]} ${-at[0]})` });
         set(pin, { cx: at[1], cy: -at[0] });
       }
-      const [up, right] = turned([r, 0], pinAngle(plain[0], theta));
+      const [up, right] = turned([radiusOf(plain[0]), 0], pinAngle(plain[0], theta));
       set(bigEnd, { cx: right, cy: -up });
       for (const { c, eye } of eyes) {
         const { lower, axis } = drive(c, theta), [x, y] = turned(lower, axis);
@@ -125,7 +125,7 @@ draw(scene) {
       for (const { c, web: shape, pin } of webs) {
         const angle = pinAngle(c, theta);
         set(shape, { transform: `rotate(${angle})` });
-        set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -r });
+        set(pin, { transform: `rotate(${angle})`, cx: 0, cy: -radiusOf(c) });
       }
       drawDevices(devices, variant.devices, theta);
     };
@@ -209,7 +209,8 @@ draw(scene) {
 
   // Crank pins along the shaft; neighbouring rods whose pins point the same way stand on one.
   function throwsOf() {
-    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01;
+    const found = [], same = (a, b) => Math.abs(((pinAngle(a, 0) - pinAngle(b, 0)) % 360 + 540) % 360 - 180) < 0.01
+      && radiusOf(a) === radiusOf(b);
     for (const c of [...plain].sort((a, b) => a.z - b.z)) {
       const last = found.at(-1);
       if (last && same(last.c, c) && c.z - last.to < 0.5 * bore) last.to = c.z + throwWidth / 2;

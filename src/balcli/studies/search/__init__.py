@@ -1,1 +1,1 @@
-"""Search: the best arrangements of an engine file."""
+"""Search for the best arrangements of an engine."""

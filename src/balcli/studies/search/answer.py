@@ -1,5 +1,5 @@
-"""Best arrangements of an engine: throws of the crank, firing order, or numbers of its file:
-`search`.
+"""Search for the best arrangements of an engine, `search`: order of the throw angles, firing order,
+or values of numbers of its file.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ from .local import Box, Effort, find_local_optima
 from .throws import search_throws
 
 ARRANGED = ("throws", "firing_order")
-_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # with throws or the firing order
+_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # varied by a search over these
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
-NEAR_AN_END = 1e-4  # of a range
+NEAR_AN_END = 1e-4  # share of a range
 _ROUNDING = 1e-13  # relative difference of equal objectives
-_GRID, _SPREAD = 720, 2048  # candidates of one number, of several
-_SLOW = 32  # candidates a number, where each takes a computation of its own
+_GRID, _SPREAD = 720, 2048  # candidates for one number, for several
+_SLOW = 32  # candidates for each number, if computed one by one
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -58,14 +58,14 @@ class Search(Result):
 
     Attributes:
         model: The engine file.
-        assumed: Values taken because the engine file leaves them out.
-        over: Searched keys: `throws`, `firing_order`, or numbers with commas between.
+        assumed: Values assumed because the engine file leaves them out.
+        over: Searched keys: `throws`, `firing_order`, or numbers separated by commas.
         results: Arrangements, best first.
-        objective: The quantities, their weights and limits.
-        ranges: The numbers that were searched over, with the ends of their ranges, ascending, by
-            the keys that the user wrote.
+        objective: Quantities with their weights and limits.
+        ranges: Searched numbers with the ends of their ranges, ascending, by the keys that the user
+            wrote.
         constant: Whether the numbers have no effect on the objective.
-        refused: Values of the numbers without an engine, and why; empty if there are none.
+        refused: Message on values of the numbers that make no engine; empty if there are none.
         even_firing: Whether only arrangements that can fire evenly were considered.
     """
 
@@ -82,8 +82,8 @@ class Search(Result):
 
     @property
     def at_ends(self) -> tuple[str, ...]:
-        """Numbers of the file whose best value is an end of their range, beyond which there may be
-        a better one.
+        """Numbers whose best value is an end of their range, so that a better value may lie
+        outside.
         """
         if self.constant:
             return ()
@@ -104,12 +104,12 @@ class Search(Result):
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
     def engine(self, rank: int = 1) -> Engine:
-        """Return the engine with the arrangement of this rank, the best being 1. A firing order
-        that its throws no longer fit is left out.
+        """Return the engine with the arrangement of this rank; rank 1 is the best. A firing order
+        that no longer fits the throws is removed.
 
         Raises:
             IndexError: there are fewer arrangements.
-            TypeError: The rank is no whole number.
+            TypeError: The rank is not a whole number.
         """
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
         if not 1 <= rank <= len(self.results):
@@ -125,21 +125,21 @@ def search_arrangements(
     even_firing: bool = False,
     tell: Tell = tell_nobody,
 ) -> Search:
-    """Return the best arrangements, mirror images and rotations once.
+    """Return the best arrangements; equivalent mirror images and rotations appear once.
 
     Args:
-        over: throws (permutes those of the file, or those that its firing order needs) or
-            firing_order (all even ones; cranks follow where the file gives no throws); or one or
-            several of bank_angle (of a vee), splay, and numbers of the file with their ranges,
-            `mount.left.loss=0.05:0.3`.
+        over: `throws` (permutes the throw angles of the file, or those that its firing order
+            needs); or `firing_order` (tries all even ones, with the cranks that follow if the file
+            gives no throws); or one or several of `bank_angle` (of a vee), `splay`, and numbers of
+            the file with ranges, such as `mount.left.loss=0.05:0.3`.
         count: Largest number of arrangements.
         even_firing: Whether only arrangements that can fire evenly are considered.
-        tell: Called with the share that is done; a search over throws or firing orders stops if it
-            returns True.
+        tell: Called with the share of the work done so far; if it returns True, a search over
+            throws or firing orders stops.
 
     Raises:
-        BalcliError: the engine has nothing to arrange, no arrangement keeps the limits, or a
-            moment is asked for and the file does not say where the throws stand.
+        BalcliError: the engine has nothing to arrange, no arrangement satisfies the limits, or a
+            moment is requested and the file does not give the positions of the throws.
     """
     wanted = [over] if isinstance(over, str) else list(over)
     refuse_unknown(model, build(model), objective.quantities)
@@ -173,11 +173,12 @@ def search_arrangements(
 
 # ------------------------------------------------------------------ numbers
 def read_ranges(model: EngineFile, over: Sequence[str]) -> dict[str, Parameter]:
-    """Return the numbers that are searched over, with the ends of their ranges, by the keys that
-    the user wrote; none for throws and firing orders.
+    """Return the searched numbers with the ends of their ranges, by the keys that the user wrote;
+    empty for throws and firing orders.
 
     Raises:
-        BalcliError: an unknown name or a wrong range, keys that cannot be combined, a number twice.
+        BalcliError: a name is unknown or a range wrong, keys cannot be combined, or a number is
+            given twice.
     """
     arranged = [text for text in over if text in ARRANGED]
     if arranged and len(over) == 1:
@@ -220,7 +221,7 @@ def _read_range(model: EngineFile, text: str) -> Parameter:
 
 
 def _check_angle(model: EngineFile, key: str) -> None:
-    """Raise BalcliError if the engine has no such angle, or its crank follows from it."""
+    """Raise BalcliError if the engine has no such angle, or if its crank depends on the angle."""
     name = key.replace("_", " ")
     one_bank = plan_cylinders(model).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
@@ -242,7 +243,7 @@ def _search_numbers(
     tell: Tell,
 ) -> tuple[Iterator[Found], bool, str]:
     """Return the local optima over some numbers, best first; whether the numbers have no effect;
-    and values without an engine, and why.
+    and a message on values that make no engine.
 
     Raises:
         InputError: no values make an engine.
@@ -255,7 +256,7 @@ def _search_numbers(
     box = Box(low, high, np.array(turns))
     alone = not objective.is_sum_over_cylinders
     effort = _choose_effort(box, objective, alone)
-    if even_firing:  # candidates fire evenly to 1e-9 deg, a round angle may do so exactly
+    if even_firing:  # candidates fire evenly to 1e-9 deg; a rounded angle may do so exactly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
     paths = [number.path for number in numbers]
@@ -277,7 +278,7 @@ def _search_numbers(
 
 
 def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
-    """Return the effort of the search: less where candidates are computed one by one."""
+    """Return the effort of the search, which is smaller if candidates are computed one by one."""
     if alone:
         if box.size == 1:
             return Effort(_SLOW, 3, 1e-10, steps=5)
@@ -299,30 +300,31 @@ def search(
     top: int = 10,
     even_firing: bool = False,
 ) -> Search:
-    """The best crank, firing order, bank angle, splay or values of any numbers of an engine;
-    mirror images and rotations once.
+    """Find the best crank, firing order, bank angle, splay or values of any numbers of an engine.
+    Equivalent mirror images and rotations appear once.
 
     Args:
-        engine: as `load` makes it.
-        over: what to arrange: the throw angles of the file along the crank ("throws"), its
-            "firing_order", its "bank_angle" or the "splay" of its split pins; or any number of
-            the file and its range ("mount.left.loss=0.05:0.3"). A list of angles and numbers is
+        engine: Engine, from `load`.
+        over: What to vary: the sequence of the file's throw angles along the crank ("throws"), its
+            "firing_order", its "bank_angle" or the "splay" of its split pins; or a number of the
+            file with a range ("mount.left.loss=0.05:0.3"). Angles and numbers in a list are
             searched together.
-        minimise: Quantity that should be small (`moment.1.major`); several quantities, which are
-            added up; or a dict of weights by quantity.
-        maximise: Quantities that should be large, in the same form; exactly one of both is given.
-        limits: Upper limits by quantity, N or N m.
+        minimise: Quantity to minimize (`moment.1.major`), several quantities, which are added up,
+            or a dict of weights by quantity.
+        maximise: Quantities to maximize, in the same form; exactly one of the two arguments is
+            given.
+        limits: Upper limits by quantity, in SI units.
         top: Largest number of results, at most 1000.
         even_firing: Whether only arrangements with even firing intervals are considered.
 
     Returns:
-        The arrangements, best first: `result.results[0].design`, `.objective` and `.quantities`;
-        `result.engine(1)` is the engine with the first.
+        The arrangements, best first: `result.results[0]` has `design`, `objective` and
+        `quantities`; `result.engine(1)` is the engine with the best one.
 
     Raises:
-        BalcliError: There is nothing to arrange, no arrangement keeps the limits, or quantities are
-            unknown.
-        TypeError: an argument of another type.
+        BalcliError: There is nothing to arrange, no arrangement satisfies the limits, or a quantity
+            is unknown.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> search(engine, "throws", "moment.1.major").to_pandas()
@@ -344,7 +346,7 @@ def search(
 
 
 def _join_goal(goal: Words | Mapping[str, float] | None) -> str | None:
-    """Return quantities with their weights as the command line has them; None as it is."""
+    """Return quantities with weights as one text, as on the command line; None for None."""
     if isinstance(goal, Mapping):
         return ",".join(f"{name}={weight}" for name, weight in goal.items())
     return join_names("search", goal)

@@ -1,4 +1,4 @@
-"""The command `search`, and how its result is shown."""
+"""The command `balcli search`: its options, and its tables and CSV."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ if TYPE_CHECKING:
     from .answer import Search
 
 
-_EQUAL = 1e-9  # relative difference of objectives that are equal
+_EQUAL = 1e-9  # relative difference of equal objectives
 
 
 def columns(result: Search) -> Columns:
-    """Return an arrangement a row: angles as numbers, throws and firing orders with hyphens."""
+    """Return one row for each arrangement; throws and firing orders are texts with hyphens."""
     first = result.results[0]
     found: dict[str, Column] = {}
     for key, value in first.design.items():
@@ -47,14 +47,14 @@ def columns(result: Search) -> Columns:
 
 
 def rows(result: Search, _system: System) -> Rows:
-    """Return CSV: an arrangement a line, figures in SI units."""
+    """Return CSV with one arrangement in each line, in SI units."""
     found = columns(result).values
     return Rows([*found], [*zip(*found.values(), strict=True)])
 
 
 def sheet(result: Search, _system: System) -> Sheet:
-    """Return the best arrangements, a row each, with each figure in the unit that fits it. One
-    quantity alone is its own objective.
+    """Return a table of the best arrangements, with each figure in a fitting unit. The objective
+    has no column if it is a single quantity.
     """
     design, found = result.results[0].design, columns(result)
     heads: list[str] = []
@@ -79,7 +79,7 @@ def sheet(result: Search, _system: System) -> Sheet:
 
 
 def _title(result: Search) -> str:
-    """Return the title of the rows: the best, or all equally good."""
+    """Return the title of the table, which tells whether the rows are equally good."""
     costs = [one.objective for one in result.results]
     equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
     word = "No best" if result.constant else "Equally good" if equal else "Best"
@@ -87,7 +87,7 @@ def _title(result: Search) -> str:
 
 
 def _in_words(over: str) -> str:
-    """Return a key in words: `bank_angle` is a bank angle; dotted names stay as they are."""
+    """Return a key in words: "bank angle" for `bank_angle`; dotted names are unchanged."""
     return over if "." in over else over.replace("_", " ")
 
 
@@ -95,7 +95,7 @@ def _notes(result: Search) -> Iterator[str]:
     ends = [
         f"{_in_words(key)} {number.values[0]:g} to {number.values[1]:g} deg"
         for key, number in result.ranges.items()
-        if "." not in key  # whose range nobody gave
+        if "." not in key  # the user gave no range
     ]
     if ends:
         yield f"Searched: {', '.join(ends)}."
@@ -116,12 +116,12 @@ def _notes(result: Search) -> Iterator[str]:
 
 
 def _setting(value: float | list[float]) -> str:
-    """Return a number, or several with hyphens between them."""
+    """Return a number, or several numbers separated by hyphens, as text."""
     return "-".join(f"{v:.6g}" for v in value) if isinstance(value, list) else f"{value:.9g}"
 
 
 def _exactly(value: float | list[float]) -> str:
-    """The setting of one key in full precision."""
+    """Return the value of one key as text in full precision."""
     numbers = value if isinstance(value, list) else [value]
     return "-".join(repr(number).removesuffix(".0") for number in numbers)
 
@@ -130,8 +130,8 @@ RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
 OVER = (
-    "What is arranged: the throws of the file (or of its firing order), its firing order, the "
-    "angle of the vee or of its split pins, or any number in a range, as mount.left.loss=0.05:0.3. "
+    "What to vary: the throws of the file (or of its firing order), its firing order, the "
+    "angle of the vee or of its split pins, or a number in a range: mount.left.loss=0.05:0.3. "
     "Several numbers and angles are searched together."
 )
 MINIMISE = (
@@ -143,8 +143,8 @@ LIMIT = (
     "'shaft.flywheel.stress<60 N/mm^2'."
 )
 MAXIMISE = "Maximize this sum instead."
-REQUIRE = "Only arrangements with even firing intervals."
-WRITE = "Write the engine file with the best one."
+REQUIRE = "Allow only arrangements with even firing intervals."
+WRITE = "Write the engine file with the best result."
 goal = partial(optional, "WHAT[=WEIGHT],...")
 
 
@@ -157,13 +157,13 @@ def search(
     maximise: Annotated[str | None, goal(MAXIMISE, "--maximise", "--maximize")] = None,
     limit: Annotated[list[str] | None, optional("WHAT<VALUE", LIMIT)] = None,
     require: Annotated[str, optional("even-firing", REQUIRE)] = "",
-    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="How many to show.")] = 10,
+    top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="Number of results.")] = 10,
     form: FormatOption = None,
     output: Output = None,
     write: Annotated[Path | None, optional("OUT.toml", WRITE)] = None,
 ) -> None:
-    """The best crank, firing order, bank angle or splay, or values of any numbers; mirror images
-    and rotations once.
+    """Find the best crank, firing order, bank angle or splay, or values of any numbers. Mirror
+    images and rotations of an arrangement are listed once.
 
     \b
     Example:

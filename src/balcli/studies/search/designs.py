@@ -1,7 +1,8 @@
-"""Arrangements that a search finds, engine files with them, and the objective: a weighted sum of
-quantities to minimise or maximise, and limits.
+"""Arrangements (designs) of a search, engine files with a design, and the objective: a weighted sum
+of quantities to minimise or maximise, and limits.
 
-Candidates of a search: their figures, all together where they are sums, and their costs.
+The module also computes quantities and costs of candidates. If the quantities are sums over the
+cylinders, candidates are computed as arrays, otherwise one by one.
 """
 
 from __future__ import annotations
@@ -39,8 +40,8 @@ from ...process import Tell
 from ..parameters import tell_variant
 from ..quantities import AnyQuantity, Evaluator, parse_quantities
 
-# One arrangement: what differs from the file, by key: a key of PATHS, or the dotted name of a
-# number. Throws (deg) and firing orders are lists.
+# A design: the values that differ from the file, by a key of PATHS or the dotted name of a number.
+# Throws (deg) and firing orders are lists.
 Design: TypeAlias = Mapping[str, Any]
 PATHS = {
     "throws": "crank.throws",
@@ -61,7 +62,8 @@ class Found:
             name of a number.
         objective: Value of the objective.
         quantities: Value of each quantity by its name.
-        line: Another design of a line of equally good ones; itself or None without such a line.
+        line: Another design on a line of equally good ones; without such a line, the design itself
+            or None.
     """
 
     design: Annotated[Design, INLINE]
@@ -71,14 +73,14 @@ class Found:
 
 
 def list_changes(design: Design) -> dict[str, object]:
-    """Return a design by dotted keys, as `Engine.vary` takes them."""
+    """Return a design by dotted keys, as arguments for `Engine.vary`."""
     changed = {PATHS.get(key, key): value for key, value in design.items()}
     return changed | ({"layout.firing_intervals": None} if "firing_order" in design else {})
 
 
 def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Found]:
-    """Yield the arrangements without those that are an earlier one seen from the other end of the
-    crank, or turning the other way, with the same objective.
+    """Yield the arrangements, except mirror images of earlier ones: the same crank seen from the
+    other end or turning the other way, with the same objective.
     """
     cells = plan_cylinders(model).cells
     numbers = {(cell.bank, cell.throw): cell.number for cell in cells}
@@ -107,10 +109,10 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
     """
     if (order := design.get("firing_order")) is not None:
         for row in (order, [other_end.get(number, number) for number in order]):
-            start = row.index(1)
+            start = row.index(min(row))
             turned = row[start:] + row[:start]
             yield tuple(turned)
-            yield (1, *reversed(turned[1:]))
+            yield (turned[0], *reversed(turned[1:]))
     elif (throws := design.get("throws")) is not None:
         for angles in (throws, throws[::-1] if other_end else throws):
             for sign in (1, -1):
@@ -119,13 +121,13 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
 
 
 def write_design(text: bytes, design: Design, name: str = "") -> str:
-    """Return the text of an engine file, comments included, with a design; a firing order that no
-    longer fits is left out.
+    """Return the text of an engine file, with its comments, with a design. A firing order that no
+    longer fits is removed.
 
     Args:
         text: Text of the file.
         design: Throws, a firing order or angles.
-        name: Name of the file; files that it names are in the same folder.
+        name: Path of the file; files that it names are in the same folder.
 
     Raises:
         BalcliError: The engine needs the firing order, or the design has other numbers.
@@ -151,13 +153,13 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     return new
 
 
-BROKEN = 1e200  # above all costs of candidates that keep the limits
+BROKEN = 1e200  # above all costs of candidates that satisfy the limits
 _SIGNED = ("torque.mean", "torque.min")
 
 
 @dataclass(frozen=True)
 class Objective:
-    """Weights by quantity, upper limits by quantity (SI), and whether the sum is maximised."""
+    """Weights and upper limits (SI) by quantity, and whether the sum is maximised."""
 
     weights: Mapping[AnyQuantity, float]
     limits: Mapping[AnyQuantity, float]
@@ -165,22 +167,24 @@ class Objective:
 
     @property
     def quantities(self) -> tuple[AnyQuantity, ...]:
-        """All quantities of the sum and of the limits, each once."""
+        """All quantities of the sum and of the limits, without repetition."""
         return tuple(dict.fromkeys((*self.weights, *self.limits)))
 
     @property
     def is_sum_over_cylinders(self) -> bool:
-        """Whether all quantities are orders of inertia forces, which throws contribute to."""
+        """Whether all quantities are orders of inertia forces or moments, to which throws
+        contribute.
+        """
         return all(isinstance(q, Quantity) and q.kind not in GAS_KINDS for q in self.quantities)
 
     def add_up(self, value: Callable[[AnyQuantity], Figure]) -> Figure:
-        """Return the weighted sum; `value` gives each quantity."""
+        """Return the weighted sum; `value` returns the value of a quantity."""
         return sum(weight * value(q) for q, weight in self.weights.items())
 
     def judge(self, values: Mapping[AnyQuantity, Array]) -> Array:
-        """Return the costs of candidates by their quantities, shape (candidates,) each: the sum,
-        its negative where it is maximised, or BROKEN times the largest ratio of a quantity to its
-        limit where one is not kept.
+        """Return the costs of candidates, shape (candidates,), from their quantities, each of this
+        shape. The cost is the sum, or minus the sum if it is maximised. If a limit is broken, it is
+        BROKEN times the largest ratio of a quantity to its limit.
         """
         total = np.asarray(self.add_up(values.__getitem__), float)
         excess = np.zeros_like(total)
@@ -197,17 +201,18 @@ def parse_objective(
     maximise: str | None = None,
     with_gas: bool = False,
 ) -> Objective:
-    """Read `moment.1.major=1,force.2.major=0.5` and limits such as `moment.2.major<100` (N, N m).
+    """Return the objective in texts: a sum such as `moment.1.major=1,force.2.major=0.5`, and limits
+    such as `moment.2.major<100`.
 
     Args:
-        minimise: Weighted sum that should be small.
+        minimise: Weighted sum to minimize.
         limits: Upper limits of quantities.
-        maximise: Weighted sum that should be large; exactly one of both is given.
+        maximise: Weighted sum to maximize; exactly one of the two sums is given.
         with_gas: Whether the engine has gas.
 
     Raises:
-        BalcliError: An unknown quantity, a wrong weight or limit, or quantities in several units
-            of which one has no weight.
+        BalcliError: A quantity is unknown, a weight or limit wrong, or quantities have different
+            units and one of them has no weight.
     """
     if (minimise is None) == (maximise is None):
         raise BalcliError("give exactly one of --minimise and --maximise")
@@ -235,7 +240,7 @@ def parse_objective(
 
 
 def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> None:
-    """Raise BalcliError if quantities that are to be added up have different units."""
+    """Raise BalcliError if quantities to be added have different units."""
     units = {q.name: q.unit or "1" for q in quantities}
     first, *others = dict.fromkeys(units.values())
     if others:
@@ -247,7 +252,7 @@ def _refuse_several_units(quantities: Iterable[AnyQuantity], option: str) -> Non
 
 
 def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
-    """Return quantities that cannot be negative."""
+    """Return the quantities of these names; raise BalcliError if one can be negative."""
     found = parse_quantities(name, with_gas=with_gas)
     for q in found:
         if isinstance(q, Quantity) and (q.signed or q.part == "axis"):
@@ -261,11 +266,11 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
 
 
 def _parse_positive(text: str, whole: str, unit: str = "") -> float:
-    """Return a positive number, in this unit where it has none.
+    """Return the positive number in a text, converted to `unit`, which a bare number is in.
 
     Args:
         text: Number, or a figure with a unit such as `60 N/mm^2`.
-        whole: Text that it stands in, for messages.
+        whole: Text that contains it, for messages.
         unit: Unit of the result.
     """
     number = math.nan
@@ -278,13 +283,13 @@ def _parse_positive(text: str, whole: str, unit: str = "") -> float:
     return number
 
 
-AT_ONCE = 256  # candidates that are built as one engine
-_EVEN_DEG = 1e-9  # firings that are less uneven are even
+AT_ONCE = 256  # candidates built as one engine
+_EVEN_DEG = 1e-9  # less uneven firings count as even
 
 
 @dataclass
 class NumbersJudge:
-    """Costs of values of some numbers of an engine file.
+    """Function that computes the costs of values of some numbers of an engine file.
 
     Attributes:
         model: Engine file.
@@ -292,8 +297,8 @@ class NumbersJudge:
         objective: Objective of the search.
         even_firing: Whether the cylinders have to fire evenly.
         tell: Called with the number of candidates so far.
-        refused: Error of the first candidate that makes no engine, with its numbers as `file`;
-            None if all do.
+        refused: Error of the first candidate that makes no engine, with its numbers as `file`; None
+            if there is no such candidate.
     """
 
     model: EngineFile
@@ -314,7 +319,9 @@ class NumbersJudge:
         return Evaluator(self.model, self.objective.quantities)
 
     def __call__(self, points: Array) -> Array:
-        """Return the costs of points, shape (points, numbers); infinite where no engine is."""
+        """Return the costs of points, shape (points, numbers); infinite for points that make no
+        engine.
+        """
         size = 1 if self.alone else AT_ONCE
         parts = [self._judge(points[k : k + size]) for k in range(0, len(points), size)]
         return np.concatenate([np.empty(0), *parts])
@@ -338,10 +345,10 @@ class NumbersJudge:
         return costs
 
     def evaluate(self, points: Array) -> dict[AnyQuantity, Array]:
-        """Return each quantity, shape (points,).
+        """Return the values of each quantity, shape (points,).
 
         Raises:
-            InputError: One of the points makes no engine.
+            InputError: A point makes no engine.
         """
         columns = dict(zip(self.paths, points.T, strict=True))
         values = self._evaluator.evaluate(columns, (len(points),))
@@ -349,9 +356,11 @@ class NumbersJudge:
 
 
 def find_unevenness(engine: Engine, model: EngineFile) -> Array:
-    """Return the largest deviation of top dead centres from even intervals, deg, (candidates,)."""
+    """Return the largest deviation of top dead centres from even intervals, deg, shape
+    (candidates,).
+    """
     c = engine.cylinders
-    # of plain slider-cranks, as `Pins.tops_deg`; articulated pins are set for their lead
+    # shift of top dead centre of plain slider-cranks; see `Pins.tops_deg` for articulated rods
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
     own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 is a dummy
     firing = [row for row, n in enumerate(engine.numbers) if n not in own or own[n].gas != 0]
@@ -369,19 +378,23 @@ def fires_evenly(engine: Engine, model: EngineFile) -> NDArray[np.bool_]:
 
 
 def drop_firing_order(model: EngineFile) -> EngineFile:
-    """Return the file without its firing order and with some throws, so that any can be tried."""
+    """Return the file without firing order and with explicit throws, so that any throws can be
+    tried.
+    """
     throws = model.crank.throws or (0.0,) * plan_cylinders(model).throws
     model = model.with_table("crank", throws=throws)
     return model.with_table("layout", firing_order=None, firing_intervals=None)
 
 
 def name_throws(throws: Array) -> dict[str, Array]:
-    """Return throws, shape (candidates, throws), deg, as figures of the file."""
+    """Return throws (deg, shape (candidates, throws)) as figures of the file by dotted name."""
     return {f"crank.throws.{n}": column for n, column in enumerate(throws.T, 1)}
 
 
 def rank_throws(model: EngineFile, throws: Array, objective: Objective) -> Iterator[Found]:
-    """Yield throws that keep the limits, best first, by the figures of the whole engine."""
+    """Yield the throws that satisfy the limits, best first, with the quantities of the whole
+    engine.
+    """
     if not len(throws):
         return
     found = Evaluator(model, objective.quantities).evaluate(name_throws(throws), throws.shape[:1])
@@ -395,13 +408,13 @@ def rank_designs(
     objective: Objective,
     lines: Sequence[Design] = (),
 ) -> Iterator[Found]:
-    """Yield the designs that keep the limits, best first, with their figures.
+    """Yield the designs that satisfy the limits, best first, with their quantities.
 
     Args:
         designs: Arrangements.
-        values: Each quantity, shape (designs,).
+        values: Values of each quantity, shape (designs,).
         objective: Objective of the search.
-        lines: For each design `Found.line`.
+        lines: `Found.line` of each design.
     """
     costs = objective.judge(values)
     for k in np.argsort(ranked(costs), kind="stable"):
@@ -414,16 +427,16 @@ def rank_designs(
 def rank_one_by_one(
     model: EngineFile, designs: Iterable[Design], objective: Objective, tell: Tell
 ) -> Iterator[Found]:
-    """Return the designs that keep the limits, best first, each computed by itself.
+    """Return the designs that satisfy the limits, best first, computed one by one.
 
     Args:
         model: Engine file.
         designs: Arrangements.
         objective: Objective of the search.
-        tell: Called with the share that is done; returns whether to stop.
+        tell: Called with the share of the work done so far; it returns whether to stop.
 
     Raises:
-        BalcliError: More than MOST_DESIGNS_ONE_BY_ONE.
+        BalcliError: There are more than MOST_DESIGNS_ONE_BY_ONE designs.
     """
     every = list(islice(designs, MOST_DESIGNS_ONE_BY_ONE + 1))
     refuse_many(len(every))

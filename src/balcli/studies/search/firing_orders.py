@@ -1,9 +1,9 @@
-"""Even firing orders: the cranks that allow one, and all that a crank allows.
+"""Find the cranks that allow an even firing order, and all even firing orders of a crank.
 
-Cylinders whose crank pins stand alike, seen from their own axes, reach top dead centre together and
-share the slots of the cycle in which this happens. A crank allows an even firing order if there are
-as many slots as cylinders of each kind, and then any cylinder of its kind may take a slot: neither
-cranks nor orders have to be tried in vain.
+An even firing order has a slot for each firing, at equal angles. Cylinders that reach top dead
+centre at the same crank position form a group and can only fire in the slots at this position. A
+crank allows an even firing order if every group has as many slots as cylinders; the cylinders of a
+group may then fire in any sequence. Hence all results are constructed without trial and error.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Slots:
     """The firings of one cycle; BalcliError for too many cylinders to look for their orders.
 
     Attributes:
-        cells: the cylinders.
+        cells: the cylinders that fire.
         top: angle of each cylinder's pin at its top dead centre, less its lead over its throw, deg,
         by number.
         cycle: length of a cycle, deg.
@@ -52,14 +52,19 @@ class Slots:
                 f"{MOST_CYLINDERS_FIRED} cylinders are searched"
             )
 
+    @property
+    def first(self) -> int:
+        """Cylinder with which firing orders begin: the lowest, 1 unless that is a dummy."""
+        return min(cell.number for cell in self.cells)
+
     def find_cranks(self) -> list[tuple[float, ...]]:
-        """Return the angles of all throws, for every crank that allows an even firing order;
-        cylinder 1's throw is at 0.
+        """Return the throw angles of every crank that allows an even firing order; cylinder 1's
+        throw is at 0.
 
         Raises:
-            BalcliError: more than MOST_EVEN_CRANKS.
+            BalcliError: there are more than MOST_EVEN_CRANKS cranks.
         """
-        first = next(c.throw for c in self.cells if c.number == 1)
+        first = next(c.throw for c in self.cells if c.number == self.first)
         throws = [first, *({c.throw for c in self.cells} - {first})]
         every = self._place_throws({}, throws, Counter(self._slots))
         found = list(islice(every, MOST_EVEN_CRANKS + 1))
@@ -73,14 +78,14 @@ class Slots:
     def _place_throws(
         self, throws: dict[int, float], free: Sequence[int], left: Counter[int]
     ) -> Iterator[tuple[float, ...]]:
-        """Yield all cranks with some throws at these angles, the free ones at every angle with
-        slots left for all their cylinders.
+        """Yield all cranks in which some throws have these angles. Each free throw takes every
+        angle with enough unused slots (`left`) for all its cylinders.
         """
         if not free:
             yield tuple(throws[t] for t in sorted(throws))
             return
         cells = [c for c in self.cells if c.throw == free[0]]
-        lead = self.top[cells[0].number] - self.top[1]
+        lead = self.top[cells[0].number] - self.top[self.first]
         turns = [self.sense * 180.0 * slot / len(self.cells) for slot in sorted(left)]
         angles = [(lead - turn) % 360.0 for turn in turns]
         for angle in angles if throws else [0.0]:
@@ -89,10 +94,10 @@ class Slots:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
-        """Yield all even firing orders of a crank that begin with cylinder 1: cylinders that are
+        """Yield all even firing orders of a crank that begin with `first`: cylinders that are
         ready together take their slots in any sequence.
         """
-        start = throws[next(c.throw for c in self.cells if c.number == 1)]
+        start = throws[next(c.throw for c in self.cells if c.number == self.first)]
         ready: dict[int, list[int]] = {slot: [] for slot in self._slots}
         for cell in self.cells:
             ready.setdefault(self._find_slot(cell, throws[cell.throw] - start), []).append(
@@ -102,21 +107,23 @@ class Slots:
             for chosen in product(*map(permutations, ready.values())):
                 turns = dict(zip(ready, map(iter, chosen), strict=True))
                 order = tuple(next(turns[slot]) for slot in self._slots)
-                if order[0] == 1:
+                if order[0] == self.first:
                     yield order
 
     @cached_property
     def _slots(self) -> list[int]:
-        """Position of the crank at each firing, after cylinder 1's: half turns divided by the
-        number of cylinders, modulo a turn; whole numbers, so that they can be compared.
+        """Crank position at each firing, relative to cylinder 1's, modulo a turn. It is a whole
+        multiple of half a turn over the number of cylinders, so that positions can be compared.
         """
         half_turns = round(self.cycle / 180.0)
         return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
     def _find_slot(self, cell: Cell, throw: float) -> int:
-        """Return the position of the crank with this cylinder at the top; -1 without a firing."""
+        """Return the crank position at which a cylinder is at top dead centre; -1 if there is no
+        firing.
+        """
         grain = 180.0 / len(self.cells)
-        ready = self.sense * (self.top[cell.number] - self.top[1] - throw)
+        ready = self.sense * (self.top[cell.number] - self.top[self.first] - throw)
         nearest = round(ready / grain)
         slot = nearest % (2 * len(self.cells))
         fires = abs(ready - nearest * grain) <= TOLERANCE_DEG and slot in self._slots
@@ -124,11 +131,11 @@ class Slots:
 
 
 def find_slots(model: EngineFile) -> tuple[Slots, Array]:
-    """Return the firings of a cycle, and the cranks with even firing orders, shape (cranks,
-    throws), deg, cylinder 1's throw at 0.
+    """Return the firings of a cycle, and the throw angles (deg, shape (cranks, throws)) of the
+    cranks with even firing orders; cylinder 1's throw is at 0.
 
     Raises:
-        BalcliError: cylinders with throws of their own; there is no even firing order.
+        BalcliError: a cylinder has its own throw angle, or there is no even firing order.
     """
     layout = plan_cylinders(model)
     top_deg = assemble(model).pins.tops_deg
@@ -142,7 +149,9 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
         for cell in layout.cells
     }
     sense = -1 if model.layout.rotary else 1
-    slots = Slots(layout.cells, at_throw, cycle_deg(model.layout), sense)
+    order = model.layout.firing_order or layout.numbers  # without dummies
+    firing = tuple(cell for cell in layout.cells if cell.number in order)
+    slots = Slots(firing, at_throw, cycle_deg(model.layout), sense)
     possible = [model.crank.throws] if model.crank.throws else slots.find_cranks()
     if not possible or next(slots.find_orders(possible[0]), None) is None:
         raise BalcliError(_tell_that_none_is_even(model))
@@ -151,7 +160,9 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
 
 
 def _tell_that_none_is_even(model: EngineFile) -> str:
-    """Return the error, with a splay that would make the file's own order even, if any."""
+    """Return the message, with a splay that would make the file's firing order even, if there is
+    one.
+    """
     told = "crank.throws allow no even firing order, and only even ones are searched"
     splay = find_fitting_splay(model.with_table("layout", firing_intervals=None))
     return told if splay is None else f"{told}; with split pins they do: crank.splay = {splay:g}"

@@ -1,10 +1,11 @@
 """Local optima of a function of one or several numbers in a box.
 
-Candidates are spread over the box: a grid of one number, a quasi-random sequence of several. From
-each candidate that is better than its neighbours a local search starts. It compares candidates and
-uses no derivatives, because sizes of vectors have kinks where they vanish, limits have edges, and
-some numbers make no engine: halved steps for one number, the evolution strategy with covariance
-adaptation (Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772) for several.
+Candidates are spread over the box: on a grid for one number, in a quasi-random sequence for
+several. A local search starts from each candidate that is better than its neighbours. For one
+number it halves its steps; for several it is the evolution strategy with covariance adaptation
+(Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772). It only compares candidates and
+uses no derivatives, because magnitudes of vectors have kinks where they vanish, limits have edges,
+and some numbers make no engine.
 """
 
 from __future__ import annotations
@@ -21,15 +22,15 @@ from ...core.phasors import Array
 from ...engine.figures import ranked
 from .designs import BROKEN
 
-Judge = Callable[[Array], Array]  # the costs of points, shape (points, numbers)
-_DIGITS = 12  # of numbers
-_LEVEL, _ROUNDING = 1e-9, 1e-12  # relative difference of costs that are equal; of the largest
+Judge = Callable[[Array], Array]  # returns costs of points (points, numbers)
+_DIGITS = 12  # largest number of decimals of rounded numbers
+_LEVEL, _ROUNDING = 1e-9, 1e-12  # differences of equal costs: relative; share of the largest
 
 
 @dataclass(frozen=True)
 class Box:
-    """The ranges of some numbers, shape (numbers,) each; a number of a ring comes back to `low`
-    beyond `high`.
+    """Ranges of some numbers, shape (numbers,) each. `ring` marks periodic numbers, which continue
+    at `low` beyond `high`.
     """
 
     low: Array
@@ -38,7 +39,7 @@ class Box:
 
     @property
     def size(self) -> int:
-        """Number of numbers."""
+        """How many numbers the box has."""
         return len(self.low)
 
     @property
@@ -47,17 +48,19 @@ class Box:
         return np.where(self.high > self.low, self.high - self.low, 1.0)
 
     def bring_inside(self, points: Array) -> Array:
-        """Return points (..., numbers) in the box: the nearest, or modulo the span of a ring."""
+        """Return points (..., numbers) moved into the box: to its nearest point, or by whole
+        periods.
+        """
         turned = self.high - np.remainder(self.high - points, self.span)
         return np.where(self.ring, turned, np.clip(points, self.low, self.high))
 
     def subtract(self, points: Array, others: Array) -> Array:
-        """Return points - others as shares of the spans, the short way around a ring."""
+        """Return points - others as shares of the spans; periodic numbers take the shorter way."""
         share = (points - others) / self.span
         return np.where(self.ring, share - np.round(share), share)
 
     def spread(self, count: int) -> Array:
-        """Return points spread over the box: a grid, or the R sequence of several numbers."""
+        """Return points spread over the box: a grid for one number, the R sequence for several."""
         if self.size == 1:
             grid = np.linspace(self.low, self.high, count + 1 if self.high > self.low else 1)
             return grid[1:] if self.ring[0] else grid
@@ -76,8 +79,8 @@ class Effort:
         points: Number of points spread over the box.
         starts: Largest number of local searches.
         exact: Accuracy of an optimum, as a share of the box.
-        as_good: Relative difference of costs that a rounder number may make.
-        same: Distance, as a share of the box, below which two optima are one.
+        as_good: Relative increase of the cost that is allowed for a rounder number.
+        same: Distance, as a share of the box, below which two optima are the same.
         steps: Number of points examined between two optima.
     """
 
@@ -89,7 +92,7 @@ class Effort:
     steps: int = 31
 
     def count_evaluations(self, numbers: int) -> int:
-        """Return about how many candidates are evaluated."""
+        """Return the approximate number of evaluated candidates."""
         halvings = -math.log2(self.exact)
         return round(self.points + self.starts * halvings * (2 if numbers == 1 else 30 * numbers))
 
@@ -98,11 +101,11 @@ class LocalOptima(NamedTuple):
     """Result of a search.
 
     Attributes:
-        places: local optima that keep all limits, best first, shape (optima, numbers); each is the
-            roundest point that is as good.
-        lines: for each, another end of a line of equally good points, or itself, shape (optima,
-            numbers).
-        costs: costs of the points that were spread over the box.
+        places: Local optima that satisfy all limits, best first, shape (optima, numbers), rounded
+            as far as the costs allow.
+        lines: For each optimum, another end of a line of equally good points, or the optimum
+            itself, shape (optima, numbers).
+        costs: Costs of the points that were spread over the box.
     """
 
     places: Array
@@ -111,11 +114,11 @@ class LocalOptima(NamedTuple):
 
 
 def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
-    """Return every local optimum in a box that is found from `effort.starts` starts, once."""
+    """Return the distinct local optima that at most `effort.starts` searches find in a box."""
     points = box.spread(effort.points)
     costs = judge(points)
     starts = points[_find_starts(points, costs, box)[: effort.starts]]
-    step = effort.points ** (-1 / box.size)  # between neighbours, as a share of the box
+    step = effort.points ** (-1 / box.size)  # distance of neighbours, as a share of the box
     if box.size == 1:
         found = _descend(judge, box, starts, step * box.span, effort.exact * box.span)
     else:
@@ -134,11 +137,11 @@ def find_local_optima(judge: Judge, box: Box, effort: Effort) -> LocalOptima:
 def _separate(
     judge: Judge, box: Box, found: list[Array], effort: Effort, noise: float
 ) -> tuple[Array, Array]:
-    """Return the optima from which none of the others can be reached without going uphill; and the
-    ends of lines of equally good points, as of `LocalOptima`.
+    """Return the optima that are separated from all better ones by higher costs, and the ends of
+    lines of equally good points (`LocalOptima.lines`).
 
-    A search that stops on a line, such as one on which limits are kept, reaches a better point of
-    the line without going uphill.
+    If a search stopped on a line, such as the edge of a limit, a better point of the line can be
+    reached without higher costs.
     """
     best: list[Array] = []
     lines: list[Array] = []
@@ -164,7 +167,7 @@ def _separate(
 
 
 def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> Array:
-    """Return the best point on the line through a point in a direction (shares of the box)."""
+    """Return the best point on the line through a point; the direction is in shares of the box."""
     farthest = 1 / np.abs(way).max(keepdims=True)
     line = Box(-farthest, farthest, np.array([False]))
 
@@ -177,8 +180,8 @@ def _slide(judge: Judge, box: Box, point: Array, way: Array, effort: Effort) -> 
 
 
 def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
-    """Return the indices of the points that are better than their neighbours, best first; of equal
-    ones the first.
+    """Return the indices of the points that are better than their neighbours, best first. Among
+    equal ones, the first counts as better.
     """
     order = np.argsort(ranked(costs), kind="stable")
     place = np.argsort(order)
@@ -193,8 +196,8 @@ def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
 
 
 def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
-    """Return the minima near some starts, shape (starts, 1), all at once: each moves to a neighbour
-    that is better, at a distance `step`, or halves the distance where neither is.
+    """Return the minima near some starts, shape (starts, 1), all at once. Each point moves to a
+    better neighbour at the distance `step`, or halves this distance if neither is better.
     """
     steps, reached = np.broadcast_to(step, best.shape).copy(), judge(best)
     while np.any(steps > exact):
@@ -211,9 +214,10 @@ def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> 
 
 
 def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> Array:
-    """Return an optimum for each start (starts, numbers) by evolution strategies that run side by
-    side: each draws candidates, moves to the mean of the better half, and adapts its step and its
-    covariance. Lengths are shares of the box. Starts that do not converge return their best.
+    """Return an optimum for each start (starts, numbers) by evolution strategies that run in
+    parallel. Each draws candidates, moves to the mean of the best ones, and adapts its step and
+    covariance. Lengths are shares of the box. If a strategy does not converge, its best point is
+    returned.
     """
     count, k = mean.shape
     drawn, most = 8 + 4 * k, 300 + 100 * k
@@ -251,12 +255,12 @@ def _adapt(judge: Judge, box: Box, mean: Array, step: float, effort: Effort) -> 
 
 
 def _round_off(judge: Judge, box: Box, point: Array, enough: float) -> Array:
-    """Return a point with each number as round as it can be without a cost above `enough`."""
+    """Return a point with each number rounded as far as its cost stays at or below `enough`."""
     for n, span in enumerate(box.span):
         coarsest = -math.floor(math.log10(span))
         x = float(point[n])
         rounded = [round(x, coarsest + more) + 0.0 for more in range(_DIGITS)]
-        turns = 360.0 * float(Fraction(x / 360.0).limit_denominator(1000))  # 360/7 is round, too
+        turns = 360.0 * float(Fraction(x / 360.0).limit_denominator(1000))  # 360/7 counts as round
         near = [y for y in [*rounded[:7], turns, *rounded[7:]] if box.low[n] <= y <= box.high[n]]
         tried = np.tile(point, (len(near), 1))
         tried[:, n] = near

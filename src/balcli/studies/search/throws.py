@@ -1,8 +1,8 @@
-"""Search over the throws of a crank: the sequence of its angles along the crank.
+"""Search for the best sequence of the throw angles along a crank.
 
-Forces and moments are sums over the throws, tabulated by throw and angle. Branch and bound drops
-the first throws of a crank when no sequence of the others can make their sum better than the best
-known ones.
+Forces and moments are sums of contributions, which are tabulated by throw and angle. Branch and
+bound fixes the angles of the first throws and drops such a branch if no sequence of the remaining
+angles can be better than the best known cranks.
 """
 
 from __future__ import annotations
@@ -42,23 +42,23 @@ from .designs import (
     refuse_many,
 )
 
-Left: TypeAlias = tuple[int, ...]  # how often each angle is still to be given
+Left: TypeAlias = tuple[int, ...]  # how often each angle remains to be assigned
 Allowed = Callable[[Array], NDArray[np.bool_]]
-IMAGES = 8  # candidates kept for each that is asked for, as many are mirror images
-BLOCK = 7  # throws of which all arrangements are tried at a time (7! = 5040)
-_DECIMALS = 9  # of angles that are equal, deg
-_NEAR = 1e-11  # deg, from a short decimal
-ROUNDING = 1e-12  # sums below this share of the size of their parts are 0
+IMAGES = 8  # candidates kept for each requested result: many are mirror images
+BLOCK = 7  # throws whose arrangements are all tried at once (7! = 5040)
+_DECIMALS = 9  # decimals (deg) to which equal angles agree
+_NEAR = 1e-11  # deg; distance from a short decimal that is rounding
+ROUNDING = 1e-12  # sums below this share of their parts' magnitudes are 0
 
 
 def search_throws(
     model: EngineFile, objective: Objective, wanted: int, even_firing: bool, tell: Tell
 ) -> Iterator[Found]:
-    """Return at least `wanted` arrangements of the throws of a file, best first, if there are so
-    many.
+    """Return at least `wanted` arrangements of the throws of a file, best first, or all if there
+    are fewer.
 
     Raises:
-        BalcliError: There is nothing to arrange, or a peak is asked for.
+        BalcliError: There is nothing to arrange, or a peak is requested.
     """
     model = drop_firing_order(give_throws(model))
 
@@ -81,12 +81,12 @@ def search_throws(
 
 
 def list_throws(model: EngineFile) -> Array:
-    """Return all arrangements of the throw angles of a file, shape (arrangements, throws), deg, the
-    first throw at 0, each once.
+    """Return all different arrangements of the throw angles of a file, deg, shape (arrangements,
+    throws); the first throw is at 0.
 
     Raises:
-        BalcliError: Gas in four strokes, which fires by an order of its own; too many arrangements
-            to compute one by one.
+        BalcliError: A four-stroke engine with gas depends on the firing order as well, or there are
+            too many arrangements to compute one by one.
     """
     if model.gas is not None and model.layout.strokes == 4:
         raise BalcliError(
@@ -102,10 +102,10 @@ def list_throws(model: EngineFile) -> Array:
 
 
 def give_throws(model: EngineFile) -> EngineFile:
-    """Return the file with the throws that its firing order needs, where it gives none.
+    """Return the file with explicit throws, which follow from its firing order if it gives none.
 
     Raises:
-        BalcliError: The crank has one throw, or cylinders have throws of their own.
+        BalcliError: The crank has one throw, or a cylinder has its own throw angle.
     """
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
@@ -124,8 +124,8 @@ def give_throws(model: EngineFile) -> EngineFile:
 
 
 def count_from(first: Array, throws: Array) -> Array:
-    """Return the angles of throws after others, deg in [0, 360), as short decimals or fractions of
-    a turn where rounding alone makes them longer.
+    """Return the angles of throws relative to `first`, deg, in [0, 360). Rounding errors are
+    removed from short decimals and fractions of a turn.
     """
     angles = np.mod(throws - first, TURN)
     different, which = np.unique(angles, return_inverse=True)
@@ -141,13 +141,13 @@ def _neaten(angle: float) -> float:
 
 # ------------------------------------------------------------------ contributions of throws
 class Contributions(NamedTuple):
-    """Forward and backward vectors of the kinds and orders of some quantities.
+    """Forward and backward vectors of the throws, for the kinds and orders of some quantities.
 
     Attributes:
         rows: Row of the kind and order of each quantity.
         throws: Vectors of every throw at every angle, shape (rows, 2, throws, angles).
         devices: Vectors of the devices, shape (rows, 2).
-        reach: The most by which a throw can change a vector, shape (rows, throws).
+        reach: Largest change of a vector by a throw, shape (rows, throws).
     """
 
     rows: Mapping[AnyQuantity, int]
@@ -156,9 +156,7 @@ class Contributions(NamedTuple):
     reach: Array
 
     def read(self, quantity: Quantity, sums: Complex) -> Array:
-        """Return a quantity by the sums over all throws and the devices, shape (rows, 2,
-        candidates).
-        """
+        """Return a quantity from sums over all throws and devices, shape (rows, 2, candidates)."""
         k = self.rows[quantity]
         noise = np.full((1, 1), ROUNDING * self.reach[k].sum())
         order = np.array([float(quantity.order)])
@@ -168,8 +166,8 @@ class Contributions(NamedTuple):
 def tabulate_contributions(
     model: EngineFile, angles: Array, fixed: int, quantities: tuple[Quantity, ...]
 ) -> Contributions:
-    """Return the contributions to the quantities, with throw `fixed` (cylinder 1's) at 0 and the
-    others at any of `angles` (deg).
+    """Return the contributions to the quantities. The throw `fixed` (cylinder 1's) is at 0; the
+    others may be at any of `angles` (deg).
     """
     throw_of = {c.number: c.throw for c in plan_cylinders(model).cells}
     count = 1 + max(throw_of.values())
@@ -192,11 +190,11 @@ def tabulate_contributions(
 
 # ------------------------------------------------------------------ sequences of angles
 class AngleSet(NamedTuple):
-    """Angles of the throws, counted from cylinder 1's.
+    """Angles of the throws relative to cylinder 1's throw.
 
     Attributes:
         levels: Different angles, deg, ascending from 0.
-        left: How often each is still to be given, cylinder 1's throw having the first.
+        left: How often each level remains to be assigned; cylinder 1's throw has the first level.
     """
 
     levels: Array
@@ -204,10 +202,10 @@ class AngleSet(NamedTuple):
 
 
 def _find_sets(model: EngineFile) -> list[AngleSet]:
-    """Return the angles of a file's throws as counted from each that can be cylinder 1's, once.
+    """Return the different angle sets of a file's throws; any throw may become cylinder 1's.
 
     Raises:
-        BalcliError: More than MOST_ARRANGEMENTS.
+        BalcliError: There are more than MOST_ARRANGEMENTS.
     """
     given = np.mod(np.asarray(model.crank.throws, float), TURN)
     if _count_sequences(np.unique(given, return_counts=True)[1]) > MOST_ARRANGEMENTS:
@@ -224,19 +222,21 @@ def _find_sets(model: EngineFile) -> list[AngleSet]:
 
 
 def _find_first_throw(model: EngineFile) -> int:
-    """Return the throw of cylinder 1."""
+    """Return the index of cylinder 1's throw."""
     return next(cell.throw for cell in plan_cylinders(model).cells if cell.number == 1)
 
 
 def _count_sequences(left: Iterable[int]) -> int:
-    """Return the number of sequences of angles, each of which remains so often."""
+    """Return the number of sequences in which each angle occurs as often as `left` says."""
     times = [*left]
     return math.factorial(sum(times)) // math.prod(map(math.factorial, times))
 
 
 @lru_cache(maxsize=4096)
 def _list_sequences(left: Left) -> NDArray[np.int8]:
-    """Return all sequences of angles, each of which remains so often, (sequences, length)."""
+    """Return all sequences in which each angle occurs as often as `left` says, shape (sequences,
+    length).
+    """
     if not sum(left):
         return np.empty((1, 0), np.int8)
     parts = [
@@ -246,7 +246,7 @@ def _list_sequences(left: Left) -> NDArray[np.int8]:
 
 
 def _take_one(left: Left) -> Iterator[tuple[int, Left]]:
-    """Yield every remaining angle, and the counts that remain without it."""
+    """Yield every remaining angle, and the counts after it is assigned once."""
     for level, times in enumerate(left):
         if times:
             yield level, (*left[:level], times - 1, *left[level + 1 :])
@@ -260,19 +260,20 @@ def find_best_throws(
     allowed: Allowed | None = None,
     tell: Tell = tell_nobody,
 ) -> Array:
-    """Return the best arrangements of the file's throw angles, shape (at most count, throws),
-    cylinder 1's throw at 0, best first, deg.
+    """Return the best arrangements of the file's throw angles, best first, deg, shape (at most
+    count, throws); cylinder 1's throw is at 0.
 
     Args:
         model: Engine file with throws.
-        objective: Sums over the cylinders.
-        count: Most arrangements to return.
-        allowed: Function that tells which arrangements (candidates, throws) are allowed; None: all.
-        tell: Called with the share of all arrangements that has been decided; returns whether to
-            stop with the best of those.
+        objective: Objective with quantities that are sums over the cylinders.
+        count: Largest number of arrangements.
+        allowed: Function that returns which arrangements (candidates, throws) are allowed; None:
+            all.
+        tell: Called with the share of all arrangements that are decided; it returns whether to stop
+            with the best of them.
 
     Raises:
-        BalcliError: More than MOST_ARRANGEMENTS.
+        BalcliError: There are more than MOST_ARRANGEMENTS.
     """
     sets, search = _find_sets(model), _BranchAndBound(model, objective, count, allowed)
     total, done = sum(_count_sequences(each.left) for each in sets), 0
@@ -285,8 +286,8 @@ def find_best_throws(
 
 
 class _BranchAndBound:
-    """Search for the best arrangements; the throws of a branch are given in their order, without
-    cylinder 1's, which is fixed.
+    """Search for the best arrangements. A branch assigns angles to the first throws; cylinder 1's
+    throw is fixed and not counted.
 
     Attributes:
         best: Angles of all throws of the best so far, deg, shape (at most count, throws).
@@ -303,7 +304,9 @@ class _BranchAndBound:
         self.best, self._costs, self._worst = np.empty((0, throws)), np.empty(0), BROKEN
 
     def grow(self, angles: AngleSet) -> Iterator[int]:
-        """Try all arrangements of some angles, and yield how many more have been decided."""
+        """Try all arrangements of an angle set, and yield how many more are decided after each
+        step.
+        """
         self._levels = angles.levels
         self._table = tabulate_contributions(
             self._model, angles.levels, self._fixed, self._quantities
@@ -326,7 +329,9 @@ class _BranchAndBound:
             yield _count_sequences(left)
 
     def _find_bound(self, to_come: list[int], sums: Complex) -> float:
-        """Return the least possible cost: remaining throws may cancel or add their whole size."""
+        """Return a lower bound of the cost: remaining throws may add or cancel their whole
+        magnitude.
+        """
         reach = self._table.reach[:, to_come].sum(axis=1)[:, None]
         sizes = np.abs(sums)
         least, most = np.maximum(sizes - reach, 0.0), sizes + reach
@@ -338,8 +343,8 @@ class _BranchAndBound:
         return float(objective.add_up(at_least))
 
     def _read_bound(self, sizes: Array, at_most: bool, q: AnyQuantity) -> float:
-        """Return the least or largest value of a quantity by the sizes of both vectors of each key,
-        shape (keys, 2).
+        """Return the smallest or largest value of a quantity from bounds of the magnitudes of both
+        vectors, shape (keys, 2).
         """
         ahead, astern = sizes[self._table.rows[q]].tolist()
         both = ahead + astern
@@ -347,7 +352,7 @@ class _BranchAndBound:
         return float(known.get(q.part, both if at_most else 0.0))
 
     def _try(self, prefix: tuple[int, ...], left: Left, sums: Complex) -> None:
-        """Keep the best of all cranks with this beginning and the remaining angles."""
+        """Try all cranks with this beginning and the remaining angles, and keep the best."""
         ends = _list_sequences(left)
         whole = np.repeat(sums[..., None], len(ends), axis=2)
         for throw, levels in zip(self._free[len(prefix) :], ends.T, strict=True):
@@ -363,7 +368,7 @@ class _BranchAndBound:
             may = self._allowed(angles)
             angles, costs = angles[may], costs[may]
         costs = np.concatenate([self._costs, costs])
-        order = np.argsort(costs, kind="stable")[: self._count]  # of equal ones the first stay
+        order = np.argsort(costs, kind="stable")[: self._count]  # the first of equal ones stay
         self.best, self._costs = np.concatenate([self.best, angles])[order], costs[order]
         if len(order) == self._count:
             self._worst = float(self._costs[-1])
