@@ -78,6 +78,7 @@ MOST_TOLERANCE_SAMPLES = 2_000_000  # of random variants as arrays, all of which
 MOST_SINGLE_SAMPLES = 20_000  # of random variants computed one by one: 2 to 100 ms each
 MOST_FOUND = 1000  # designs that a search lists
 MOST_ARRANGEMENTS = 10**10  # of given throws: branch and bound tries few of these
+MOST_GAS_POINTS = 200  # speeds with a gas of their own: each is a diagram or a cycle
 MOST_DESIGNS_ONE_BY_ONE = 2000  # in a search by gas, mounts or torsion: each takes 10 to 50 ms
 MOST_EVEN_CRANKS = 200_000  # with an even firing order: all are tried
 MOST_CYLINDERS_FIRED = 64  # of an engine whose firing order is sought

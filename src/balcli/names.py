@@ -30,7 +30,7 @@ _ROOMS = {
     "report.plot": "plot",
     "show.result": "Result",
     "sizing.options": "SchemeOptions",
-    "sizing.workshop": "Tools",
+    "sizing.workshop": "Shapes Tools",
     "studies.scatter": "Scatter scatter",
     "studies.search.answer": "Search search",
     "studies.sweep": "Swept sweep",
@@ -103,6 +103,8 @@ CHAPTER_LISTS = {
 QUANTITIES = {
     "guide": "forces.guide",
     "cycle": "torque.quantity",
+    "piston": "analysis.piston",
+    "journals": "analysis.crank_drive",
     "mounts": "mounts.quantity",
     "torsion": "torsion.quantity",
 }

@@ -1,10 +1,11 @@
 """Compare recorded results of engines with what balcli computes now.
 
-A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the main
-figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`. Two
-records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of the
-largest figure of their group. An order's axis, phase, peak angle and "balanced" follow from its
-vectors; only the vectors are compared.
+A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the
+main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
+Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
+the largest figure of their group. Axes, phases and peak angles of an order, and whether it is
+balanced, follow from its vectors, which are compared; they are not compared again. The angle of a
+peak over all orders may move to another one that is equally high.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from .engine.engine import Engine
 from .errors import BalcliError
 from .file.model import EngineFile
 from .forces.kinds import GAS, GAS_KINDS, KINDS
-from .forces.spectrum import Spectra
+from .forces.spectrum import Spectra, compute_spectra, find_relevant_orders
 from .limits import LARGEST_FILE_BYTES
 from .mounts.answer import analyze_mounts
 from .torque.answer import analyze_torque
@@ -36,7 +37,7 @@ PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its 
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
-_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced", "force_deg", "moment_deg")
+_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
 _BROKEN = (
     OSError,
     ValueError,
@@ -254,10 +255,22 @@ def find_differences(
         numbers = [value for value in old.values() if isinstance(value, (int, float))]
         if not all(map(math.isfinite, numbers)):
             raise BalcliError("a figure is not finite")
-        return list(_compare(old, new, _find_roundings(spectra), tolerance))
+        found = _compare(old, new, _find_roundings(spectra), tolerance)
+        return [one for one in found if not _is_equal_peak(engine, one, tolerance)]
     except _BROKEN as error:
         broken = f"the result recorded in {where} cannot be read ({_describe_error(error)})"
         return [Difference.of_record(f"{broken}; check --update records it anew")]
+
+
+def _is_equal_peak(engine: Engine, moved: Difference, tolerance: float) -> bool:
+    """Return whether a difference is that of the angles of two peaks that are equally high."""
+    kind = {"peak force_deg": "force", "peak moment_deg": "moment"}.get(moved.figure)
+    degrees = moved.recorded, moved.now
+    if kind is None or None in degrees:  # no angle: a peak of 0, whose value is compared
+        return kind is not None
+    curve = compute_spectra(engine, find_relevant_orders(engine), [kind])[kind]
+    then, now = np.abs(curve.values(np.radians(np.array(degrees, float)))).tolist()
+    return bool(then >= now * (1 - tolerance))
 
 
 def _describe_error(error: Exception) -> str:

@@ -179,7 +179,7 @@ def test_an_unknown_quantity():
         analyze(example("i4"), only=["force", "weight", "noise"])
     assert str(caught.value) == (
         "there is no quantity noise, weight: choose from force, moment, couple, torque, roll, "
-        "peak, sizing, ladder, gas, inner, guide, journals, masses"
+        "peak, sizing, ladder, gas, inner, guide, journals, masses, parts, pru"
     )
     with pytest.raises(BalcliError, match='there is no quantity "": choose'):
         analyze(example("i4"), only=["force", ""])

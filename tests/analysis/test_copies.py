@@ -19,8 +19,12 @@ FIRED = (ENGINES / "i3.toml").read_text(encoding="utf-8") + "[gas]\ncycle = 'ott
 
 
 def fit(scheme: str):
-    options = SchemeOptions(step=1) if scheme == "step" else None
-    return balance(build_text(engine_text(operation="speed = 3000")), scheme, options)
+    wanted = {
+        "step": SchemeOptions(step=1),
+        "compensator": SchemeOptions(position=3.0),
+        "ellipse": SchemeOptions(direction=90.0, ratio=0.5),
+    }
+    return balance(build_text(engine_text(operation="speed = 3000")), scheme, wanted.get(scheme))
 
 
 RESULTS = {

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from support.commands import ask, ask_json, refusal, run_here
+from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.engines import GOOD, build_text, changed
 from support.paths import ENGINES
 
@@ -128,3 +128,32 @@ def test_uneven_speed_does_not_count_and_nothing_is_largest_without_torque():
     assert "rpm, the file's uneven one does not count" in ask("analyze", "-", "--only", "journals", stdin=uneven)
     still = changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0"))
     assert "The range is largest" not in run_here("analyze", "-", "--only", "journals", stdin=still).out
+
+
+def test_a_misfire_counts_and_leaves_the_stress_known():
+    journals = ask_json("analyze", ENGINES / "i4_wiebe.toml", "--only", "journals", "--misfire", "2")["journals"]
+    whole = ask_json("analyze", ENGINES / "i4_wiebe.toml", "--only", "journals")["journals"]
+    assert journals[2]["total"] == whole[2]["total"]  # in front of the throw of cylinder 2
+    assert journals[4]["total"]["mean_Nm"] == pytest.approx(whole[2]["total"]["mean_Nm"])
+    assert all("stress" in journal for journal in journals)
+
+
+@pytest.mark.parametrize(("name", "split"), [("v6_90_split", True), ("v6_90_common", False)])
+def test_split_pins_have_a_note(name, split):
+    assert ("Split pins" in ask("analyze", ENGINES / f"{name}.toml", "--only", "journals")) == split
+
+
+@pytest.mark.parametrize("name", ["i4", "i4_wiebe"])
+def test_quantities_are_those_of_the_table(name):
+    path, names = ENGINES / f"{name}.toml", ("journal.3.range", "journal.3.max", "journal.1.min", "pin.2.range")
+    (row,) = ask_csv("sweep", path, "--vary", "operation.speed=4000", "-q", ",".join(names))
+    journals = {
+        one["place"]: one for one in ask_json("analyze", path, "--speed", "4000", "--only", "journals")["journals"]
+    }
+    for name_ in names:
+        kind, number, part = name_.split(".")
+        one = journals[f"{kind.replace('journal', 'main')} {number}"]
+        torque = one.get("total") or one["inertia"]
+        assert float(row[name_]) == pytest.approx(torque[f"{part}_Nm"], rel=1e-12)
+    told = refusal("sweep", path, "--vary", "operation.speed=4000", "-q", "journal.6.max")
+    assert told.endswith('journal.6.max: the file has no journal "6"; there are 1, 2, 3, 4, 5')

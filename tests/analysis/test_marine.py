@@ -8,6 +8,7 @@ import pytest
 from support.engines import build_text
 from support.paths import write
 
+from balcli.analysis.crank_drive import relate_to_power
 from balcli.analysis.speeds import find_marine_sheet
 
 RADIUS, ROD, MASS, SPACING = 0.9, 2.4, 3000.0, 0.8
@@ -117,3 +118,54 @@ def test_a_misfire_takes_the_gas_of_a_cylinder_from_the_sheet(balcli):
     assert found != balcli("analyze", MARINE, *sheet).out
     told = balcli("analyze", MARINE, "--format", "marine", "--misfire", "3").out
     assert "\nno gas in  3\n" in told
+
+
+# ------------------------------------------------------------------ power related unbalance
+def sampled_moment(rpm: float, order: int) -> float:
+    """Largest moment of an order about the crank's middle, N m, from the motion of four pistons."""
+    turn = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+    theta = turn + np.radians(THROWS)[:, None]
+    travel = RADIUS * np.cos(theta) + ROD * np.sqrt(1 - (RADIUS / ROD * np.sin(theta)) ** 2)
+    waves = np.fft.fftfreq(SAMPLES, 1 / SAMPLES)
+    acceleration = (rpm * np.pi / 30) ** 2 * np.fft.ifft(-(waves**2) * np.fft.fft(travel)).real
+    turning = 500 * RADIUS * (rpm * np.pi / 30) ** 2 * np.exp(1j * theta)
+    moment = 1j * (Z[:, None] * (turning - MASS * acceleration)).sum(axis=0)
+    phasors = np.fft.fft(moment) / SAMPLES
+    return abs(phasors[order]) + abs(phasors[-order])
+
+
+@pytest.mark.parametrize("speed", [(), ("--speed", "80")])
+def test_the_power_related_unbalance_is_the_moment_at_the_rated_speed_over_the_power(balcli, speed):
+    text = TEXT.replace("speed = 100", "speed = 100\npower = 4000")
+    said = json.loads(balcli("analyze", "-", "--only", "pru", "-f", "json", *speed, stdin=text).out)
+    found = said["power_related_unbalance"]
+    assert (found["power_W"], found["power_kind"]) == (4e6, "file")
+    wanted = [sampled_moment(100, order) / 4000 for order in (1, 2)]
+    assert [each["Nm_per_kW"] for each in found["orders"]] == pytest.approx(wanted, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("limit", "below", "above"),
+    [(60, "not relevant", "unlikely"), (120, "unlikely", "likely"), (220, "likely", "most likely")],
+)
+def test_classes_of_need_change_at_their_limits(limit, below, above):
+    power = sampled_moment(100, 1) / limit
+    for share, need in ((1.001, below), (0.999, above)):
+        engine = build_text(TEXT.replace("speed = 100", f"speed = 100\npower = {share * power}"))
+        assert relate_to_power(engine).orders[0].need == need
+
+
+@pytest.mark.parametrize(
+    ("keys", "kind"), [("imep = 16", "indicated"), ("bmep = 14\nmechanical_efficiency = 0.9", "brake")]
+)
+def test_without_a_power_that_of_the_gas_counts(keys, kind):
+    gas = f'[gas]\ncycle = "diesel"\ncompression_ratio = 12\n{keys}\n'
+    engine = build_text(TEXT.replace("mass = 3000.0", "mass = 3000.0\nbore = 500") + gas)
+    found = relate_to_power(engine)
+    mean = 16e5 if kind == "indicated" else 14e5
+    volume = 4 * np.pi / 4 * 0.25 * 2 * RADIUS
+    assert (found.power_W, found.power_kind) == (pytest.approx(mean * volume * 100 / 60, rel=1e-9), kind)
+
+
+def test_power_is_needed(balcli):
+    assert balcli("analyze", "-", "--only", "pru", stdin=TEXT).err == "balcli: pru needs operation.power, or [gas]\n"

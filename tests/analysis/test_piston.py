@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.commands import ask, ask_csv, refusal
 from support.engines import GOOD, RADIAL, build_text, changed
+from support.paths import ENGINES
 
 from balcli import BalcliError, analyze_pistons, load_example
 from balcli.analysis.piston import TYPE_LIMIT, choose_cylinder
@@ -104,6 +105,27 @@ def test_the_command_in_all_formats(tmp_path):
     stroke = next(row for row in rows if row["figure"] == "stroke_m")
     assert (stroke["cylinders"], stroke["unit"]) == ("1 2 3 4", "m")
     assert next(row for row in rows if row["figure"] == "mean_speed_m_per_s")["unit"] == "m/s"
-    assert "cylinder 7" in refusal("piston", tmp_path / "four.toml", "--cylinder", "7")
+    assert refusal("piston", tmp_path / "four.toml", "--cylinder", "7").endswith("has cylinders 1 to 4")
+    several = refusal("piston", tmp_path / "four.toml", "--speed", "1000,2000")
+    assert several == '--speed "1000,2000": give one speed here, such as --speed 3000'
     with pytest.raises(BalcliError):
         choose_cylinder(analyze_pistons(build_text(GOOD)), 9)
+
+
+def test_quantities_are_those_of_the_command(tmp_path):
+    """With an offset the two senses differ, and so do the pistons of two banks."""
+    names = [f"piston.{stem}{part}" for stem in ("", "2.") for part in ("mean_speed", "max_speed", "stroke")]
+    rows = ask_csv("sweep", ENGINES / "vr6.toml", "--vary", "rod.length=150,164", "-q", ",".join(names))
+    for row in rows:
+        found = analyze_pistons(load_example("vr6").vary({"rod.length": float(row["rod.length"])})).mechanisms
+        for stem, one in zip(("piston", "piston.2"), found, strict=True):
+            fastest = max(one.velocity.max_m_per_s, -one.velocity.min_m_per_s)
+            read = [float(row[f"{stem}.{part}"]) for part in ("mean_speed", "max_speed", "stroke")]
+            assert read == pytest.approx([one.mean_speed_m_per_s, fastest, one.stroke_m], rel=1e-12)
+    told = refusal("sweep", ENGINES / "vr6.toml", "--vary", "rod.length=150", "-q", "piston.7.stroke")
+    assert told.endswith('piston.7.stroke: the file has no piston "7"; there are 1, 2, 3, 4, 5, 6')
+
+
+def test_the_heading_has_the_true_stroke_of_an_offset_piston():
+    assert "81 × 90.3 mm (true stroke 90.59 mm)" in " ".join(ask("analyze", ENGINES / "vr6.toml").split())
+    assert "true stroke" not in ask("analyze", ENGINES / "i4.toml")

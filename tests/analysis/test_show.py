@@ -7,14 +7,16 @@ import json
 import re
 from io import StringIO
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from support.cases import cases
+from support.commands import run_here
 from support.engines import GOOD, RADIAL, build_text, inline_engine
 from support.paths import ENGINES
 
 from balcli.analysis import show as analysis
-from balcli.analysis.answer import UNASKED, analyze
+from balcli.analysis.answer import EXTRAS, QUANTITIES, UNASKED, analyze
 from balcli.core.records import to_document
 from balcli.shell.options import parse_parts
 from balcli.show.formats import Format, render
@@ -83,6 +85,18 @@ def test_inner_and_guide_as_rows():
     assert not [key for key in rows(inline_engine([0]), only=["guide"], orders=[1]) if key[1] == "guide_x"]
 
 
+def test_couples_of_single_cylinders():
+    """They are shown where they are named; opposite throws make opposite couples of odd orders."""
+    asked = ("analyze", ENGINES / "twin180.toml", "--orders", "1,3", "--by", "cylinder")
+    found = [line.split() for line in run_here(*asked, "--only", "couple").out.splitlines()]
+    first, third = ([line[1:] for line in found if line[:1] == [order]][-2:] for order in ("1", "3"))
+    assert first[0][2] == "90.0"  # H omega^2 D_1 sin theta
+    for (size, _, at), (other_size, _, other_at) in (first, third):
+        assert size == other_size
+        assert abs(float(at) - float(other_at)) == 180
+    assert "about the crank" not in run_here(*asked).out
+
+
 def test_strokes_and_reasons_as_rows():
     subject = build_text(RADIAL)
     found = rows(subject, "imperial", only=["force"], orders=[1], reasons=True)
@@ -94,6 +108,12 @@ def test_strokes_and_reasons_as_rows():
     (reason,) = document(subject, only=["force"], orders=[1], reasons=True)["why"]["reasons"]
     assert found["0", "force", "1", "why"] == (reason["verdict"], "")
     assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
+
+
+@pytest.mark.parametrize(("view", "there"), [(View(parts=frozenset(["masses"])), False), (View(whole=True), True)])
+def test_strokes_are_shown_with_all_tables_alone(view, there):
+    found = analysis.sheet(analyze(build_text(RADIAL), only=[*UNASKED, "masses"]), SYSTEMS["si"], view).parts
+    assert ("Strokes and dead centres" in [part.title for part in found]) == there
 
 
 WIDE = [0, 72, 144, 216, 288]
@@ -153,7 +173,7 @@ def test_orders_without_a_part_of_roll_do_not_make_it_balanced(balcli):
     four = ENGINES / "i4.toml"
     odd = balcli("analyze", four, "--orders", "3,7").out
     assert re.search(r"roll moment +balanced in the orders shown\n", odd)
-    assert "Verdict\nForce and moment of orders 3 and 7 are balanced.\n" in odd
+    assert "Verdict\nOrders 3 and 7: force, moment and couple balanced.\n" in odd
     high = balcli("analyze", four, "--orders", "10").out
     assert re.search(r"roll moment +negligible \(0\.0026 N·m\) in the orders shown\n", high)
     assert "order 2: 1355, 4: 65.75" in balcli("analyze", four, "--orders", "2-4").out
@@ -176,3 +196,52 @@ def test_orders_that_are_asked_for_are_shown_balanced_or_not(balcli, more):
     table = balcli("analyze", ENGINES / "i5.toml", *given).out.partition("Free moment in")[2]
     assert re.findall(r"^(\d) +", table, re.MULTILINE) == list("123456")
     assert "Free moment by order" not in table
+
+
+OPEN = """
+crank.stroke = 80
+rod.length = 140
+rod.mass = 0.5
+rod.cg = 45
+piston.bore = 80
+piston.mass = 0.4
+"""
+UNEVEN = "operation.speed_ripple = [{ order = 2, amplitude = 0.05 }]\n"
+WITH_GAS = 'gas.cycle = "otto"\ngas.compression_ratio = 10\ngas.imep = 9\n'
+LEFT_OUT = [
+    "crank.spacing = 100",
+    "layout.stagger = 20",
+    "crank.throw_mass = 0.8",
+    "crank.inertia = 9e4",
+    "rod.inertia = 1900",
+    "piston.offset = 2",
+    "layout.strokes = 2",
+    "gas.compression_index = 1.4",
+]
+
+
+@pytest.mark.parametrize("word", [*QUANTITIES, *EXTRAS, "gas", "xy", "textbook"])
+@pytest.mark.parametrize(
+    "more",
+    [
+        "crank.throws = [0, 120]\nlayout.bank_angle = 90\n",
+        "crank.spacing = 100\nlayout.firing_order = [1, 2, 3]\n" + WITH_GAS,
+        "crank.throws = [0]\nlayout.banks = [-5, 5]\nframe.reference = [9, 9, 9]\n" + UNEVEN,
+        "crank.spacing = 100\nlayout.banks = [-5, 5]\nlayout.firing_order = [1, 2]\n" + UNEVEN + WITH_GAS,
+    ],
+)
+def test_a_table_names_the_defaults_that_would_change_it(word: str, more: str) -> None:
+    quantities, words = parse_parts(word)
+
+    def ask(line: str = "") -> tuple[list[Any], str]:
+        found = analyze(build_text(OPEN + more + line), only=quantities)
+        parts = analysis.sheet(found, SYSTEMS["si"], View(parts=words)).parts
+        return [part for part in parts if "assumed" not in str(part)], " ".join(found.assumed or ())
+
+    if (word in ("gas", "pru") and "gas" not in more) or (word == "inner" and "spacing" not in more):
+        pytest.skip("the command refuses it")
+    before, listed = ask()
+    every = " ".join(build_text(OPEN + more).list_assumed("gas") or ())
+    keys = {line: line.partition(" ")[0] for line in LEFT_OUT}
+    unnamed = (line for line, key in keys.items() if key in every and key not in listed)
+    assert [line for line in unnamed if ask(line)[0] != before] == []

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from support.cases import cases
 
-from balcli.analysis.overview import verdict
+from balcli import analyze, curves, load
+from balcli.analysis.overview import tell_couple, verdict
+from balcli.core.cylinders import Device, DeviceKind
 from balcli.core.phasors import Phasors
 from balcli.forces.spectrum import Spectra
 from balcli.show.units import SI
@@ -39,6 +41,27 @@ def test_ordinals(order: int, name: str) -> None:
     assert told.startswith(f"{name} order: force of 10 N along x; usually left: ")
 
 
+DEVICES = [
+    Device(1, 1 + 0j, 0j, 0j, 0.0, DeviceKind.COUNTERWEIGHT),
+    Device(1, 0j, 1 + 0j, 0j, 0.0, DeviceKind.SHAFT),
+    Device(2, 1 + 0j, 0j, 0j, 0.0, DeviceKind.SHAFT),
+]
+
+
+@pytest.mark.parametrize(
+    ("order", "text"),
+    [
+        (1, "further counterweights cancel 50 N of it, a further shaft at -1 the other 50 N."),
+        (2, "further shafts at +2 and -2 cancel it."),
+    ],
+)
+def test_a_device_like_one_of_the_file_is_a_further_one(order: int, text: str) -> None:
+    half = np.array([50 + 0j])
+    force = Phasors.of(np.array([float(order)]), half, half, np.zeros(1))
+    (told,) = verdict(Spectra(np.array([float(order)]), force=force), SI, devices=DEVICES)
+    assert told.endswith(text)
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_a_sentence_has_at_most_25_words(seed):
     """Whatever turns, wherever it points, with or without `up`."""
@@ -51,7 +74,7 @@ def test_a_sentence_has_at_most_25_words(seed):
 
     up = None if seed % 2 else float(random.integers(-180, 180))
     found = Spectra(orders, up, force=phasors(), moment=phasors())
-    told = verdict(found, SI, Scales(1000.0, 2000.0, 100.0))
+    told = verdict(found, SI, Scales(1000.0, 2000.0, 100.0), devices=DEVICES[: seed % 4])
     assert max(len(sentence.split()) for sentence in told) <= 25
 
 
@@ -65,8 +88,37 @@ def test_small_is_what_is_asked_for():
     )
 
 
-def test_a_couple_is_named_only_beside_a_balanced_moment():
-    """Whether the force was asked for or not."""
-    orders, half = np.array([1.0]), np.array([50 + 0j])
-    moment, couple = (Phasors.of(orders, half, half, np.zeros(1)) for _ in range(2))
-    assert "couple" not in verdict(Spectra(orders, moment=moment, couple=couple), SI)[0]
+@pytest.mark.parametrize(("couple", "told"), [(0, "force, moment and couple"), (1, "force and moment")])
+def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) -> None:
+    orders = np.array([1.0])
+    none, some = (Phasors.of(orders, *np.full((2, 1), each, complex), np.zeros(1)) for each in (0, couple))
+    assert verdict(Spectra(orders, force=none, moment=none, couple=some), SI) == (f"Order 1: {told} balanced.",)
+
+
+HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
+NO_H = "; rods with H = 0 have none."
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({}, None),
+        ({"rod.inertia": 9000}, f"the rods{NO_H}"),
+        ({"piston.offset": 10}, "offset pistons."),
+        ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
+        ({"frame.reference": [0, 80, 0]}, "forces that pass the reference at a distance."),
+        ({"operation.speed_ripple": [{"order": 2, "amplitude": 0.05}]}, "the acceleration of turning parts."),
+    ],
+)
+def test_the_causes_of_the_couple_are_named(changes: dict, told: str | None) -> None:
+    """Its size is the largest harmonic of the sampled couple."""
+    tables: dict = {}
+    for path, value in {**HEAVY, "operation.speed": 2000, **changes}.items():
+        table, key = path.split(".")
+        tables.setdefault(table, {})[key] = value
+    engine = load(tables)
+    found = tell_couple(analyze(engine), SI)
+    couple = np.abs(np.fft.rfft(curves(engine).curves["couple_Nm"][:360])) / 180
+    order = int(couple[1:].argmax()) + 1
+    text = f"Transverse couple: up to {couple[order]:.4g} N·m (order {order}), from {told}"
+    assert found == ("" if told is None else text)

@@ -55,6 +55,17 @@ angle = 15
 mass = 2
 radius = 30
 position = 11
+inertia = 500
+[[counterweight]]
+sector = { inner_radius = 20, outer_radius = 70, opening = 130, thickness = 18 }
+[[counterweight]]
+unbalance = 9000
+sector = { inner_radius = 20, outer_radius = 70, opening = 130 }
+[[shaft]]
+ratio = -1
+unbalance = 50
+at = [5, 6]
+inertia = 150
 [[slider]]
 order = 2
 unbalance = 800
@@ -94,6 +105,8 @@ IDLE = {  # nothing moves by them: one bank, one throw, articulated rods
     ("fired", "layout.stagger"),
     ("knuckles", "crank.spacing"),
     ("rotary", "crank.spacing"),
+    ("vee", "counterweight.3.sector.density"),  # its thickness follows
+    *((name, "operation.power") for name in FILES),  # for the power related unbalance
 }
 
 

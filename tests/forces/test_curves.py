@@ -7,7 +7,7 @@ import pytest
 from support.engines import build_text
 from support.paths import ENGINES
 
-from balcli.analysis.curves import compute_cylinder_curves, compute_engine_curves
+from balcli.analysis.curves import compute_cylinder_curves, compute_engine_curves, compute_order_curves
 from balcli.core.records import write_each
 from balcli.engine.build import build
 from balcli.engine.parse import parse
@@ -47,21 +47,6 @@ def engine(name):
     return build(parse(text, name))
 
 
-def summed(subject, crank_deg):
-    found = compute_spectra(subject, find_relevant_orders(subject))
-    theta = np.radians(crank_deg)
-    force, moment = found.force.values(theta), found.moment.values(theta)
-    return {
-        "force_x_N": force.real,
-        "force_y_N": force.imag,
-        "moment_x_Nm": moment.real,
-        "moment_y_Nm": moment.imag,
-        "couple_Nm": found.couple.values(theta).real,
-        "inertia_torque_Nm": found.torque.values(theta).real,
-        "roll_Nm": found.roll.values(theta).real,
-    }
-
-
 def scale(subject):
     """Size of what is added up: force of one cylinder times their number; times a length for moments."""
     c = subject.cylinders
@@ -77,7 +62,8 @@ def scale(subject):
 )
 def test_direct_evaluation_is_the_sum_of_all_orders(name):
     subject, angles = replace(engine(name), up_deg=None), divide_revolution(7.5)
-    direct, orders = compute_engine_curves(subject, angles).curves, summed(engine(name), angles)
+    direct = compute_engine_curves(subject, angles).curves
+    orders = compute_order_curves(subject, find_relevant_orders(subject), angles).curves
     assert set(direct) == set(orders)
     for quantity, curve in direct.items():
         assert np.abs(curve - orders[quantity]).max() <= RELATIVE * scale(subject)[quantity.endswith("_N")], quantity
@@ -147,3 +133,18 @@ def test_a_piston_at_uneven_speed_accelerates_as_its_velocity_changes_in_time():
     for name, slope_of in (("velocity_m_per_s", "travel_m"), ("acceleration_m_per_s2", "velocity_m_per_s")):
         slope = (after[slope_of] - before[slope_of]) / (2 * np.radians(h)) * omega
         assert mid[name] == pytest.approx(slope, abs=1e-7 * np.abs(slope).max())
+
+
+def test_crankshaft_and_flywheel_resist_an_uneven_speed():
+    """Each adds -J xi to couple and torque, by differences of the squared speed; the roll has none of it."""
+    heavy = SKEW.replace("throw_mass = 0.8", "throw_mass = 0.8, inertia = 60000") + "flywheel = { inertia = 90000 }\n"
+    degrees = np.arange(0.0, 360.0)
+    bare, found = (compute_engine_curves(build_text(one), degrees).curves for one in (SKEW, heavy))
+    squared = (3000 * np.pi / 30 * (1 + 0.02 * np.cos(np.radians(2 * np.arange(-0.5, 360) - 40)))) ** 2
+    added = -(0.15 - 4 * 0.8 * 0.043**2) * np.diff(squared / 2) / np.radians(1)
+    for name in ("couple_Nm", "inertia_torque_Nm"):
+        np.testing.assert_allclose(found[name] - bare[name], added, atol=1e-3 * np.abs(added).max())
+    np.testing.assert_allclose(found["roll_Nm"], bare["roll_Nm"], atol=1e-9 * np.abs(added).max())
+    subject = build_text(heavy)
+    total = compute_spectra(subject, find_relevant_orders(subject), ["couple"])["couple"]
+    np.testing.assert_allclose(total.values(np.radians(degrees)).real, found["couple_Nm"], rtol=0, atol=1e-9)

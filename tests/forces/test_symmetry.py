@@ -37,8 +37,9 @@ def test_the_inline_four():
         "order 1 force: balanced by symmetry of the layout",
         "order 2 force: unbalanced: 4 F2",
         "orders 1, 2 moment: balanced by symmetry of the layout",
-        "order 1 couple, torque and roll: balanced by symmetry of the layout",
-        "order 2 couple, torque and roll: unbalanced: 4 of one cylinder",
+        "orders 1, 2 couple: no cylinder has any",
+        "order 1 torque and roll: balanced by symmetry of the layout",
+        "order 2 torque and roll: unbalanced: 4 of one cylinder",
         "firing: even, every 180 deg",
     )
 

@@ -129,7 +129,7 @@ def test_a_misfire_is_a_cylinder_whose_gas_does_nothing(tmp_path):
     beside = json.loads(run_here("mounts", fired, weak, "--misfire", "1", *asked).out)
     assert beside["response"]["no_gas_in"] == [1]
     assert "no gas in 1, 3" in run_here("mounts", fired, weak, "--misfire", "1").out
-    assert "--misfire 9: " in refusal("mounts", fired, "--misfire", "9")
+    assert "there is no cylinder 9: " in refusal("mounts", fired, "--misfire", "9")
 
 
 def test_rounding_is_no_share_of_a_mode_and_turns_no_shape(tmp_path):

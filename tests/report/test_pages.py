@@ -22,7 +22,7 @@ from balcli.analysis.plot import draw_vector_bars, visible_rows
 from balcli.balancing.answer import balance_engine as balance
 from balcli.core.phasors import Phasors
 from balcli.forces.kinds import FORCE
-from balcli.report.names import OF_GAS, PAGES
+from balcli.report.names import OF_GAS, OF_PARTS, PAGES
 from balcli.report.pages import PageSubject, draw_panel, make_page
 from balcli.report.study import Study
 from balcli.show import plot_style as style
@@ -223,7 +223,7 @@ def test_in_a_page_a_name_in_a_picture_stays_as_it_is():
     assert text == f'<svg><g id="here-a" fill="var(--ink)"/><text>{name}</text></svg>'
 
 
-@pytest.mark.parametrize("what", OF_GAS)
+@pytest.mark.parametrize("what", [*OF_GAS, *OF_PARTS])
 def test_no_label_is_cut_off_by_the_edge_of_a_page(what):
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 

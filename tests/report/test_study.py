@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.engines import GOOD, build_text, changed
 from support.pictures import draw_page
+from support.remedies import size_scheme
 
 from balcli.core.mechanisms import harmonics
 from balcli.errors import BalcliError
@@ -39,6 +40,34 @@ def test_flat_plane_vee_eight_over_its_bank_angle():
     assert np.abs(banks.force.forward[0]) == pytest.approx(K * np.abs(np.cos(gamma / 2)), abs=1e-12 * K)
     assert np.abs(banks.force.backward[0]) == pytest.approx(K * np.abs(np.cos(3 * gamma / 2)), abs=1e-12 * K)
     assert banks.own_deg == 75
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+def test_radii_of_two_shafts_over_the_bank_angle(order):
+    """Those of the scheme, at bank angles of its own; above 0 the shafts stand on one side of the middle
+    plane, below 0 on both. A flat-plane V8's ratio of order 2 is -cos 3x / cos x.
+    """
+    options = SchemeOptions(order=order)
+    text = VEE if order > 1 else VEE.replace("[0, 180, 180, 0]", "[0, 0, 0, 0]")
+    study = compute_study(build_text(text), "bank", scheme="two-shaft", options=options)
+    with_crank, against, ratio = study.banks.find_radii()
+    for angle in (20, 50, 75, 130, 170):
+        found = size_scheme(
+            build_text(text.replace("= 75", f"= {angle}")), "two-shaft", order=order, at=(0.04 + 0.07j,)
+        )
+        (other,) = (d.at for d in found.devices if getattr(d, "ratio", 0) == -order)
+        (own,) = (d.at for d in found.devices if getattr(d, "ratio", 0) == order)
+        radii = float(np.hypot(*own) / np.hypot(*other))
+        assert abs(ratio[angle]) == pytest.approx(radii, abs=1e-12)
+        assert with_crank[angle] / against[angle] == pytest.approx(ratio[angle])
+        if radii > 1e-9:
+            assert (own[1] * other[1] > 0) == (ratio[angle] > 0)
+            assert (own[0] * other[0] > 0) == (ratio[angle] < 0)
+    if order == 2:
+        x = np.radians(np.arange(0, 180) / 2)
+        assert ratio[:180] == pytest.approx(-np.cos(3 * x) / np.cos(x), abs=1e-9)
+    page = draw_page(PageSubject(study), "bank", "svg").decode()
+    assert f"Shafts at +{order} and -{order}" in page
 
 
 def test_its_own_bank_angle_is_the_engine_as_it_is():

@@ -43,7 +43,9 @@ def test_a_table_has_dashes_and_the_verdict_judges_forces_alone(balcli, twin):
     assert "Free moment in textbook units" not in out
     assert "moment  –" in out
     told = " ".join(out.partition("\nVerdict\n")[2].split())
-    assert told.startswith("Second order: force of 1705 N along x; shafts at +2 and -2 cancel it. Force of order 1 is")
+    assert told.startswith(
+        "Second order: force of 1705 N along x; shafts at +2 and -2 cancel it. Order 1: force and couple balanced"
+    )
     assert UNKNOWN[1:] in told
     assert "moment balanced" not in told
     assert "no moment" not in told

@@ -1,10 +1,11 @@
-"""The smallest peak: reached where it is said, with a known error."""
+"""The smallest peak: reached where it is said, with a known error; and a wanted ellipse."""
 
 import cmath
 import math
 
 import numpy as np
 import pytest
+from hypothesis import given, strategies as st
 from support.engines import build_text
 from support.remedies import SMALL, figures, find_orders, fit_scheme, size_scheme
 
@@ -56,3 +57,27 @@ def test_minimax_in_several_planes_takes_the_moment_too():
         r"choose two planes with some distance between them$",
     ):
         size_scheme(engine, "minimax", planes=(0.1,))
+
+
+@given(st.floats(-180, 180), st.floats(0, 1), st.sampled_from(["one", "two", "vee"]))
+def test_an_ellipse_lies_as_wanted(direction, ratio, name):
+    """The tip of the force over a turn, sampled: its farthest and nearest places, and no weight that
+    keeps direction and ratio leaves a smaller force: the part against the crank is that of before.
+    """
+    engine = build_text(SMALL[name])
+    remedy = size_scheme(engine, "ellipse", direction=direction, ratio=ratio)
+    force = compute_spectra(fit_devices(engine, remedy), [1], ("force",)).force
+    tip = force.values(np.linspace(0, 2 * np.pi, 7201))
+    assert np.abs(tip).max() == pytest.approx(remedy.details["order_1_largest_N"], rel=1e-6)
+    assert np.abs(tip).min() == pytest.approx(remedy.details["order_1_smallest_N"], abs=2e-3 * np.abs(tip).max())
+    if ratio < 0.9:
+        farthest = tip[np.abs(tip).argmax()] * np.exp(-1j * np.radians(direction))
+        assert abs(farthest.imag) <= 0.05 * abs(farthest)
+    before = compute_spectra(engine, [1], ("force",)).force
+    assert abs(force.backward[0]) == pytest.approx(abs(before.backward[0]), rel=1e-12)
+    assert abs(force.forward[0]) <= abs(force.backward[0]) * (1 + 1e-12)
+
+
+def test_an_ellipse_needs_a_force_against_the_crank():
+    remedy = size_scheme(build_text(SMALL["four"]), "ellipse", direction=0.0, ratio=0.5)
+    assert remedy.note.startswith("no force of order 1 turns against the crank")

@@ -1,14 +1,18 @@
 """One shaft with one eccentric or two, and shafts whose place is free."""
 
+import numpy as np
 import pytest
 from support.cases import cases
-from support.commands import refusal, run_here
+from support.commands import ask, ask_json, refusal, run_here
 from support.paths import ENGINES
 from support.remedies import fit_scheme, size_scheme
 
 from balcli.engine.load import load
 from balcli.forces.spectrum import compute_spectra
+from balcli.show.sheet import size_text
+from balcli.show.units import SI
 from balcli.sizing.fitting import Slot
+from balcli.sizing.ladder import SHAFTS, find_ladder
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.planes import find_free
 from balcli.sizing.remedy import fit_devices
@@ -18,6 +22,7 @@ TWIN = ENGINES / "twin270.toml"
 I3 = ENGINES / "i3.toml"
 I4 = ENGINES / "i4.toml"
 I5 = ENGINES / "i5.toml"
+V6 = ENGINES / "v6_60.toml"
 
 
 def left(path, scheme, options, order):
@@ -122,24 +127,65 @@ def test_a_force_has_no_free_place():
 
 
 # ------------------------------------------------------------------ moment compensators
-def test_two_shafts_far_from_an_engine_without_force_take_its_moment():
-    """An in-line five has moments of order 2 alone: the force at 3 m makes the opposite ones."""
-    built = load(I5)
-    remedy = size_scheme(built, "two-shaft", order=2, position=3.0)
-    spectra = compute_spectra(built, [2], ("moment",))
-    arm = 3.0 - float(built.reference_m[2])
-    wanted = [-spectra.moment.forward[0] / 1j / arm, -spectra.moment.backward[0] / 1j / arm]
-    made = [(d.forward or d.backward) * 4 * built.omega**2 for d in fit_devices(built, remedy).devices]
-    assert made == pytest.approx(wanted, rel=1e-9)
-    found = left(I5, "two-shaft", SchemeOptions(order=2, position=3.0), 2)
-    assert found.moment.balanced.all()
-    assert remedy.details["force_left_N"] == pytest.approx(sum(map(abs, wanted)), rel=1e-9)
-    assert "moment compensator" in remedy.reasons[0]
-
-
-def test_a_moment_compensator_needs_an_arm():
-    found = refusal("balance", I5, "--scheme", "two-shaft", "--order", "2", "--position", "0")
-    assert found.startswith("--position 0: a force there has no arm")
-    assert (
-        "two-shaft with --order and --position" in run_here("balance", I5, "--scheme", "two-shaft", "--order", "2").out
+@pytest.mark.parametrize("places", [(3.0,), (-2.0, 3.0)])
+@pytest.mark.parametrize(("path", "order"), [(I5, 2), (I3, 1), (I3, 2), (V6, 1), (V6, 2)])
+def test_compensators_cancel_the_moment_about_y_alone(path, order, places):
+    built = load(path)
+    remedy = size_scheme(built, "compensator", order=order, position=places if len(places) > 1 else places[0])
+    before, after = (
+        compute_spectra(engine, [order], ("force", "moment", "roll")) for engine in (built, fit_devices(built, remedy))
     )
+    size = abs(before.moment.y[0])
+    assert remedy.details["moment_before_Nm"] == pytest.approx(size)
+    assert remedy.details["moment_after_Nm"] == 0
+    assert abs(after.moment.y[0]) < 1e-12 * size
+    assert abs(after.moment.x[0] - before.moment.x[0]) < 1e-12 * size
+    added = after.force.x[0] - before.force.x[0], after.force.y[0] - before.force.y[0]
+    force = remedy.details["force_introduced_N"]
+    arms = [z - float(built.reference_m[2]) for z in places]
+    assert force == pytest.approx(0 if len(places) > 1 else size / arms[0])
+    assert abs(added[0]) == pytest.approx(force, abs=1e-9 * size)
+    assert abs(added[1]) < 1e-9 * size
+    assert remedy.details["compensators"][0]["force_N"] == pytest.approx(size / abs(arms[0] - (*arms, 0)[1]))
+    turned = remedy.details["moment_left_per_degree_Nm"] / size  # the pair turned by one degree
+    assert turned == pytest.approx(abs(np.exp(1j * np.radians(1)) - 1))
+
+
+COMPENSATED = ("--scheme", "compensator", "--position", "3 m")
+
+
+def test_the_force_of_a_compensator_is_meant_to_remain(tmp_path):
+    """It counts in figures, but no step of the ladder cancels it; the file that is written says so."""
+    written = tmp_path / "aft.toml"
+    run_here("balance", I5, *COMPENSATED, "--write", written)
+    fitted = load(written)
+    promised = fit_devices(load(I5), size_scheme(load(I5), "compensator", position=3.0))
+    assert fitted.devices == promised.devices
+    ladder = find_ladder(fitted)
+    assert SHAFTS in [step.step for step in find_ladder(load(I5)).steps]
+    assert SHAFTS not in [step.step for step in ladder.steps]
+    told = ask("analyze", "-q", written)
+    verdict = " ".join(told[told.index("Verdict") : told.index("Largest by")].split())
+    force = size_text(ask_json("balance", I5, *COMPENSATED)["details"]["force_introduced_N"], SI.force)
+    assert (
+        "Second order: vertical moment balanced by the compensator at z = 3000 mm; the compensator introduces "
+        f"a force of {force} by design." in verdict
+    )
+    assert "+2 and -2" not in verdict
+    drawn = ladder.steps[0].peak_force_N
+    assert drawn > 1.5 * find_ladder(load(I5)).steps[0].peak_force_N + 1
+    assert written.read_text().count('role = "compensator"') == 2
+    (first, _) = ask_json("balance", I5, *COMPENSATED)["shafts"]
+    assert first["role"] == "compensator"
+
+
+@cases("sizing/shafts", "compensators_that_cannot_be")
+def test_compensators_that_cannot_be(options, message):
+    assert refusal("balance", I5, "--scheme", "compensator", *options) == message
+
+
+def test_an_order_without_a_moment_needs_no_compensator():
+    out = run_here("balance", I4, "--scheme", "compensator", "--position", "3 m").out
+    assert "Order 2 has no moment; nothing to compensate." in out
+    out = run_here("balance", I5, "--scheme", "two-shaft", "--order", "2").out
+    assert "compensator with --order and --position" in out

@@ -75,7 +75,7 @@ TAKEN = {
     "two-shaft": "order at position roll",
     "couple-shaft": "order at planes",
     "slider": "order at position",
-}
+}  # a compensator has to have a position
 
 
 @pytest.mark.parametrize("option", OPTIONS)

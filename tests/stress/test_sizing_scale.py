@@ -19,7 +19,16 @@ from balcli.sizing.sizing import size, size_auto
 pytestmark = pytest.mark.stress
 
 LEFT = 1e-12
-APART = ("auto", "complete", "step", "two-shaft", "eccentric-slider", "oldham")  # stressed below, or of one cylinder
+APART = (
+    "auto",
+    "complete",
+    "compensator",
+    "step",
+    "two-shaft",
+    "ellipse",
+    "eccentric-slider",
+    "oldham",
+)  # stressed below, or of one cylinder
 
 
 def share_left(engine: Engine, after: Engine, quantities=("force", "moment")) -> float:

@@ -39,7 +39,7 @@ def test_every_name_that_a_file_has_can_be_swept(file):
 
 def test_files_name_what_they_have_only():
     beginnings = {form.pattern.partition(".")[0] for form in list_quantities(read(ENGINES / "i4.toml"))}
-    assert beginnings == {"force", "moment", "couple", "torque", "roll", "peak", "guide"}
+    assert beginnings == {"force", "moment", "couple", "torque", "roll", "peak", "guide", "piston", "journal", "pin"}
     diesel = [form.pattern for form in list_quantities(read(ENGINES / "i6_diesel.toml"))]
     assert {"torsion.1.Hz", "shaft.flywheel.stress", "gas.N.PART"} <= {*diesel}
     assert not any(name.startswith(("mode", "mount", "shaft.gear.stress")) for name in diesel)
@@ -49,7 +49,7 @@ def test_errors_and_help_name_all():
     told = refusal("sweep", ENGINES / "i4.toml", "--vary", "rod.length=150", "-q", "noise.2.major")
     assert told == (
         "noise.2.major is no quantity: one begins with force, moment, couple, torque, roll, gas, "
-        "torque_total, roll_total, peak, guide, fluctuation, mode, mount, point, torsion or shaft"
+        "torque_total, roll_total, peak, guide, fluctuation, piston, journal, pin, mode, mount, point, torsion or shaft"
     )
     told = refusal("sweep", ENGINES / "i4.toml", "--vary", "rod.length=150", "-q", "tortion.1.Hz")
     assert told == "tortion.1.Hz is no quantity: did you mean torsion?"

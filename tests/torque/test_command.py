@@ -9,7 +9,9 @@ import pytest
 from support.cases import cases
 from support.commands import ask, ask_csv, ask_json, refusal, run_here
 from support.gas_engines import FOUR, WIEBE
-from support.paths import write
+from support.paths import ENGINES, write
+
+from balcli import analyze, load
 
 TORQUE = "angle_deg,torque_Nm\n0,0\n90,1000\n180,0\n360,0\n"
 WHOLE = {"assumed", "format", "version", "speed_rpm", "cycle_deg", "imep_Pa", "max_pressure_Pa", "max_pressure_deg"}
@@ -71,6 +73,14 @@ def test_what_is_written_turns_as_unevenly(four, tmp_path):
     assert again == ask_json("torque", four), "torque is that of the mean speed"
 
 
+def test_at_the_speed_that_is_written_the_torque_is_constant(tmp_path):
+    """Energy: gas and inertia of all turning parts leave the mean torque, which the load takes."""
+    out = tmp_path / "uneven.toml"
+    ask("torque", ENGINES / "i4_wiebe.toml", "--write", out)
+    found = analyze(load(out), range(1, 13), "torque_total,gas").spectra
+    assert found.torque_total.major.max() < 1e-8 * found.gas.major.max()
+
+
 def test_a_crank_that_stalls_is_an_error_with_the_angle_next_to_all_else(four, curve, tmp_path):
     for arguments in ((four, "--speed", "100"), ("--curve", curve, "--inertia", "1", "--speed", "9")):
         status, out, err = run_here("torque", *arguments)
@@ -115,8 +125,8 @@ def test_the_load_takes_its_share_wherever_its_rows_begin(curve, tmp_path):
         assert one["orders"][0]["torque_Nm"]["peak_deg"] == pytest.approx(30)
         ends = [one["energy"][key] for key in ("from_deg", "to_deg")]
         assert ends == pytest.approx([30 - 30 * (1 - 1 / 12), 30 + 30 * (1 - 1 / 12)])
-    for torque, load in ((paths[0], paths[1]), (curve, curve)):
-        energy = ask_json("torque", "--curve", torque, "--load", load)["energy"]
+    for torque, taken in ((paths[0], paths[1]), (curve, curve)):
+        energy = ask_json("torque", "--curve", torque, "--load", taken)["energy"]
         assert energy["surplus_J"] == pytest.approx(0, abs=1e-9)
     assert energy["work_J"] == pytest.approx(250 * 2 * np.pi), "that of the torque"
     other = write(tmp_path / "l.csv", "angle_deg,torque_Nm\n0,250\n720,250\n")

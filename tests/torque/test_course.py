@@ -71,7 +71,7 @@ def test_a_misfire_takes_a_quarter_of_the_work():
     assert missing.imep_Pa == pytest.approx(0.75 * analyze_torque(four).imep_Pa, rel=1e-13)
     written = analyze_torque(build_text(FOUR + WIEBE + "[cylinder.3]\ngas = 0\n"))
     assert written.torque == missing.torque
-    with pytest.raises(BalcliError, match=r"^--misfire 5: the engine has the cylinders 1, 2, 3, 4"):
+    with pytest.raises(BalcliError, match=r"^there is no cylinder 5: the engine has cylinders 1 to 4"):
         silence(four, 5)
 
 

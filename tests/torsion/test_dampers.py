@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from support.cases import cases
 from support.chains import chain_text
-from support.commands import ask_torsion, refusal, run_here
+from support.commands import ask_json, ask_torsion, refusal, run_here
 from support.diesel import write_diesel
 from support.paths import ENGINES, write
 
@@ -102,7 +102,8 @@ def test_no_resonance_hides_between_the_speeds(kind):
 
 def test_a_pendulum_is_tuned_to_the_order_that_does_most():
     asked = ("--speeds", "3800:4400:20", "--orders", "3", "--damper", "pendulum", "-f", "json")
-    found = run_here("torsion", "-", *asked, stdin=write_diesel())
+    place = ("--damper-at", "pulley", "--damper-inertia", "4000 kg mm^2")
+    found = run_here("torsion", "-", *asked, *place, stdin=write_diesel())
     assert found.err.startswith("warning: standard input: the pendulums of pulley swing by ")
     damper = json.loads(found.out)["damper"]
     assert damper["radius_m"] / damper["length_m"] == pytest.approx(9, rel=0.25)
@@ -118,7 +119,8 @@ def test_pendulums_hang_as_far_out_as_the_crank_pins(stroke):
         (on_pulley('{ kind = "pendulum", mass = 2, radius = 90, length = 9 }'), 0.09),
     ):
         text = text.replace("stroke = 137", f"stroke = {stroke}").replace("length = 207", f"length = {2 * stroke}")
-        assert size(text, "--speeds", "3800:4400:100", "--damper", "pendulum")["radius_m"] == radius
+        asked = ("--damper", "pendulum", "--damper-inertia", "4000 kg mm^2")
+        assert size(text, "--speeds", "3800:4400:100", *asked)["radius_m"] == radius
 
 
 @pytest.mark.parametrize(
@@ -420,3 +422,71 @@ def test_the_order_that_pendulums_are_tuned_to_meets_modes_with_their_node_at_re
         for shaft in analyze({"damper": pendulums}, [0.9 * rpm, 1.1 * rpm]).response.shafts:
             assert shaft.worst.speed_rpm == pytest.approx(rpm, rel=1e-6)
             assert shaft.worst.half_peak_to_peak_Nm > 30 * 300, "of the 300 N m that drive it"
+
+
+# ------------------------------------------------------------------ dampers on throws
+def on_throws(*tables, text=None):
+    """The Diesel with dampers on throws: (number, damper)."""
+    lines = (f"[[torsion.throw]]\nthrow = {number}\ndamper = {damper}\n" for number, damper in tables)
+    return "\n".join([text or write_diesel(), *lines])
+
+
+DISC = """
+crank.stroke = 90
+rod = { length = 145, mass = 0.7, cg = 50 }
+piston = { mass = 0.5, bore = 86 }
+[torsion]
+throw_inertia = 20000
+loss = 0.02
+"""
+TUNED = '{ kind = "pendulum", mass = 3, radius = 62, order = 4.5 }'
+LONGER = '{ kind = "pendulum", mass = 2, radius = 62, length = 4 }'
+RUBBER = '{ kind = "rubber", inertia = 9000, stiffness = 60000, loss = 0.15 }'
+
+
+@pytest.mark.parametrize("damper", [TUNED, LONGER, RUBBER, '{ kind = "viscous", inertia = 9000, damping = 8 }'])
+def test_a_damper_on_a_throw_is_one_on_a_massless_part_that_is_rigid_on_it(damper):
+    rigid = f'[[torsion.front]]\nname = "arm"\nof = "throw 4"\nstiffness = "rigid"\ndamper = {damper}\n'
+    speeds = ("-q", "--speeds", "1800,3000,4300")
+    own, other = (ask_torsion(text, *speeds)["response"] for text in (on_throws((4, damper)), write_diesel() + rigid))
+    torques = {shaft["name"]: shaft["half_peak_to_peak_Nm"] for shaft in other["shafts"]}
+    for shaft in own["shafts"]:
+        name = shaft["name"].replace("throw 4 ring", "arm ring")
+        assert shaft["half_peak_to_peak_Nm"] == pytest.approx(torques[name], rel=1e-9)
+    for key in {"pendulums", "dampers"} & own.keys():
+        assert own[key][0]["worst"] == pytest.approx(other[key][0]["worst"], rel=1e-9)
+
+
+def test_two_tunings_of_a_throw_hold_it_still_in_both_orders():
+    disc = '[[torsion.rear]]\nname = "disc"\ninertia = 2e6\nstiffness = 2e6\n'
+    text = on_throws((1, TUNED.replace("4.5", "2")), (1, TUNED.replace("4.5", "3")), text=f"{DISC}{disc}")
+    for order, still in ((2, True), (3, True), (4, False)):
+        said = ask_torsion(text, "-q", "--speeds", "900:4000:500", "--orders", f"{order}")["response"]
+        assert (max(said["free_end_deg"]) < 1e-9) == still
+        assert [each["worst"]["order"] for each in said["pendulums"]] == [order, order]
+
+
+def test_proposed_pendulums_swing_by_at_most_20_degrees(tmp_path):
+    """On the throw with the largest amplitude; written as a table of this throw. On a light
+    crankshaft there is no room for so much mass.
+    """
+    text = write_diesel().replace("loss = 0.035", "loss = 0.2")
+    heavy = re.sub(r"throw_inertia = .*", "throw_inertia = 900000", text)
+    asked = ("--speeds", "3800:4400:50", "--orders", "3", "--damper", "pendulum")
+    written = tmp_path / "out.toml"
+    said = ask_json("torsion", "-q", "-", *asked, "--write", written, stdin=heavy)
+    (swung,) = said["response"]["pendulums"]
+    assert swung["node"] == said["damper"]["node"] == "throw 5"
+    assert swung["worst"]["half_swing_deg"] <= 20
+    (table,) = tomllib.loads(written.read_text())["torsion"]["throw"]
+    assert (table["throw"], table["damper"]["mass"]) == (5, said["damper"]["mass_kg"])
+    again = ask_json("torsion", "-q", written, *asked[:4])["response"]
+    assert again["pendulums"] == said["response"]["pendulums"]
+
+    written.unlink()
+    told = refusal("torsion", "-q", "-", *asked, "--write", written, stdin=text)
+    mass = float(re.search(r"need ([\d.]+) kg", told)[1])
+    assert not written.exists()
+    inertia = mass * (said["damper"]["radius_m"] * 1.15) ** 2
+    wide = size(text, *asked, "--damper-at", "throw 1", "--damper-inertia", f"{inertia} kg m^2")
+    assert wide["mass_kg"] == pytest.approx(mass, rel=0.1)

@@ -81,7 +81,7 @@ def test_a_misfire_takes_away_the_gas_of_one_cylinder(diesel):
 
 
 def test_misfires_that_cannot_be(diesel):
-    assert refusal("torsion", diesel, "--misfire", "7") == ("--misfire 7: six has the cylinders 1, 2, 3, 4, 5, 6")
+    assert refusal("torsion", diesel, "--misfire", "7") == "there is no cylinder 7: six has cylinders 1 to 6"
     assert "has no [gas]" in refusal("torsion", "-", "--misfire", "1", stdin=write_diesel())
     chain = '[[node]]\nname = "a"\ninertia = 1\n'
     assert refusal("torsion", "-", "--misfire", "1", stdin=chain) == ("--misfire: a chain has no cylinders")

@@ -66,6 +66,29 @@ def test_orders_left_in_radial_engines():
     assert radial_orders(6) == [1]
 
 
+def test_statements_by_sums_of_unit_vectors():
+    """Stars, rows and the vee of four: a force of order n is the sum of e^{i n psi} over the throws, a moment
+    M_z that of the odd orders.
+    """
+    table = recompute("kvasnikov-statements")
+    found = {row[1:3]: row[-1] for row in table.exact}
+    assert found["star of 5", "lowest order of force above 1"] == radial_orders(5)[1]
+    assert found["star of 5", "next order of force"] == radial_orders(5)[2]
+    assert found["star of 6", "lowest order of force above 1"] == 0 == len(radial_orders(6)) - 1
+    rows = {"row of 3": [0, 120, 240], "row of 4": [0, 90, 180, 270], "row of 5": np.arange(0, 360, 72)}
+    rows |= {f"row of {i}, four-stroke": [*np.arange(0, 360, 720 / i)] * 2 for i in (4, 6, 8)}
+    for name, throws in rows.items():
+        left = [n for n in range(1, 20) if abs(unit(n * np.array(throws)).sum()) > 1e-9]
+        assert found[name, "lowest order of force"] == min(n for n in left if n % 2 == 0)
+        if (name, "lowest order of moment M_z") in found:
+            assert found[name, "lowest order of moment M_z"] == min((n for n in left if n % 2), default=0)
+    theta = np.arange(360.0)
+    pins, axes = np.array([0, 0, 180, 180]), np.array([-45, 45, -45, 45])
+    along_y = (np.sin(np.radians(axes)) * np.cos(np.radians(2 * (theta[:, None] + pins - axes)))).sum(axis=1)
+    assert found["vee of 4, gamma = 45 deg", "force of order 2 along y"] == pytest.approx(along_y.max(), rel=1e-12)
+    assert {e.category for e in table.errata} == {"rounding", "error"}
+
+
 @pytest.mark.parametrize(
     ("name", "sizes"),
     [  # (81): half the reciprocating masses turn with the crank; i = 5 keeps orders 4 and 6, each i/2, i = 7 only 6

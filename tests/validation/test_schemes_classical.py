@@ -233,14 +233,14 @@ def test_eccentric_stands_where_the_force_acts():
         (
             "magic",
             SchemeOptions(),
-            "there is no scheme 'magic': choose from auto, complete, step, counterweights, factor, minimax, "
+            "there is no scheme 'magic': choose from auto, complete, step, counterweights, factor, minimax, ellipse, "
             "single-shaft, two-shaft, four-shaft, "
-            "couple-shaft, slider, eccentric-slider, oldham, knuckles",
+            "couple-shaft, compensator, slider, eccentric-slider, oldham, knuckles",
         ),
         ("knuckle", SchemeOptions(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
         ("knuckles", SchemeOptions(), "scheme knuckles is fitted by `balcli balance --scheme knuckles` alone"),
         ("mini-max", SchemeOptions(), "did you mean minimax"),
-        ("two-shaft", SchemeOptions(order=6, roll="nought"), 'only "zero" can be asked for'),
+        ("two-shaft", SchemeOptions(order=6, roll="nought"), "choose from zero"),
         ("two-shaft", SchemeOptions(order=3, roll="zero"), "order 3 has no free force.*leave out --roll"),
         ("two-shaft", SchemeOptions(order=6, roll="zero", at=(0.1j, 0.2j)), "places the second shaft"),
         ("factor", SchemeOptions(factor=(math.nan,)), "give shares such as"),

@@ -20,7 +20,8 @@ from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.single_cylinder import DESIGNS, find_optimum
+from balcli.sizing.schemes import CRITERIA, DESIGNS
+from balcli.sizing.single_cylinder import find_optimum
 from balcli.sizing.sizing import size
 
 M, R = 1.0, 0.05
@@ -137,6 +138,23 @@ def test_eccentric_slider_leaves_its_residual():
     exact = closed_form.piston(np.arange(1.0, 12), 0.25)
     two_terms = sum((a - (1 if n == 1 else 0.25 if n == 2 else 0)) * np.cos(n * theta) for n, a in enumerate(exact, 1))
     assert np.abs(force - two_terms).max() == pytest.approx(0.017595, abs=1e-6)
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.parametrize("criterion", CRITERIA)
+def test_a_chosen_design_leaves_what_its_row_says(design, criterion):
+    """(27), (28): P over a turn, less what two terms leave out; in units of J."""
+    engine = single(0.3)
+    remedy = size_scheme(engine, "eccentric-slider", design=design, criterion=criterion)
+    theta = np.linspace(0, 2 * np.pi, 7201)
+    orders = np.arange(1.0, 61)
+    force = compute_spectra(fit_devices(engine, remedy), orders, ("force",)).force
+    exact = slidercrank.acceleration(theta, 0.3) - np.cos(theta) - 0.3 * np.cos(2 * theta)
+    left = np.abs(force.values(theta).real / (M * R * engine.omega**2) - exact)
+    fitted = remedy.details["fitted"]
+    assert (fitted["design"], fitted["criterion"]) == (design, criterion)
+    assert left.max() == pytest.approx(fitted["largest"], rel=1e-5)
+    assert left[:-1].mean() == pytest.approx(fitted["mean"], rel=1e-4)
 
 
 @pytest.mark.parametrize("design", DESIGNS)

@@ -17,6 +17,7 @@ from balcli.sizing.single_cylinder import find_optimum
 
 A = np.linspace(0.1, 6.2, 41)  # crank angles, rad
 G = np.linspace(0.2, 3.0, 41)  # bank angles, rad
+A_TURN = np.arange(0, 2 * pi, pi / 18)  # a whole turn
 E, R = 1j, 0.05
 LAM, MR, OMEGA = 0.3, 0.02, 100.0  # crank ratio, m r (kg m), rad/s
 CHECKS: dict[str, Callable[[], tuple[object, object, object]]] = {}
@@ -90,6 +91,14 @@ def two_vectors():
         return exp(E * (2 * A + angle)) * cos(1.5 * G) + exp(-E * (2 * A - angle)) * cos(G / 2)
 
     return form(G / 2), form(pi / 2), banks(G, A)
+
+
+@check("liu, (4.2)")
+def ratio_of_radii():
+    """Sizes of b_2/b_1: moments |F| b of both vectors are equal, F from samples of the force of both banks."""
+    samples = banks(G, A_TURN[:, None])
+    with_crank, against = (abs((samples * exp(way * A_TURN[:, None])).mean(axis=0)) for way in (2j, -2j))
+    return abs(cos(1.5 * G) / cos(G / 2)), abs(cos(G / 2) / cos(1.5 * G)), with_crank / against
 
 
 @check("liu, (5.6)")
@@ -194,8 +203,8 @@ def neglected():
         exact = slidercrank.acceleration(A := np.linspace(0, 2 * pi, 7201), lam)
         return abs(exact - cos(A) - lam * cos(2 * A)).max() / abs(exact).max()
 
-    percent = np.array([100 * error(lam) for lam in (0.2, 0.4)]).round(2)
-    return [0.1, 0.1], [0.34, 2.60], percent
+    percent = np.array([100 * error(lam) for lam in (0.2, 0.25, 0.4)]).round(2)
+    return [0.1] * 3, [0.34, 0.66, 2.60], percent
 
 
 @check("wang, (18)")

@@ -10,7 +10,7 @@ from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, Node, WrittenAs
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import Engine, check_engine, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -40,10 +40,12 @@ from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
 from .records import (
+    BalanceParts,
     CylinderShare,
     Journal,
     Masses,
     PeaksAndOrders,
+    PowerRelatedUnbalance,
     Stroke,
     describe_guide,
     describe_inner,
@@ -52,30 +54,50 @@ from .records import (
 
 UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
-EXTRAS = ("inner", "guide", "journals", "masses")  # quantities that are computed only on request
+EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
+
+# Quantities that depend on a key, or on a table, that does not count for all of them.
+_WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
+_WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
+_ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
+_WITH_RODS = {"couple", "torque", "roll", *GAS_KINDS, "guide", "journals", "masses"}
+_WITH_UNEVEN_SPEED = {"couple", "torque", "torque_total"}
+_OF_FIRING = {"layout.strokes", "layout.firing_intervals"}
+_DEPENDENT = {
+    "gas": {*GAS_KINDS, "pru"},
+    "rod.inertia": _WITH_RODS,
+    "articulation.rod.inertia": _WITH_RODS,
+    "crank.inertia": _WITH_UNEVEN_SPEED,
+    "flywheel.inertia": _WITH_UNEVEN_SPEED,
+    **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
+    "layout.stagger": _WITH_PLACES,
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # of forces: why there are no moments
+}
 DEFAULT_ORDERS = (1.0, 2.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Parts that were not requested are None.
+    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
 
     Attributes:
-        engine: Analyzed engine.
+        engine: Engine as analyzed.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: Values that are used because the engine file leaves them out.
-        peak: Largest values over a revolution, sum of all orders.
+        assumed: Values taken because the engine file leaves them out.
+        peak: Largest values over a revolution, all orders together.
         sizing: Devices of the scheme `auto`, and the forces left with them.
         ladder: Devices that balance the engine, step by step.
-        cylinders: Forces and moments of each single cylinder, without devices.
-        inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
-            bearing loads, and loads in the block.
+        cylinders: Each cylinder alone, without devices.
+        inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
+            bearings and in the block as well.
         guide: H- and X-type guide-force moments.
-        travel: Strokes and dead centres of all cylinders; left out where all are plain
-            slider-cranks.
+        travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
+            all cylinders are plain slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
+        parts: Balancer shafts and counterweights as parts.
+        power_related_unbalance: Free moments over the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
         small: Share of one cylinder's first order below which a part is small.
     """
@@ -94,6 +116,8 @@ class Analysis(Result):
     travel: tuple[Stroke, ...] | None = None
     journals: tuple[Journal, ...] | None = None
     masses: tuple[Masses, ...] | None = None
+    parts: BalanceParts | None = None
+    power_related_unbalance: PowerRelatedUnbalance | None = None
     why: Symmetry | None = None
     small: Annotated[float, HIDDEN] = SMALL
 
@@ -184,8 +208,8 @@ def analyze(
         orders: Orders to show; default: 1 and 2 (at uneven speed also 0), and all up to 512 in
             which a quantity exceeds 1e-6 of its largest order.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide,
-            journals, masses and gas, as a list or a text with commas; default: force to peak, and
-            gas if the engine has some.
+            journals, masses, parts, pru and gas, as a list or a text with commas; default: force
+            to peak, and gas if the engine has some.
         by_cylinder: Whether to compute the phasors of each single cylinder as well.
         reasons: Whether to find out why each order is balanced or not.
         guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
@@ -196,9 +220,9 @@ def analyze(
             unbalanced.
 
     Raises:
-        BalcliError: A quantity is unknown, an order is negative or above 4096, there are too many
-            orders x cylinders, or a height is not above 0.
-        TypeError: An argument has a wrong type.
+        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
+            of too many cylinders; a height that is not above 0.
+        TypeError: an argument of another type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
@@ -232,7 +256,7 @@ def analyze(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
-        assumed=engine.list_assumed("gas"),
+        assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
         peak=peak,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
@@ -248,14 +272,22 @@ def analyze(
 
 def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
     """Return results that are seldom wanted; their modules are loaded only for them."""
-    if not {"journals", "masses"}.intersection(wanted):
+    if not {"journals", "masses", "parts", "pru"}.intersection(wanted):
         return {}
-    from . import crank_drive
+    from . import crank_drive, parts
 
+    model = take_model(engine) if "parts" in wanted else None
     return {
+        "power_related_unbalance": crank_drive.relate_to_power(engine) if "pru" in wanted else None,
         "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
         "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
+        "parts": model and parts.find_parts(engine, model.shaft, model.counterweight),
     }
+
+
+def has_power(engine: Engine) -> bool:
+    """Return whether the power of an engine is known, from its file or from its gas."""
+    return bool(engine.rated and engine.rated.power_W) or engine.gas is not None
 
 
 def _check_height(guide_height_m: float | None) -> None:
@@ -285,6 +317,25 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
         choices = ", ".join((*QUANTITIES, GAS.name, *EXTRAS))
         raise BalcliError(f"there is no quantity {named}: choose from {choices}")
     return wanted | GAS_KINDS.keys() if GAS.name in wanted else wanted
+
+
+def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
+    """Return the keys, and the table [gas], on whose defaults none of these quantities depends.
+
+    Args:
+        engine: Engine without trailing axes.
+        wanted: Quantities, as of `_choose_quantities`.
+    """
+    due = {*wanted}
+    if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
+        due.add("gas")
+    of_throws = _WITH_FORCES | {"masses"}
+    of_throws |= _WITH_UNEVEN_SPEED if engine.ripple else set()
+    of_throws |= {"couple", "roll", "roll_total"} if any(engine.reference_m[:2]) else set()
+    idle = {k for k, of in (_DEPENDENT | {"crank.throw_mass": of_throws}).items() if not due & of}
+    if "gas" in idle and not any(line.startswith("crank.throws") for line in engine.inferred):
+        idle |= _OF_FIRING
+    return idle if engine.places_known else {*idle, "layout.stagger"}
 
 
 def _analyze_cylinders(

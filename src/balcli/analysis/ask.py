@@ -10,8 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.engine import Engine
+from ..file.toml import name_file
 from ..forces.kinds import COUPLE, GAS, ROLL
-from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
+from ..shell.inputs import (
+    exit_on_errors,
+    name_engines,
+    read_engine,
+    silence_cylinders,
+    try_each,
+    warn_each,
+)
 from ..shell.output import show
 from ..show.csv import Rows, name_cell
 from ..show.formats import Format, Renderer, Units, write_named
@@ -70,8 +78,11 @@ def answer(
     find, renderer = _choose_result(asked, for_people)
 
     def find_one(path: str) -> tuple[str, str, object]:
-        engine = read_engine(path, rpm, asked.words).engine
-        return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
+        engine = read_engine(path, rpm, asked.words, over=asked.speeds_rpm or None).engine
+        result = find(silence_cylinders(engine, asked.misfires, path))
+        if isinstance(result, Analysis) and result.parts is not None:
+            warn_each(result.parts.doubts, name_file(path))
+        return engine.name, path, result
 
     found, errors = try_each(paths, find_one)
     if found and not (errors and output):  # a file gets all results or is not changed

@@ -12,7 +12,7 @@ from ..errors import BalcliError
 from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
 from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
-    PARTS,
+    OF_ONE,
     EnginePath,
     EnginePaths,
     FormatOption,
@@ -123,13 +123,14 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
     Raises:
         BalcliError: There is such a part; the error names the command that shows it.
     """
-    if of_one := [word for word in words if word in PARTS]:
+    if of_one := [word for word in words if word in OF_ONE]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 
 
 Cylinder = Annotated[int | None, optional("N", "Motion of this piston, also pressure with [gas].")]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
+SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
     SeriesFormat | None,
     format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
@@ -140,6 +141,7 @@ def curves(
     path: EnginePath,
     cylinder: Cylinder = None,
     step: Step = "1",
+    orders: SumOrders = None,
     speed: Speed = None,
     form: Form = None,
     output: Output = None,
@@ -152,13 +154,15 @@ def curves(
     Examples:
       balcli curves i4.toml --step 5 -o curves.csv
       balcli curves i4.toml --cylinder 1
+      balcli curves i4.toml --orders 2
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
     form = format_of(output, form, SERIES, SeriesFormat.CSV)
     from . import curves as chapter
 
+    asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    found = chapter.compute_curves_by_step(engine, cylinder, read_angle("--step", step))
+    found = chapter.compute_curves_by_step(engine, cylinder, step_deg, asked)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])

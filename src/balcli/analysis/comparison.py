@@ -164,7 +164,7 @@ def compare_engines(
     return Comparison(
         engines=tuple(names),
         speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
-        assumed=list_assumed(names, engines, [GAS.name] if GAS.name in wanted else []),
+        assumed=list_assumed(names, [one.assumed for one in analyses]),
         figures=lines,
         ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
         compared=tuple(engines),

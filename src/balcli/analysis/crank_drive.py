@@ -1,5 +1,5 @@
 """Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
-`--only masses`).
+`--only masses`). Also free moments over the power (`--only pru`).
 
 The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
 If T_i is the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque of
@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,20 +27,35 @@ import numpy as np
 from ..core.cylinder_pressure import crank_torque
 from ..core.peaks import find_swing
 from ..core.phasors import Array, Complex
-from ..core.piecewise import resolved
-from ..core.records import find_unit, list_figures, to_document
+from ..core.piecewise import PiecewiseCurve, resolved
+from ..core.records import find_unit, list_figures, to_document, write_each
+from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.gas import EngineGas
+from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
+from ..file.model import EngineFile
 from ..forces.crankshaft import find_shear_stress, place_bearings
+from ..forces.curves import find_torque_curves
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.figures import FigureRow
-from ..show.sheet import UNKNOWN, Grid, degrees, number
-from ..show.units import SI, ShownUnit, System, name_with_unit
-from .records import Journal, JournalTorque, Masses, ShearStress
+from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
+from ..show.units import System, name_with_unit
+from .records import (
+    Journal,
+    JournalTorque,
+    Masses,
+    PowerRelatedUnbalance,
+    RelatedMoment,
+    ShearStress,
+)
 
 _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
+_SPLIT = (
+    "Split pins of one throw count as one pin: the torque in the web between them is not computed."
+)
 _ROUNDING = 1e-12  # share of the sum of all cylinders' amplitudes; less is rounding
 
 
@@ -52,51 +68,64 @@ def find_journals(engine: Engine) -> tuple[Journal, ...]:
     Raises:
         BalcliError: The engine is rotary: its crank is at rest.
     """
-    if engine.rotary:
-        raise BalcliError("journals: the crank of a rotary engine stands still")
-    throws = np.array(engine.joined_throw_of_rows)
-    count, places = int(throws.max()) + 1, engine.joined_throws_m
-    bearings = place_bearings(places) if engine.places_known else None
-    waves = _Waves.of(engine)
-    found = []
-    for k in range(2 * count + 1):
-        throw = (k - 1) // 2 if k % 2 else k // 2  # of the pin, or behind the journal
-        weights = np.where(throws < throw, 1.0, 0.5 * (throws == throw) * (k % 2))
-        at = (places if k % 2 else bearings) if engine.places_known else None
-        inertia = waves.measure(weights)
-        total = None if engine.gas is None else _measure_total(engine.gas, waves, weights)
+    places = engine.joined_throws_m
+    kinds = {"pin": places, "main": place_bearings(places)}
+    torques, found = CrankTorques.of(engine), []
+    for place, weights in weigh_cylinders(engine).items():
+        kind, _, number_ = place.partition(" ")
+        at = kinds[kind] if engine.places_known else None
+        inertia, total = torques.measure(weights), torques.measure_total(weights)
         found.append(
             Journal(
-                place=f"pin {throw + 1}" if k % 2 else f"main {throw + 1}",
-                position_mm=None if at is None else 1e3 * float(at[throw]),
+                place=place,
+                position_mm=None if at is None else 1e3 * float(at[int(number_) - 1]),
                 inertia=inertia,
                 total=total,
-                stress=_find_stress(engine, total or inertia, "pin" if k % 2 else "main"),
+                stress=_find_stress(engine, total or inertia, kind),
             )
         )
     return tuple(found)
 
 
-class _Waves(NamedTuple):
-    """Inertia torque of each cylinder: orders, shape (orders,), and phasors, N m, shape (orders,
-    cylinders).
+def weigh_cylinders(engine: Engine) -> dict[str, Array]:
+    """Return the share of each cylinder's torque, shape (cylinders,), in every main journal and
+    crank pin from the free end: `main 1`, `pin 1`, `main 2`, ...; errors as for `find_journals`.
+    """
+    if engine.rotary:
+        raise BalcliError("journals: the crank of a rotary engine stands still")
+    throws = np.array(engine.joined_throw_of_rows) + 1
+    last, found = int(throws.max()), dict[str, Array]()
+    for k in range(1, last + 2):
+        found[f"main {k}"] = np.where(throws < k, 1.0, 0.0)
+        if k <= last:
+            found[f"pin {k}"] = np.where(throws < k, 1.0, 0.5 * (throws == k))
+    return found
+
+
+class CrankTorques(NamedTuple):
+    """Torque of each cylinder on the crank.
+
+    Attributes:
+        orders: Orders of inertia, shape (orders,).
+        each: Phasors of inertia torque, N m, shape (orders, cylinders).
+        gas: Gas of the cylinders; None: none.
     """
 
     orders: Array
     each: Complex
+    gas: EngineGas | None
 
     @classmethod
-    def of(cls, engine: Engine) -> _Waves:
-        """Return the inertia torques of an engine at steady speed."""
+    def of(cls, engine: Engine) -> CrankTorques:
+        """Return the torques of an engine at steady speed."""
         steady = replace(engine, ripple=())
         orders = find_relevant_orders(steady)
         orders = orders[orders > 0]
-        return cls(orders, compute_spectra(steady, orders, ("torque",), each=True)["torque"].x)
+        each = compute_spectra(steady, orders, ("torque",), each=True)["torque"].x
+        return cls(orders, each, engine.gas)
 
     def measure(self, weights: Array) -> JournalTorque:
-        """Return the inertia torque of the cylinders, each times its weight; weights have shape
-        (cylinders,).
-        """
+        """Return the inertia torque of the cylinders, each with its weight, shape (cylinders,)."""
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE
@@ -104,24 +133,33 @@ class _Waves(NamedTuple):
         highest, at_high = float(high.value), float(high.angle)
         return _write(highest, at_high, float(low.value), float(low.angle), 0.0)
 
-    def at(self, angle: Array, weights: Array) -> Array:
-        """Return the sum of the weighted torques at crank angles (rad), in the shape of the
-        angles.
-        """
+    def measure_total(self, weights: Array) -> JournalTorque | None:
+        """Return the torque of gas and inertia of the weighted cylinders; None without gas."""
+        if self.gas is None:
+            return None
+        if (gas := self._find_gas(weights)) is None:
+            return _NONE
+        curve = resolved(lambda angle: gas.at(angle) + self._sum(angle, weights), gas.breaks)
+        low, high = curve.extremes()
+        return _write(high.value, high.angle, low.value, low.angle, curve.mean)
+
+    def sample(self, angle: Array, weights: Array) -> Array:
+        """Return the torque of the weighted cylinders at crank angles, rad, in their shape."""
+        gas, inertia = self._find_gas(weights), self._sum(angle, weights)
+        return inertia if gas is None else inertia + gas.at(angle)
+
+    def _sum(self, angle: Array, weights: Array) -> Array:
+        """Return the inertia torque of the weighted cylinders, as `sample`."""
         turned = np.exp(1j * np.multiply.outer(angle, self.orders))
         return np.asarray((turned @ (self.each @ weights)).real)
 
-
-def _measure_total(gas: EngineGas, waves: _Waves, weights: Array) -> JournalTorque:
-    """Return the torque of gas and inertia of the cylinders, each times its weight."""
-    pairs = zip(gas.cylinders, weights.tolist(), strict=True)
-    cylinders = [(c.torque, c.fires, c.share * weight) for c, weight in pairs if weight]
-    if not cylinders:
-        return _NONE
-    once = crank_torque(cylinders, gas.cycle)
-    curve = resolved(lambda angle: once.at(angle) + waves.at(angle, weights), once.breaks)
-    low, high = curve.extremes()
-    return _write(high.value, high.angle, low.value, low.angle, curve.mean)
+    def _find_gas(self, weights: Array) -> PiecewiseCurve | None:
+        """Return the gas torque of the weighted cylinders over the cycle; None if there is none."""
+        if self.gas is None or not weights.any():
+            return None
+        pairs = zip(self.gas.cylinders, weights.tolist(), strict=True)
+        shares = [(c.torque, c.fires, c.share * weight) for c, weight in pairs if weight]
+        return crank_torque(shares, self.gas.cycle)
 
 
 def _write(
@@ -141,23 +179,59 @@ def _find_stress(engine: Engine, torque: JournalTorque, kind: str) -> ShearStres
     """Return the stress of a journal of this kind (pin or main); None if its diameter is not
     given.
     """
-    table = None if engine.model is None else engine.model.bearing
-    diameter = None if table is None else getattr(table, f"{kind}_diameter")
-    if diameter is None:
+    bearings = engine.bearings
+    diameters = None if bearings is None else bearings.pin_m if kind == "pin" else bearings.main_m
+    if diameters is None:
         return None
-    per_torque = find_shear_stress(diameter / 1e3, getattr(table, f"{kind}_bore") / 1e3)
+    per_torque = find_shear_stress(*diameters)
     return ShearStress(
         mean_Pa=per_torque * (torque.max_Nm + torque.min_Nm) / 2,
         amplitude_Pa=per_torque * torque.range_Nm / 2,
     )
 
 
+# ------------------------------------------------------------------ quantities of variants
+_KINDS = {"journal": "main", "pin": "pin"}
+
+
+def list_names(model: EngineFile) -> Iterator[str]:
+    """Yield the names of the quantities of main journals and crank pins."""
+    if not build(model).rotary:
+        for kind in ("journal", "pin"):
+            yield from (f"{kind}.N.{part}" for part in ("range", "max", "min"))
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+    """Raise BalcliError if a quantity is of a journal or pin that the crankshaft does not have."""
+    places = [place.split() for place in weigh_cylinders(build(model))]
+    for q in quantities:
+        refuse_stranger(q, [number_ for kind, number_ in places if kind == _KINDS[q.kind]])
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
+    """Return the value of each quantity of one engine, N m."""
+    torques, places = CrankTorques.of(engine), weigh_cylinders(engine)
+    found = dict[str, JournalTorque]()
+    for place in dict.fromkeys(map(_name_place, quantities)):
+        weights = places[place]
+        found[place] = torques.measure_total(weights) or torques.measure(weights)
+    return [float(getattr(found[_name_place(q)], f"{q.part}_Nm")) for q in quantities]
+
+
+def _name_place(q: TargetQuantity) -> str:
+    return f"{_KINDS[q.kind]} {q.target}"
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)
+
+
 # ------------------------------------------------------------------ how it is shown
-def lay_out_journals(journals: Sequence[Journal], system: System) -> Iterator[Grid]:
+def lay_out_journals(journals: Sequence[Journal], engine: Engine, system: System) -> Iterator[Grid]:
     """Yield a table of the torques in journals and pins; with gas, also one of inertia only.
 
     Args:
         journals: Journals, from the free end.
+        engine: Their engine.
         system: System of units.
     """
     with_gas = journals[0].total is not None
@@ -165,7 +239,10 @@ def lay_out_journals(journals: Sequence[Journal], system: System) -> Iterator[Gr
     if with_gas:
         yield _grid(journals, [each.total or _NONE for each in journals], title, system, True)
         title = "Torque along the crankshaft, inertia alone"
-    yield _grid(journals, [each.inertia for each in journals], title, system, not with_gas)
+    last = _grid(journals, [each.inertia for each in journals], title, system, not with_gas)
+    if len(engine.rows_by_pin) > len(engine.joined_throws):
+        last = last._replace(note=f"{last.note} {_SPLIT}".strip())
+    yield last
 
 
 def _grid(
@@ -261,9 +338,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each distinct set of parts.
         system: System of units.
     """
-    units = {"kg": system.mass, "kg·m²": system.inertia, "m": system.length}
-    if system is SI:
-        units |= {"kg": ShownUnit("g", 1e-3), "kg·m²": ShownUnit("kg·mm²", 1e-6)}
+    units = system.of_parts
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
     rows = []
     for key, label in _LABELS.items():
@@ -279,3 +354,75 @@ def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
     for one in masses:
         for name, value, unit in list_figures(to_document(one), ("cylinders",)):
             yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)
+
+
+# ------------------------------------------------------------------ power related unbalance
+# Need of a compensator, and the power related unbalance up to which it holds, N m/kW, as project
+# guides of marine engines (MAN) class it
+_NEEDS = (
+    (60, "not relevant"),
+    (120, "unlikely"),
+    (220, "likely"),
+    (math.inf, "most likely"),
+)
+
+
+def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
+    """Return the largest free moments of orders 1 and 2 over the power, at the speed of the file.
+
+    Args:
+        engine: Engine without trailing axes.
+
+    Raises:
+        BalcliError: No power is known.
+    """
+    power, kind = 0.0, "file"
+    if (rated := engine.rated) is not None:
+        engine = engine.at_speed(rated.speed_rpm)
+        power = rated.power_W or 0.0
+    if not power and engine.gas is not None:
+        efficiency = engine.mechanical_efficiency
+        torque = find_torque_curves(replace(engine, ripple=())).gas.mean
+        power = torque * float(engine.omega) * (efficiency or 1.0)
+        kind = "indicated" if efficiency is None else "brake"
+    if power <= 0:
+        raise BalcliError("pru needs operation.power, or [gas]")
+    moments = compute_spectra(engine, [1, 2], ("moment",))["moment"].major.tolist()
+    orders = []
+    for order, moment in enumerate(moments, 1):
+        size = moment if engine.places_known else math.nan
+        related = 1e3 * size / power
+        need = next((need for most, need in _NEEDS if related <= most), None)
+        orders.append(RelatedMoment(order, size, related, need))
+    return PowerRelatedUnbalance(power, kind, tuple(orders))
+
+
+def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
+    """Return a table of the power related unbalance, with the need of a compensator.
+
+    Args:
+        related: Power related unbalance.
+        system: System of units.
+    """
+    kind = "" if related.power_kind == "file" else f"{related.power_kind} "
+    title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
+    unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
+    rows = tuple(
+        (
+            order_name(each.order),
+            UNKNOWN if each.need is None else size_cell(each.moment_Nm, unit),
+            UNKNOWN if each.need is None else number(each.Nm_per_kW),
+            each.need or UNKNOWN,
+        )
+        for each in related.orders
+    )
+    heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
+    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))
+
+
+def list_related(related: PowerRelatedUnbalance) -> Iterator[FigureRow]:
+    """Yield CSV of the power related unbalance, SI."""
+    for each in write_each(related.orders):
+        order = each.pop("order")
+        for name, value, unit in list_figures(each):
+            yield FigureRow(0, "pru", order, name, value, unit)

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, compose, unit
 from ..engine.engine import Engine, check_engine, find_row
-from ..errors import check_number
+from ..errors import BalcliError, check_number
 from ..forces.curves import (
     EngineMotion,
     _torque_of_cylinders,
@@ -25,8 +25,10 @@ from ..forces.curves import (
 )
 from ..forces.kinds import (
     COUPLE,
+    EVERY_KIND,
     FORCE,
     GAS,
+    KINDS,
     MOMENT,
     ROLL,
     ROLL_TOTAL,
@@ -35,7 +37,11 @@ from ..forces.kinds import (
     VECTORS,
 )
 from ..forces.rod_forces import compute_rod_forces
-from ..forces.spectrum import take_gas
+from ..forces.spectrum import (
+    check_orders,
+    compute_spectra,
+    take_gas,
+)
 from ..shell.arguments import check_count, tell_arguments
 from ..show.csv import Columns, Rows
 from ..show.formats import Columnar
@@ -86,6 +92,40 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
         crank_deg: Crank angles, shape (angles,).
     """
     found = _sum_parts(engine, crank_deg, lambda angles: _compute_engine_parts(engine, angles))
+    return _add_upright(engine, found)
+
+
+def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Array) -> Curves:
+    """Return the same figures as `compute_engine_curves`, with gas if there is some, as the sum of
+    some orders alone.
+
+    Args:
+        engine: Engine without trailing axes.
+        orders: multiples of 1/2.
+        crank_deg: shape (angles,).
+
+    Raises:
+        BalcliError: a number that is no order.
+    """
+    kinds = EVERY_KIND if engine.gas is not None else KINDS
+    spectra = compute_spectra(engine, check_orders(orders), tuple(kinds))
+    curves: dict[str, Array] = {}
+    for kind, phasors in spectra.items():
+        values, most = phasors.values(np.radians(crank_deg)), float(phasors.major.sum())
+        curves[kind.key_along("x") if kind.vector else kind.key] = _settle(values.real, most)
+        if kind.vector:
+            curves[kind.key_along("y")] = _settle(values.imag, most)
+    found = Curves(
+        engine=engine.name,
+        speed_rpm=float(engine.speed_rpm),
+        crank_deg=crank_deg,
+        curves=curves,
+    )
+    return _add_upright(engine, found)
+
+
+def _add_upright(engine: Engine, found: Curves) -> Curves:
+    """Return the curves of an engine with those by which way is up, if that is known."""
     curves = dict(found.curves)
     if engine.up_deg is not None:
         for kind in VECTORS:
@@ -109,7 +149,7 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    row = find_row(engine, number, "--cylinder")
+    row = find_row(engine, number)
     return _sum_parts(
         engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
     )
@@ -158,8 +198,10 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
     arms = (np.conj(places)[:, None] * force).imag
-    couple = np.concatenate([_couple_of_cylinders(motion), arms])
-    torque = _torque_of_cylinders(motion)
+    turning = engine.find_turning_inertia(beyond_pins=True)
+    momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
+    couple = np.concatenate([_couple_of_cylinders(motion), arms, momentum])
+    torque = np.concatenate([_torque_of_cylinders(motion), energy])
     return {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,
@@ -248,13 +290,20 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
     return found
 
 
-def _settle(values: Array) -> Array:
-    """Return the values, with those that are only rounding errors of the largest set to 0."""
-    return np.where(np.abs(values) <= _ROUNDING * np.abs(values).max(initial=0), 0.0, values)
+def _settle(values: Array, most: float | None = None) -> Array:
+    """Return values in which rounding errors next to the largest value, or to `most`, are 0."""
+    largest = np.abs(values).max(initial=0) if most is None else most
+    return np.where(np.abs(values) <= _ROUNDING * largest, 0.0, values)
 
 
 @tell_arguments(step="step_deg")
-def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None) -> Curves:
+def curves(
+    engine: Engine,
+    step_deg: float = 1.0,
+    *,
+    cylinder: int | None = None,
+    orders: Iterable[float] | None = None,
+) -> Curves:
     """Return force, moment, couple, torque and roll over the crank angle, or the motion of one
     piston.
 
@@ -264,6 +313,7 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
             cycle.
         cylinder: Number of the cylinder whose piston travel, speed, acceleration and rod angle are
             wanted, with its pressure if it has gas; default: the whole engine.
+        orders: Orders of the whole engine whose sum alone is wanted; default: all.
 
     Returns:
         `crank_deg` and, by name with unit (`force_x_N`), `curves` of the same shape (angles,).
@@ -281,18 +331,28 @@ def curves(engine: Engine, step_deg: float = 1.0, *, cylinder: int | None = None
     engine = check_engine("curves", engine)
     step = check_number("step_deg", step_deg, "give a step in degrees")
     number = None if cylinder is None else check_count("cylinder", cylinder)
-    return compute_curves_by_step(engine, number, step)
+    return compute_curves_by_step(engine, number, step, orders)
 
 
-def compute_curves_by_step(engine: Engine, cylinder: int | None, step_deg: float) -> Curves:
+def compute_curves_by_step(
+    engine: Engine,
+    cylinder: int | None,
+    step_deg: float,
+    orders: Iterable[float] | None = None,
+) -> Curves:
     """Return the curves at equal steps over a cycle; errors as for `curves`.
 
     Args:
         engine: Engine without trailing axes.
         cylinder: Number of the cylinder whose motion is wanted; None: the whole engine.
         step_deg: Step of the crank angle, deg.
+        orders: Orders whose sum is wanted; None: all.
     """
     crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
+    if orders is not None:
+        if cylinder is not None:
+            raise BalcliError("--orders: of the whole engine; leave --cylinder out")
+        return compute_order_curves(engine, orders, crank_deg)
     if cylinder is None:
         found = compute_engine_curves(engine, crank_deg)
     else:

@@ -185,8 +185,10 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
         note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
     rows = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
-        disc = [_length(size, length, 3) for size in (p.disc_radius_mm, p.disc_thickness_mm)]
-        disc = [UNKNOWN, UNKNOWN] if isinstance(device, Slider) else disc  # a slider is no disc
+        disc = [UNKNOWN, UNKNOWN]
+        if not (isinstance(device, Slider) or p.disc_radius_mm is None):  # it is a disc
+            thickness = p.disc_thickness_mm or 0.0
+            disc = [_length(size, length, 3) for size in (p.disc_radius_mm, thickness)]
         at_speed = (given(p.speed_rpm), number(force.of(p.force_N)), number(mass.of(p.mass_kg)))
         rows.append((f"{k} {name_kind(device)}", *at_speed, *disc))
     units = (f"force, {force.name}", f"mass, {mass.name}")

@@ -12,7 +12,7 @@ import typer
 from ..errors import BalcliError, warn
 from ..limits import MOST_ANALYSED_SPEEDS
 from ..shell.file_names import format_option, text_format
-from ..shell.options import PARTS, parse_speed
+from ..shell.options import OF_ONE, parse_speed
 from ..shell.values import optional, parse_speeds
 from ..show.formats import Format
 
@@ -98,8 +98,7 @@ class Request(NamedTuple):
         if self.marine:
             given |= {"--only": bool(self.parts), "--why": self.why}
         elif self.over_speed:
-            of_one = (*PARTS, "journals", "masses")
-            given |= {f"--only {word}": word in self.parts for word in of_one}
+            given |= {f"--only {word}": word in self.parts for word in OF_ONE}
         for option in (option for option, is_given in given.items() if is_given):
             if self.marine:
                 raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")

@@ -142,13 +142,17 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         yield _textbook_table(MOMENT, book, note, every)
 
 
-def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
-    """Return a table of one cylinder's share, with size and angle of each rotating vector.
+def cylinder_tables(
+    cylinder: int, share: Spectra, system: System, *, about_crank: bool
+) -> Iterator[Grid]:
+    """Yield tables of one cylinder's share, as lecturers list it: vectors as size and angle, couple
+    and torques as amplitude and phase.
 
     Args:
         cylinder: Number of the cylinder.
-        share: Spectra of the cylinder.
+        share: Its spectra.
         system: System of units.
+        about_crank: Whether couple and torques are wanted.
     """
     heads, columns = ["order"], [list(map(order_name, share.orders))]
     for kind, phasors in share.vectors():
@@ -156,7 +160,17 @@ def cylinder_table(cylinder: int, share: Spectra, system: System) -> Grid:
         for way, part in (("with", phasors.forward), ("against", phasors.backward)):
             heads.append(f"{kind.name} {way}, {unit.name}")
             columns.append([_tell_vector(v, unit) for v in part.tolist()])
-    return Grid(f"Cylinder {cylinder} alone", tuple(heads), tuple(zip(*columns, strict=True)))
+    title = f"Cylinder {cylinder} alone"
+    if len(heads) > 1:
+        yield Grid(title, tuple(heads), tuple(zip(*columns, strict=True)))
+        title += ", about the crank"
+    if about_crank and (scalars := share.scalars()):
+        unit = system.moment
+        names = (f"{kind.name}, {unit.name}" for kind, _ in scalars)
+        cells = ([_tell_vector(c, unit) for c in p.x.conj().tolist()] for _, p in scalars)
+        rows = tuple(zip(columns[0], *cells, strict=True))
+        note = "Value = amplitude · cos(order · θ − angle)."
+        yield Grid(title, ("order", *names), rows, note)
 
 
 def _tell_vector(v: complex, unit: ShownUnit) -> str:

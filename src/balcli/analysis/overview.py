@@ -6,15 +6,17 @@ counterweights can cancel it, and which part needs shafts.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..core.phasors import Phasors, wrap_degrees
+from ..core.cylinders import Device, DeviceKind
+from ..core.phasors import Array, Complex, Phasors, wrap_degrees
 from ..file.fields import join_words
 from ..file.messages import ordinal
-from ..forces.kinds import MOMENT, ROLL, ROLL_TOTAL, Kind
-from ..forces.spectrum import Spectra
+from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
+from ..forces.spectrum import Spectra, compute_spectra
 from ..limits import SMALL
 from ..show.engine_facts import tell_pivot
 from ..show.sheet import (
@@ -33,6 +35,7 @@ from ..sizing.residual import Scales, is_small
 from .order_tables import fit_largest, peak_facts, vector_cells
 
 if TYPE_CHECKING:
+    from ..engine.engine import Engine
     from .answer import Analysis
 
 
@@ -149,9 +152,11 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
+_ROUNDING = 1e-9  # share of a force or moment below which a sum of opposite ones is 0
 _MOST_WORDS = 25  # words in a sentence
 _MOST_NAMED = 5  # orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
+_NAMED = {"moment": "longitudinal moment"}  # the couple is a moment, too
 _SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
     "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
@@ -182,7 +187,7 @@ class _Vector(NamedTuple):
         """Return size and direction in words: `force of 4 N along x`. If the file gives `frame.up`,
         the axis is also called vertical or horizontal.
         """
-        told = f"{self.kind.name} of {self.tell_size(k)}"
+        told = f"{_NAMED.get(self.kind.name, self.kind.name)} of {self.tell_size(k)}"
         if not directed:
             return told
         for sense, turning in _SENSES.items():
@@ -199,21 +204,21 @@ class _Vector(NamedTuple):
 
 
 class _Order(NamedTuple):
-    """An order and the parts of its sentence in the verdict.
+    """An order, and the parts of its sentence in the verdict.
 
     Attributes:
-        k, order: Index of the order, and the order.
-        large: Those of force and moment that are not small.
-        rest: Those of force and moment that are small.
-        couple: Roll couple in words, if the moment is balanced and the couple is not.
-        cures: Devices that would cancel the vectors that are not small, by sense of rotation.
+        k, order: Its index, and the order.
+        large: Force and moment, as far as they are not small.
+        rest: Force and moment, as far as they are small.
+        couple: Whether its transverse couple was computed and is balanced.
+        cures: Devices that would cancel the parts that are not small, by sense of rotation.
     """
 
     k: int
     order: float
     large: list[_Vector]
     rest: list[_Vector]
-    couple: str
+    couple: bool
     cures: Mapping[int, str]
 
     @property
@@ -221,20 +226,20 @@ class _Order(NamedTuple):
         """Whether force and moment are balanced."""
         return not self.large and all(vector.phasors.balanced[self.k] for vector in self.rest)
 
+    @property
+    def name(self) -> str:
+        """The order in words, as a sentence begins with it."""
+        n = int(self.order)
+        if self.order % 1:
+            return f"Order {order_name(self.order)}"
+        return f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
+
     def tell(self) -> str:
         """Return the sentence on the order: the most detailed one that is not too long."""
-        n = int(self.order)
-        name = f"{_NAMES[n - 1] if n <= len(_NAMES) else ordinal(n)} order"
-        if self.order % 1:
-            name = f"Order {order_name(self.order)}"
-        if not self.large:
-            names = " and ".join(vector.kind.name for vector in self.rest)
-            return f"{name}: {self.couple}; {names} {'balanced' if self.balanced else 'small'}."
         told = ""
         for directed, sizes in ((True, True), (True, False), (False, False)):
             there = " and ".join(one.describe(self.k, directed=directed) for one in self.large)
-            there = ", ".join(filter(None, (there, self.couple)))
-            told = f"{name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
+            told = f"{self.name}: {'; '.join(filter(None, (there, self._tell_cure(sizes))))}."
             if len(told.split()) <= _MOST_WORDS:
                 break
         return told
@@ -248,7 +253,7 @@ class _Order(NamedTuple):
         if self.order > 2:
             return f"usually left: its shafts would turn at {self.order:g} times crank speed"
         one = self.large[0] if len(self.large) == 1 else None
-        everything = "both" if one is None else f"the {one.kind.name}" if self.couple else "it"
+        everything = "both" if one is None else "it"
         devices = [*self.cures.values()]
         if len(devices) == 1:
             (sense,) = self.cures
@@ -259,7 +264,8 @@ class _Order(NamedTuple):
                 return f"{cancel} what turns {_SENSES[sense]}"
             return f"{cancel} {one.tell_size(self.k, sense)} of it"
         if self.order == 2:
-            return f"shafts at +2 and -2 cancel {everything}"
+            further = "further " * any("further" in device for device in devices)
+            return f"{further}shafts at +2 and -2 cancel {everything}"
         if one and sizes:
             ahead, against = (one.tell_size(self.k, sense) for sense in self.cures)
             return f"{devices[0]} cancel {ahead} of it, {devices[1]} the other {against}"
@@ -273,17 +279,21 @@ def verdict(
     *,
     small: float = SMALL,
     steady: bool = True,
+    devices: Sequence[Device] = (),
+    omega: float = 0.0,
 ) -> tuple[str, ...]:
-    """Return a sentence for every order that is not small, and one on the others, each of at most
-    25 words; empty if the spectra have no force or moment.
+    """Return a sentence for every order to 2 that is not small, one on higher orders that are not,
+    and one on the others, each of at most 25 words; none without forces and moments.
 
     Args:
         spectra: Spectra to judge.
         system: System of units.
-        scales: Force, moment and roll of one cylinder; None: not known, and no part is small.
-        small: Share of one cylinder below which a part is small.
-        steady: Whether the speed is steady. If not, no device is named, because an order may come
-            mostly from another order through the uneven speed, and would vanish with that.
+        scales: What one cylinder makes; None: not known, and nothing is small.
+        small: Share of it below which a part is small.
+        steady: Whether the speed is. If not, no cure is named: most of an order may come from
+            another one through the unevenness, and vanishes with that one.
+        devices: Devices of the file; a device that turns like one of these is a further one.
+        omega: Crank speed, rad/s, for the force of compensators among the devices.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -299,54 +309,170 @@ def verdict(
             for vector in vectors
         }
         due = {sense for found in senses.values() for sense in found}
-        moments = (vector for vector in vectors if vector.kind is MOMENT)
-        couple = 0.0
-        if spectra.couple and order <= 2 and all(one.phasors.balanced[k] for one in moments):
-            couple = float(spectra.couple.major[k])
-        told = couple > NEGLIGIBLE * of_one.get("roll", 0.0)
         return _Order(
             k=k,
             order=order,
             large=[vector for vector, found in senses.items() if found],
             rest=[vector for vector, found in senses.items() if not found],
-            couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
-            cures=_find_cures(order, due) if steady else {},
+            couple=spectra.couple is not None and bool(spectra.couple.balanced[k]),
+            cures=_find_cures(order, due, devices) if steady else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
-    matter = [one for one in every if one.large or one.couple]
-    told = [one.tell() for one in matter]
-    if not steady and any(one.large for one in every):
+    compensated = {device.order for device in devices if device.compensates}
+    matter = [one for one in every if one.large and one.order not in compensated]
+    high = [one for one in matter if one.order > 2]
+    told = [one.tell() for one in matter if len(high) < 2 or one not in high]
+    for one in every:
+        if one.order in compensated:
+            told.append(_tell_compensated(one, devices, system, omega))
+    if len(high) > 1:
+        told.append(_tell_higher(high))
+    if not steady and matter:
         told.append(_UNEVEN)
-    names = " and ".join(vector.kind.name for vector in vectors)
-    balanced = [one.order for one in every if one.balanced and one not in matter]
-    small_ones = _tell_largest([(one, vector) for one in every for vector in one.rest])
+    names = [vector.kind.name for vector in vectors]
+    balanced = [one.order for one in every if one.balanced and one.order not in compensated]
+    small_ones = _tell_largest(
+        [(one, vector) for one in every if one.order not in compensated for vector in one.rest]
+    )
     if told or small_ones or min(balanced, default=3) <= 2:  # name only orders 1 and 2 then
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
+    if all(one.couple for one in every if one.order in balanced):
+        names.append(COUPLE.name)
     rest = (_tell_balanced(balanced, names), small_ones and f"small: {small_ones}")
     last = "; ".join(filter(None, rest))
     return (*told, sentence(last)) if last else tuple(told)
 
 
-def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
+def _tell_compensated(one: _Order, devices: Sequence[Device], system: System, omega: float) -> str:
+    """Return sentences on an order with moment compensators: the vertical moment (about y, of
+    forces along x), the force that the compensators introduce, and what the engine leaves itself.
+    """
+    pairs = [device for device in devices if device.compensates and device.order == one.order]
+    places = sorted({float(device.z) for device in pairs})
+    square, unit = (one.order * omega) ** 2, system.length
+    where = join_words([f"z = {number(unit.of(z))} {unit.name}" for z in places])
+    named = "compensators" if len(places) > 1 else "compensator"
+    forward = square * sum(complex(device.forward) for device in pairs)
+    backward = square * sum(complex(device.backward) for device in pairs)
+    size = abs(forward + backward.conjugate())
+    rounding = _ROUNDING * square * sum(abs(complex(device.forward)) for device in pairs)
+    introduced = f"a force of {size_text(size, system.force)} by design"
+    introduced = introduced if size > rounding else "no force"
+    by_kind = {vector.kind: vector for vector in (*one.large, *one.rest)}
+    told = []
+    if (moment := by_kind.get(MOMENT)) is not None:
+        vertical, across = (abs(part[one.k]) for part in (moment.phasors.y, moment.phasors.x))
+        noise = float(np.broadcast_to(moment.phasors.noise, moment.phasors.x.shape)[one.k])
+        left = f"of {size_text(vertical, system.moment)} left with"
+        is_balanced = vertical <= max(noise, _ROUNDING * moment.scale)
+        told.append(
+            f"{one.name}: vertical moment {'balanced by' if is_balanced else left} the {named} at "
+            f"{where}; the {named} introduce{'s' * (len(places) == 1)} {introduced}."
+        )
+        if across > NEGLIGIBLE * moment.scale:
+            told.append(f"Moment left: up to {size_text(across, system.moment)} about x.")
+    if (force := by_kind.get(FORCE)) is not None:
+        own = force.phasors.forward[one.k] - forward, force.phasors.backward[one.k] - backward
+        if (largest := float(sum(map(abs, own)))) > NEGLIGIBLE * force.scale:
+            most = size_text(largest, system.force)
+            told.append(f"The engine's own force of this order is up to {most}.")
+    return " ".join(told)
+
+
+_RODS = "the rods"
+
+
+def find_couple(result: Analysis) -> Phasors | None:
+    """Return the orders of the transverse couple that are not negligible, by the size that counts
+    for moments; None if there are none.
+    """
+    couple, least = result.spectra.couple, NEGLIGIBLE * result.scales.moment
+    if couple is None:
+        return None
+    due = (couple.orders > 0) & (couple.major > least)
+    return couple.select_orders(couple.orders[due]) if due.any() else None
+
+
+def tell_couple(result: Analysis, system: System) -> str:
+    """Return a sentence on the largest transverse couple and its causes; empty if all orders of it
+    are negligible.
+    """
+    if (couple := find_couple(result)) is None:
+        return ""
+    k = int(np.argmax(couple.major))
+    order, size = couple.orders[k], size_text(float(couple.major[k]), system.moment)
+    causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
+    told = f"Transverse couple: up to {size} (order {order_name(order)}), from {join_words(causes)}"
+    alone = causes == [_RODS] and result.engine.cylinders.linkage is None
+    return f"{told}{'; rods with H = 0 have none' * alone}."
+
+
+def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
+    """Return what makes the transverse couple in some orders, in words: parts are added to the rods
+    one after the other, and each that changes the couple is a cause.
+
+    Args:
+        engine: Engine.
+        orders: Orders, shape (orders,).
+        least: Smallest couple that counts, N m.
+    """
+    c, z = engine.cylinders, engine.reference_m[2]
+    steady = replace(engine, ripple=())
+    about_crank = replace(steady, devices=(), reference_m=(0.0, 0.0, z))
+    rods = replace(about_crank, cylinders=replace(c, reciprocating=0 * c.reciprocating))
+    pistons = "pistons in cylinders that turn" if engine.rotary else "offset pistons"
+    steps = {
+        _RODS: rods,
+        pistons: about_crank,
+        "forces that pass the reference at a distance": steady,
+        "the acceleration of turning parts": engine,
+    }
+    before: Complex = np.zeros(len(orders), complex)
+    causes = []
+    for cause, state in steps.items():
+        couple = compute_spectra(state, orders, [COUPLE.name])[COUPLE.name].x
+        if np.any(np.abs(couple - before) > least):
+            causes.append(cause)
+        before = couple
+    return causes
+
+
+def _find_cures(order: float, due: Collection[int], devices: Sequence[Device]) -> dict[int, str]:
     """Return the devices that would cancel the vectors of an order that turn in these senses, by
     sense.
     """
     if order % 1:
         return {}  # no device turns at half orders
-    ratios = {sense: round(order) * sense for sense in sorted(due, reverse=True)}
-    return {s: "counterweights" if n == 1 else f"a shaft at {n:+d}" for s, n in ratios.items()}
+    cures = {}
+    alike = [one for one in devices if one.order == order and one.kind is not DeviceKind.SLIDER]
+    for sense in sorted(due, reverse=True):
+        there = any(np.any(one.forward if sense > 0 else one.backward) for one in alike)
+        further, ratio = "further " * there, round(order) * sense
+        cures[sense] = (
+            f"a {further}shaft at {ratio:+d}" if ratio != 1 else f"{further}counterweights"
+        )
+    return cures
 
 
-def _tell_balanced(orders: Sequence[float], names: str) -> str:
-    """Return in words which orders are balanced."""
-    if not orders:
-        return ""
-    which = f"{len(orders)} orders"
-    if len(orders) <= _MOST_NAMED:
-        which = f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
-    return f"{names} of {which} {'are' if ' ' in names else 'is'} balanced"
+def _tell_higher(high: Sequence[_Order]) -> str:
+    """Return one sentence on several orders above 2 that are not small."""
+    largest = _tell_largest([(one, vector) for one in high for vector in one.large])
+    left = "; usually left" * any(one.cures for one in high)
+    return sentence(f"{name_orders([one.order for one in high])}: {largest}{left}")
+
+
+def name_orders(orders: Sequence[float]) -> str:
+    """Return these orders by their numbers, or how many there are."""
+    if len(orders) > _MOST_NAMED:
+        return f"{len(orders)} orders up to {order_name(max(orders))}"
+    return f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"
+
+
+def _tell_balanced(orders: Sequence[float], names: list[str]) -> str:
+    """Return in words what is balanced in these orders; empty without orders."""
+    return f"{name_orders(orders)}: {join_words(names)} balanced" if orders else ""
 
 
 def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:
@@ -357,6 +483,6 @@ def _tell_largest(found: Sequence[tuple[_Order, _Vector]]) -> str:
     for one, vector in found:
         size, name = float(vector.phasors.major[one.k]), vector.kind.name
         if size > largest.get(name, (0.0, ""))[0]:
-            text = f"{name} of {vector.tell_size(one.k)} (order {order_name(one.order)})"
+            text = f"{vector.describe(one.k, directed=False)} (order {order_name(one.order)})"
             largest[name] = size, text
     return ", ".join(text for _, text in largest.values())

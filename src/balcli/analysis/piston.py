@@ -9,7 +9,9 @@ velocity is its integral. The extremes are those of these series.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Annotated, Literal
 
 import numpy as np
@@ -20,7 +22,11 @@ from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
+from ..engine.build import build
 from ..engine.engine import Engine, check_engine, find_row
+from ..engine.load import FiguresOfVariants
+from ..file.model import EngineFile
+from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..show.csv import Rows
 from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer
@@ -31,6 +37,11 @@ from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 # Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
+_USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and Table 1-5
+    "Usual rod ratios of car engines: {:.3f} to {:.3f}; mean speed of high-speed engines: above {} "
+    "(Lu and Meng, 1990)."
+)
+_HIGH_SPEED = 9.0  # m/s
 _SAMPLES = 32  # samples per period of the highest order, to count minima
 
 
@@ -217,7 +228,7 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    find_row(result.engine, number, "--cylinder")
+    find_row(result.engine, number)
     chosen = [each for each in result.mechanisms if number in each.cylinders]
     return replace(result, mechanisms=tuple(replace(each, cylinders=(number,)) for each in chosen))
 
@@ -272,6 +283,39 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
     )
 
 
+# ------------------------------------------------------------------ quantities of variants
+_PARTS = ("mean_speed", "max_speed", "max_acceleration", "stroke")
+
+
+def list_names(_: EngineFile) -> Iterator[str]:
+    """Yield the names of the quantities of piston 1, and of any other."""
+    for stem in ("piston", "piston.N"):
+        yield from (f"{stem}.{part}" for part in _PARTS)
+
+
+def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
+    """Raise BalcliError if a quantity is of a cylinder that the engine does not have."""
+    there = list(map(str, sorted(build(model).numbers)))
+    for q in (q for q in quantities if q.target):
+        refuse_stranger(q, there)
+
+
+def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
+    """Return the value of each quantity of one engine, SI."""
+    found = analyze_pistons(engine).mechanisms
+    of_cylinder = {number: one for one in found for number in one.cylinders}
+    return [_read_quantity(of_cylinder[int(q.target or 1)], q.part) for q in quantities]
+
+
+def _read_quantity(motion: PistonMotion, part: str) -> float:
+    speed = max(motion.velocity.max_m_per_s, -motion.velocity.min_m_per_s)
+    found = motion.mean_speed_m_per_s, speed, motion.acceleration.max_m_per_s2, motion.stroke_m
+    return dict(zip(_PARTS, found, strict=True))[part]
+
+
+Variants = partial(FiguresOfVariants, evaluate_engine)
+
+
 # ------------------------------------------------------------------ how it is shown
 _TWO_TERM = {  # figures of the two terms, by the paths of the exact figures
     "velocity.max_m_per_s": "velocity_max_m_per_s",
@@ -314,12 +358,15 @@ def sheet(result: Pistons, system: System) -> Sheet:
     )
     heads = ("", *(head for head, _ in columns))
     facts = Facts((("speed", tell_speed(result.engine, steady=True)),))
+    speed = choose_unit("mean_speed_m_per_s", system)
+    high_speed = f"{number(speed.of(_HIGH_SPEED))} {speed.name}"
+    notes.append(_USUAL.format(1 / 3.8, 1 / 3.2, high_speed))
     grid = Grid("Piston motion", heads, rows, " ".join(dict.fromkeys(notes)))
     return Sheet(result.engine.name or NAMELESS, (facts, *assumed_facts(result.assumed), grid))
 
 
-def _choose_unit(name: str, system: System) -> ShownUnit:
-    """Return the unit in which a figure is shown, by its path."""
+def choose_unit(name: str, system: System) -> ShownUnit:
+    """Return the unit in which people read a figure, by its path."""
     unit = find_unit(name)
     shown = {"m": system.length, "m³": system.volume}
     if system is IMPERIAL:
@@ -328,14 +375,14 @@ def _choose_unit(name: str, system: System) -> ShownUnit:
 
 
 def _write(name: str, value: float, system: System) -> str:
-    return number(_choose_unit(name, system).of(value))
+    return number(choose_unit(name, system).of(value))
 
 
 def _label(name: str, system: System) -> str:
     """Return the label of a figure, with its unit."""
     plain = remove_unit(name).removesuffix("_own").replace("center", "centre")
     plain = plain.replace("type", "minima").replace(".", " ").replace("_", " ")
-    return name_with_unit(plain, _choose_unit(name, system).name)
+    return name_with_unit(plain, choose_unit(name, system).name)
 
 
 def rows(result: Pistons, system: System) -> Rows:

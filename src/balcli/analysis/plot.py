@@ -5,20 +5,37 @@ crankshaft.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import cycle as repeat
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.phasors import Array, Phasors
+from ..core.phasors import Array, Phasors, unit as unit_vector
+from ..engine.engine import Engine, find_row
 from ..forces.crankshaft import AlongCrank
-from ..show.plot_style import BLUE, GREEN, RED, SOFT, Look, put_legend_above
+from ..show.plot_style import (
+    BLUE,
+    GREEN,
+    INK,
+    MANY_LOOKS,
+    PAPER,
+    RED,
+    SOFT,
+    Look,
+    put_legend_above,
+)
 from ..show.sheet import VISIBLE, number, order_name, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import FactorPeaks
+from .crank_drive import CrankTorques, weigh_cylinders
+from .curves import compute_curves_by_step, compute_cylinder_curves
 from .order_tables import fit_largest
+from .piston import analyze_pistons, choose_cylinder, choose_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 _LOOKS = ((BLUE, "-", ""), (RED, (0, (5, 1.5)), "////"), (GREEN, (0, (1.5, 1)), "...."))
@@ -202,3 +219,109 @@ def draw_along(
             ax.vlines(z, 0, sizes / s.size, label=label, **look)
     ax.set(ylabel=f"{what}, {s.name}", ylim=(0, None))
     put_legend_above(ax)
+
+
+# ------------------------------------------------------------------ crank drive
+_STEP = 0.5  # deg
+_MOTIONS = {  # titles, by names of curves
+    "travel_m": "Piston {}: travel from the outer dead centre",
+    "velocity_m_per_s": "Velocity towards the crank",
+    "acceleration_m_per_s2": "Acceleration towards the crank",
+}
+_FORCES = ("side thrust", "rod force")
+_ON_PAPER = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
+
+
+def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> None:
+    """Draw travel, velocity and acceleration of a piston over its own crank angle, and below them,
+    with gas of known pressure, side thrust and rod force over the cycle.
+
+    Args:
+        fig: Empty figure, whose height is set.
+        engine: Engine without trailing axes; its mean speed counts.
+        number: Number of the cylinder.
+        system: System of units.
+
+    Raises:
+        BalcliError: The engine has no such cylinder.
+    """
+    steady, row = replace(engine, ripple=()), find_row(engine, number)
+    found = choose_cylinder(analyze_pistons(steady), number).mechanisms[0]
+    own_deg = np.arange(0.0, 360 + _STEP / 2, _STEP)
+    turned = own_deg - float(np.ravel(engine.cylinders.angle_deg)[row])
+    curves = compute_cylinder_curves(steady, number, turned).curves
+    outer, inner = found.outer_dead_center_own_deg % 360, found.inner_dead_center_own_deg
+    v, a = found.velocity, found.acceleration
+    extremes = (
+        ((inner, found.stroke_m), (outer, 0.0)),
+        ((v.max_own_deg, v.max_m_per_s), (v.min_own_deg, v.min_m_per_s)),
+        ((a.max_own_deg, a.max_m_per_s2), (a.min_own_deg, a.min_m_per_s2)),
+    )
+    cycle = None if engine.gas is None else compute_curves_by_step(steady, number, _STEP)
+    known = cycle is not None and "rod_force_N" in cycle.curves
+    fig.set_figheight(0.6 + 2.4 * (3 + known))
+    axes = fig.subplots(3 + known, 1)
+    for ax, (name, title), peaks in zip(axes, _MOTIONS.items(), extremes, strict=False):
+        unit = choose_unit(name, system)
+        points = [(angle, value / unit.size) for angle, value in peaks]
+        _draw_motion(ax, own_deg, curves[name] / unit.size, points)
+        for angle in (outer, inner):
+            ax.axvline(angle, color=INK, linewidth=0.9, linestyle=":")
+        ax.set(title=title.format(number), ylabel=unit.name)
+    put_legend_above(axes[0])
+    places = f"dead centres, {outer:.4g} and {inner:.4g}"
+    axes[2].set_xlabel(f"crank angle from the cylinder's axis, deg; dotted: {places}")
+    if cycle is not None and known:
+        forces = {name: cycle.curves[f"{name.replace(' ', '_')}_N"] for name in _FORCES}
+        draw_curves(axes[3], np.radians(cycle.crank_deg), forces, "force", system.force)
+        axes[3].set_title("Side thrust and rod force over the cycle")
+
+
+def _draw_motion(
+    ax: Axes, own_deg: Array, exact: Array, extremes: Sequence[tuple[float, float]]
+) -> None:
+    """Draw a motion over a revolution, its first two harmonics and, dashed, their sum with the
+    mean; mark the highest and the lowest point.
+    """
+    mean, *waves = np.fft.rfft(exact[:-1], norm="forward")[:3]
+    parts = [2 * (c * unit_vector(n * own_deg)).real for n, c in enumerate(waves, 1)]
+    for order, (part, color) in enumerate(zip(parts, (RED, GREEN), strict=True), 1):
+        ax.plot(own_deg, part, color=color, linewidth=0.9, label=f"order {order}")
+    dashed = _DASHED | {"color": INK, "linewidth": 0.9, "zorder": 3}
+    ax.plot(own_deg, mean.real + sum(parts), label="mean and orders 1, 2", **dashed)
+    ax.plot(own_deg, exact, color=BLUE, linewidth=2.2, label="exact")
+    for (angle, value), side in zip(extremes, (1, -1), strict=True):
+        beside = (angle < 20) - (angle > 340)  # inwards from an edge of the picture
+        ax.plot([angle], [value], "o", color=INK, markersize=4, zorder=4)
+        shift, align = (6 * beside, 9 * side), ("center", "left", "right")[beside]
+        label: Look = {"xytext": shift, "textcoords": "offset points", "ha": align, "va": "center"}
+        ax.annotate(number(value), (angle, value), fontsize=7.5, bbox=_ON_PAPER, **label)
+    ax.axhline(0, color=SOFT, linewidth=0.7)
+    ax.margins(y=0.2)
+    ax.locator_params(axis="y", nbins=6)
+    set_crank_axis(ax, own_deg, "")
+
+
+def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
+    """Draw the torque in every main journal over the cycle, at the mean speed.
+
+    Args:
+        ax: Axes to draw on.
+        engine: Engine without trailing axes.
+        unit: Unit of the torques.
+
+    Raises:
+        BalcliError: The crank of a rotary engine stands still.
+    """
+    cycle_deg = 360.0 if engine.gas is None else engine.gas.cycle_deg
+    degrees = np.arange(0.0, cycle_deg + _STEP / 2, _STEP)
+    torques, angle = CrankTorques.of(engine), np.radians(degrees)
+    mains = [each for each in weigh_cylinders(engine).items() if each[0].startswith("main")]
+    curves = {place: torques.sample(angle, weights) for place, weights in mains}
+    s = unit.fit(max(float(np.abs(curve).max()) for curve in curves.values()))
+    for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
+        ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
+    set_crank_axis(ax, degrees)
+    what = "inertia" if engine.gas is None else "gas and inertia"
+    ax.set(ylabel=f"torque, {s.name}", title=f"Torque in the main journals, of {what}")
+    ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))

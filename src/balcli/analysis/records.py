@@ -2,12 +2,13 @@
 moments, strokes, devices, journals and masses.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, NamedTuple
 
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
-from ..core.records import INLINE, Reached, WrittenAs, remove_unit
+from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -260,7 +261,7 @@ class Counterweight(NamedTuple):
 
 
 class Shaft(NamedTuple):
-    """A balancer shaft, at crank angle 0.
+    """A balancer shaft, as it stands at crank angle 0.
 
     Attributes:
         ratio: Speed over crank speed; negative: it turns against the crank.
@@ -269,6 +270,7 @@ class Shaft(NamedTuple):
         at_mm: Position of its axis: x, y.
         position_mm: Position along the crank.
         free: Whether the shaft may be anywhere.
+        role: Compensator; left out of balancer shafts.
     """
 
     ratio: int
@@ -277,6 +279,7 @@ class Shaft(NamedTuple):
     at_mm: tuple[float, ...]
     position_mm: float
     free: bool
+    role: str | None = None
 
 
 class Slider(NamedTuple):
@@ -341,16 +344,22 @@ def describe_devices(remedy: Remedy) -> Devices:
     )
     return Devices(
         tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
-        tuple(Shaft._make([*_list_values(d, Shaft), free]) for d, free in shafts),
+        tuple(_describe_shaft(shaft, free) for shaft, free in shafts),
         tuple(Slider(*_list_values(d, Slider)) for d in remedy.sliders),
     )
+
+
+def _describe_shaft(shaft: model.Shaft, free: bool) -> Shaft:
+    role = None if shaft.role == "balancer" else shaft.role
+    return Shaft._make([*_list_values(shaft, Shaft), free, role])
 
 
 def _list_values(device: DeviceTable, record: Any) -> list[Any]:
     """Return the values of a device for the attributes of a record, which are named like the keys
     of the file, with units.
     """
-    return [find_value(device, remove_unit(key)) for key in record._fields if key != "free"]
+    others = ("free", "role")
+    return [find_value(device, remove_unit(key)) for key in record._fields if key not in others]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
@@ -412,6 +421,146 @@ class Journal(NamedTuple):
     position_mm: float | None = None
     total: JournalTorque | None = None
     stress: ShearStress | None = None
+
+
+class ShaftBearing(NamedTuple):
+    """Load of one bearing of a balancer shaft.
+
+    Attributes:
+        position_mm: Place along the crank.
+        rotating_N: Constant load that turns with the shaft, of its eccentrics.
+        fixed_N: Load that stands still, of the gear force.
+        largest_N: Largest load over a turn: the sum of both.
+        rotating_deg: Direction of the turning load at crank angle 0; left out without load.
+        fixed_deg: Direction of the other; left out without load.
+    """
+
+    position_mm: float
+    rotating_N: float
+    fixed_N: float
+    largest_N: float
+    rotating_deg: float | None = None
+    fixed_deg: float | None = None
+
+
+class ShaftGear(NamedTuple):
+    """The gear that drives a balancer shaft against its drag.
+
+    Attributes:
+        tangential_N: Tangential force.
+        radial_N: Radial force, towards the axis of the shaft.
+        power_W: Power of the drag.
+    """
+
+    tangential_N: float
+    radial_N: float
+    power_W: float
+
+
+class BalancerShaft(NamedTuple):
+    """A balancer shaft with all its eccentrics. Directions count from x, deg, in (-180, 180].
+
+    Attributes:
+        name: Name of the shaft.
+        ratio: Speed over crank speed; negative: it turns against the crank.
+        inertia_at_crank_kg_m2: Its moment of inertia times the square of the ratio.
+        bearings: Its bearings; left out, like all that follows, where the file gives none.
+        bending_Nm: Largest bending moment of the turning loads.
+        bending_position_mm: Its place; left out where nothing bends the shaft.
+        gear: Its gear; left out where the file gives none.
+    """
+
+    name: str
+    ratio: int
+    inertia_at_crank_kg_m2: float
+    bearings: tuple[ShaftBearing, ...] | None = None
+    bending_Nm: float | None = None
+    bending_position_mm: float | None = None
+    gear: ShaftGear | None = None
+
+
+class CounterweightPart(NamedTuple):
+    """A counterweight; all beyond its unbalance only of a sector.
+
+    Attributes:
+        position_mm: Place along the crank.
+        angle_deg: Angle from cylinder 1's crank pin, in (-180, 180].
+        unbalance_kg_m: Unbalance.
+        mass_kg: Mass.
+        center_of_mass_m: Distance of its center of mass from the crank axis.
+        thickness_m: Thickness.
+        inertia_kg_m2: Polar moment of inertia about the crank axis.
+        clearance_m: Least distance of a piston's lowest edge from the rim, as if each piston stood
+            at its inner dead centre over the counterweight; left out without `piston.skirt`.
+    """
+
+    position_mm: float
+    angle_deg: float
+    unbalance_kg_m: float
+    mass_kg: float | None = None
+    center_of_mass_m: float | None = None
+    thickness_m: float | None = None
+    inertia_kg_m2: float | None = None
+    clearance_m: float | None = None
+
+
+class BalanceParts(NamedTuple):
+    """Balancer shafts and counterweights as parts.
+
+    Attributes:
+        shafts: Balancer shafts.
+        counterweights: Counterweights.
+    """
+
+    shafts: tuple[BalancerShaft, ...]
+    counterweights: tuple[CounterweightPart, ...]
+
+    @property
+    def doubts(self) -> Iterator[str]:
+        """Warnings: counterweights that meet a piston."""
+        for number, part in enumerate(self.counterweights, 1):
+            if part.clearance_m is not None and part.clearance_m < 0:
+                gap = f"{1e3 * part.clearance_m:.4g} mm"
+                yield (
+                    f"counterweight.{number} has a clearance of {gap} to the lowest piston; make "
+                    "its outer radius smaller"
+                )
+
+
+def write_need(need: str | None) -> str | None:
+    """Return the need of a compensator."""
+    return need
+
+
+class RelatedMoment(NamedTuple):
+    """Power related unbalance of an order.
+
+    Attributes:
+        order: Order.
+        moment_Nm: Largest free moment; null where it is not known.
+        Nm_per_kW: This moment over the power; null where it is not known.
+        need: Need of a compensator; null where the moment is not known.
+    """
+
+    order: int
+    moment_Nm: Annotated[float, HIDDEN]
+    Nm_per_kW: float
+    need: Annotated[str | None, WrittenAs(write_need, "class")]
+
+
+class PowerRelatedUnbalance(NamedTuple):
+    """Free moments over the power, as builders of marine engines list them.
+
+    Attributes:
+        power_W: Power.
+        power_kind: Source of the power: file (the brake power that it gives), or brake or indicated
+            power of the gas.
+        orders: Orders 1 and 2.
+    """
+
+    power_W: float
+    power_kind: str
+    orders: tuple[RelatedMoment, ...]
 
 
 class Masses(NamedTuple):

@@ -11,7 +11,9 @@ import numpy as np
 
 from ..core.phasors import Array
 from ..errors import MOMENTS_UNKNOWN
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, VECTORS
+from ..forces.curves import find_constant_inertia
+from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
+from ..forces.spectrum import Spectra
 from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
@@ -32,7 +34,7 @@ from . import sections
 from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
-    cylinder_table,
+    cylinder_tables,
     direction_tables,
     gas_grid,
     order_tables,
@@ -41,20 +43,23 @@ from .order_tables import (
     textbook_tables,
 )
 from .overview import (
+    find_couple,
     find_orders_that_matter,
     roll_and_peaks,
+    tell_couple,
     tell_others,
     vectors_grid,
     verdict,
 )
 
+_UNCOUNTED = (
+    "Couple and torque count pistons, rods and throw masses only; give [crank] inertia and "
+    "[flywheel] for all turning parts."
+)
 Part: TypeAlias = Grid | Facts | Text
-TEXTS = frozenset(
-    {"verdict", "sizing", "ladder", "textbook"}
-)  # parts that are shown without the crank speed
-TABLES = frozenset(
-    {"xy", "textbook", "sizing", "ladder", "peak", "inner", "guide", "journals", "masses"}
-)  # parts that are shown without a verdict
+STEADY = ("journals", "masses", "parts", "pru")  # words in which an uneven speed does not count
+TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
+TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
 
 
 def sheet(result: Analysis, system: System, view: View = IN_BRIEF) -> Sheet:
@@ -72,20 +77,22 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     if not view.parts or view.whole:
         higher = result.has_higher_orders
         yield engine_facts(result.engine, system, higher=higher, whole=view.whole)
-    elif view.parts - TEXTS:
-        yield speed_facts(result.engine, steady=view.parts <= {"journals", "masses"})
-        if view.parts.intersection(EXTRAS):
-            yield from assumed_facts(result.assumed)
+    else:
+        if view.parts - TEXTS:
+            yield speed_facts(result.engine, steady=view.parts <= {*STEADY})
+        yield from assumed_facts(result.assumed)
     if not view.parts <= TABLES or not view.parts:
         yield from _judge(result, system)
     if view.parts or view.whole:
         yield from _chosen_order_parts(result, system, view)
     else:
         yield from _order_parts_in_brief(result, system, view)
+    yield from _tell_uncounted(result)
     for share in result.cylinders or ():
         spectra = share.spectra.with_moment_if(result.moments_known)
-        yield cylinder_table(share.cylinder, spectra, system)
-    yield from _further_parts(result, system, whole=view.whole or bool(view.parts))
+        about_crank = view.whole or bool(view.parts)
+        yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
+    yield from _further_parts(result, system, whole=view.whole)
     if result.ladder is not None:
         yield ladder_grid(result.ladder, result.engine, system)
     if result.sizing is not None:
@@ -101,18 +108,24 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom().lay_out_journals(result.journals, system)
+        yield from import_seldom().lay_out_journals(result.journals, result.engine, system)
     if result.masses is not None:
-        yield _import_seldom().lay_out_masses(result.masses, system)
+        yield import_seldom().lay_out_masses(result.masses, system)
+    if result.power_related_unbalance is not None:
+        yield import_seldom().lay_out_related(result.power_related_unbalance, system)
+    if result.parts is not None:
+        yield from import_seldom("parts").lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
 
 
-def _import_seldom() -> ModuleType:
-    """Return the module of seldom wanted parts: journals and masses."""
-    from . import crank_drive
+def import_seldom(name: str = "crank_drive") -> ModuleType:
+    """Return a module of parts that are seldom asked for: `crank_drive` (journals, masses, power
+    related unbalance), or `parts`.
+    """
+    from . import crank_drive, parts
 
-    return crank_drive
+    return {"crank_drive": crank_drive, "parts": parts}[name]
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -150,6 +163,9 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         shown = find_orders_that_matter(vectors, result.of_one_cylinder)
     if vectors.vectors():
         yield vectors_grid(vectors, shown, system, hints=view.hints)
+    if (couple := find_couple(result)) is not None:
+        alone = Spectra(couple.orders, couple=couple)
+        yield from order_tables(alone, system, tell_pivot(result.engine))
     facts = roll_and_peaks(result, system, every_order=view.every_order)
     if facts.pairs:
         yield facts
@@ -160,6 +176,13 @@ def _order_parts_in_brief(result: Analysis, system: System, view: View) -> Itera
         every_order=view.every_order,
         hints=view.hints,
     )
+
+
+def _tell_uncounted(result: Analysis) -> Iterator[Text]:
+    """Yield a note if the speed is uneven and the file gives no inertia that resists it."""
+    engine, shown = result.engine, result.spectra.only((COUPLE.name, TORQUE.name)).scalars()
+    if engine.ripple and shown and find_constant_inertia(engine) is None:
+        yield Text("Note", (_UNCOUNTED,))
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
@@ -174,10 +197,13 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
+        devices=result.engine.devices,
+        omega=float(result.engine.omega),
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)
-    if told := tuple(filter(None, (*told, rocking, unknown))):  # order 0 needs no verdict
+    couple = tell_couple(result, system)
+    if told := tuple(filter(None, (*told, couple, rocking, unknown))):  # order 0 needs no verdict
         yield Text("Verdict", told)
 
 
@@ -251,9 +277,13 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
     if result.guide is not None:
         yield from sections.list_guide(result.guide, system)
     if result.journals is not None:
-        yield from _import_seldom().list_journal_rows(result.journals)
+        yield from import_seldom().list_journal_rows(result.journals)
     if result.masses is not None:
-        yield from _import_seldom().list_mass_rows(result.masses)
+        yield from import_seldom().list_mass_rows(result.masses)
+    if result.power_related_unbalance is not None:
+        yield from import_seldom().list_related(result.power_related_unbalance)
+    if result.parts is not None:
+        yield from import_seldom("parts").list_part_rows(result.parts)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

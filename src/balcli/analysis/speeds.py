@@ -11,7 +11,7 @@ about the y axis, is also called vertical: M1V is My of order 1, M1H is its Mx.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -33,13 +33,14 @@ from ..show.sheet import (
     NamedResult,
     Sheet,
     Text,
+    assumed_facts,
     capitalized,
     given,
     order_name,
     size_text,
 )
 from . import sections, show as analysis_show
-from .answer import Analysis, analyze
+from .answer import Analysis, analyze, has_power
 from .comparison import (
     Line,
     analyze_alike,
@@ -50,7 +51,7 @@ from .comparison import (
     show_sizes,
 )
 from .devices_show import ladder_grid
-from .records import Includes, name_included
+from .records import Includes, PowerRelatedUnbalance, name_included
 from .sections import define_guide_moments
 
 if TYPE_CHECKING:
@@ -100,7 +101,7 @@ def analyze_speeds(
     Raises:
         BalcliError: As for `analyze_one`.
     """
-    engines = [replace(engine, speed_rpm=speed) for speed in speeds_rpm]
+    engines = [engine.at_speed(speed) for speed in speeds_rpm]
     asked = None if orders is None else list(orders)
     return SpeedSeries(
         engine=engine,
@@ -190,6 +191,7 @@ class MarineSheet:
         assumed: Values that are used because the engine file leaves them out.
         speeds: Amplitudes by speed and order.
         lines: Amplitudes by order and figure, with a value for each speed.
+        related: Power related unbalance at the rated speed; None without a power.
         every_order: Whether tables show negligible orders as well.
     """
 
@@ -201,6 +203,7 @@ class MarineSheet:
     assumed: tuple[str, ...] | None = None
     speeds: tuple[MarineSpeed, ...]
     lines: Annotated[tuple[Line, ...], HIDDEN]
+    related: Annotated[PowerRelatedUnbalance | None, HIDDEN] = None
     every_order: Annotated[bool, HIDDEN] = False
 
     @property
@@ -230,20 +233,20 @@ def find_marine_sheet(
         BalcliError: An order is invalid or too high.
     """
     torque = TORQUE if engine.gas is None else TORQUE_TOTAL
-    ask = partial(
-        analyze, only=("force", "moment", "guide", torque.name), guide_height_m=guide_height_m
-    )
+    words = ["force", "moment", "guide", torque.name, *(["pru"] if has_power(engine) else [])]
+    ask = partial(analyze, only=words, guide_height_m=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
-    found = analyze_alike([replace(engine, speed_rpm=speed) for speed in speeds], orders, ask)
+    found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)
     guide = found[0].guide
     listed = [_list_amplitudes(one, torque.name) for one in found]
     return MarineSheet(
-        engine=replace(engine, speed_rpm=speeds[0]),
+        engine=engine.at_speed(speeds[0]),
         includes=name_included(engine.gas is not None),
         height_m=np.array([]) if guide is None else guide.height_m,
         assumed=found[0].assumed,
         speeds=tuple(map(MarineSpeed, speeds, listed)),
         lines=_list_lines(found, listed),
+        related=found[0].power_related_unbalance,
         every_order=every_order or orders is not None,
     )
 
@@ -315,6 +318,8 @@ def _parts(one: NamedResult[SpeedSeries], system: System) -> Iterator[Facts | Gr
     if not view.parts or view.whole:
         higher = first.has_higher_orders
         yield engine_facts(first.engine, system, higher=higher, whole=view.whole, speeds_rpm=speeds)
+    else:
+        yield from assumed_facts(first.assumed)
     kinds = dict.fromkeys(line.kind for line in series.lines)
     if not (view.parts or view.whole):  # the brief form
         roll = ROLL if first.engine.gas is None else ROLL_TOTAL
@@ -384,6 +389,8 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
             speeds, whole = result.speeds_rpm, result.every_order
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
+    if result.related is not None:
+        parts.append(analysis_show.import_seldom().lay_out_related(result.related, system))
     notes = (_AXES, define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 

@@ -197,7 +197,7 @@ def combine_engines(
         arrangement=arrangement,
         state=describe_state(first),
         spectra=visible,
-        assumed=list_assumed(("first", "second"), (first, second)),
+        assumed=list_assumed(("first", "second"), [e.list_assumed("gas") for e in (first, second)]),
         peak=find_peaks(_compute_sum(one, other, arrangement, computed)),
         every_order=asked is not None,
     )
@@ -225,7 +225,7 @@ def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
         RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
         for line in leader.ripple
     )
-    return replace(engine, speed_rpm=leader.speed_rpm, ripple=ripple)
+    return replace(engine.at_speed(leader.speed_rpm), ripple=ripple)
 
 
 def place_spectra(

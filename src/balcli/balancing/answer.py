@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.answer import Analysis, analyze
+from ..analysis.parts import find_parts
+from ..analysis.records import BalanceParts
 from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
@@ -27,7 +29,7 @@ from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import EngineFile
+from ..file.model import EngineFile, Sector, Shaft
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
@@ -39,8 +41,9 @@ from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.schemes import FIT, KNUCKLES, LADDER, SCHEMES
 from ..sizing.sizing import size
-from ..sizing.workshop import Practical, Tools, find_practical
+from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
 
+SHAPES = ("name", "bearings", "sector")  # keys of new devices as parts
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
 
@@ -74,6 +77,7 @@ class Balance(Result):
         permitted: Residual unbalance that a grade permits, if one was given.
         every_order: Whether orders were given; then all of them are shown.
         ladder: Ladder of the engine; None where articulated rods are changed.
+        parts: New shafts in their bearings and new counterweights as sectors, if shapes were given.
     """
 
     remedy: Remedy
@@ -85,6 +89,7 @@ class Balance(Result):
     permitted: PermittedUnbalance | None = None
     every_order: bool = False
     ladder: Ladder | None = None
+    parts: BalanceParts | None = None
 
     @property
     def summary(self) -> str:
@@ -100,22 +105,24 @@ def balance_engine(
     options: SchemeOptions | None = None,
     orders: Iterable[float] | None = None,
     tools: Tools | None = None,
+    shapes: Shapes | None = None,
 ) -> Balance:
     """Return the devices that a scheme fits, and the analyses without and with them.
 
-    Devices are sized for a steady speed; both analyses include an uneven speed.
+    Devices are sized for a steady speed; under uneven speed both analyses include it.
 
     Args:
-        engine: Engine without trailing axes.
-        scheme: Name of the scheme, such as "counterweights" or "factor"; `balcli balance --schemes`
-            lists and explains all schemes.
-        options: Options of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
-        orders: Orders to show; default: 1, 2 and all that are not negligible before or after.
-        tools: Tools of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
+        engine: without trailing axes.
+        scheme: its name, such as "counterweights" or "factor"; `balcli balance --schemes` lists and
+            explains all schemes.
+        options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
+        orders: which to show; default: 1 and 2 and all that are not negligible before or after.
+        tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
+        shapes: of new devices, such as Shapes(bearings=(-0.13, 0.13), sector=(0.03, 0.075, 140)).
 
     Raises:
-        BalcliError: The scheme is unknown, or its options cannot be met.
-        TypeError: An argument has a wrong type.
+        BalcliError: an unknown scheme, or options that cannot be met, with the reason.
+        TypeError: an argument of another type.
 
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
@@ -124,6 +131,7 @@ def balance_engine(
     check_type("balance", scheme, str, 'give the name of a scheme, such as "counterweights"')
     check_type("balance", options, (SchemeOptions, NoneType), "give SchemeOptions(factor=(0.5,))")
     check_type("balance", tools, (Tools, NoneType), "give Tools(radius=0.05)")
+    check_type("balance", shapes, (Shapes, NoneType), "give Shapes(bearings=(-0.1, 0.1))")
     orders = None if orders is None else tuple(list_values("orders", orders))
     asked = options or SchemeOptions()
     if scheme == "minimax" and orders is not None:
@@ -133,10 +141,10 @@ def balance_engine(
     if scheme in LADDER:
         asked.check(scheme)
         ladder = find_ladder(engine, asked.read_small())
-        return _answer(engine, ladder.fit(asked.step), orders, tools, ladder)
+        return _answer(engine, ladder.fit(asked.step), orders, tools, ladder, shapes)
     remedy = size(engine, scheme, asked)
     start = engine if remedy.start is None else remedy.start
-    return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()))
+    return _answer(start, remedy, orders, tools, find_ladder(start, asked.read_small()), shapes)
 
 
 def balance_fit(
@@ -170,14 +178,19 @@ def _answer(
     orders: Iterable[float] | None,
     tools: Tools | None,
     ladder: Ladder,
+    shapes: Shapes | None = None,
 ) -> Balance:
     """Return a remedy with its analyses and its figures for the workshop."""
-    tools = tools or Tools()
+    tools, shapes, parts = tools or Tools(), shapes or Shapes(), None
+    remedy = shape_devices(engine, remedy, shapes)
+    shafts = () if shapes.bearings is None else remedy.shafts
+    if shafts or any(weight.sector for weight in remedy.counterweights):
+        parts = find_parts(engine, shafts, remedy.counterweights)
     practical = find_practical(engine, remedy, tools)
     before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
     note = _UNEVEN if engine.ripple else ""
-    every = orders is not None
-    return Balance(remedy, before, after, practical, tools, note, every_order=every, ladder=ladder)
+    found = Balance(remedy, before, after, practical, tools, note, ladder=ladder, parts=parts)
+    return replace(found, every_order=orders is not None)
 
 
 def analyze_both(
@@ -223,7 +236,7 @@ def permit_unbalance(
 
 # Options of the command line are fields of `SchemeOptions` and `Tools`.
 balance = tell_arguments(
-    **{name: name for name in dict.fromkeys((*SchemeOptions._fields, *Tools._fields))}
+    **{name: name for kind in (SchemeOptions, Tools, Shapes) for name in kind._fields}
 )(balance_engine)
 balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
@@ -321,7 +334,7 @@ def balance_knuckles(
     )
     old, new = build(model), build(found.model)
     if speed_rpm is not None:
-        old, new = replace(old, speed_rpm=speed_rpm), replace(new, speed_rpm=speed_rpm)
+        old, new = old.at_speed(speed_rpm), new.at_speed(speed_rpm)
     before, after = analyze_both(old, new, orders)
     return Balance(remedy, before, after, every_order=orders is not None)
 
@@ -447,6 +460,15 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 def _list_entries(device: DeviceTable) -> Node:
     """Return the keys and values of a device for TOML."""
-    given = [(key, getattr(device, key)) for key in FIELDS[type(device)]]
-    values = ((key, value) for key, value in given if value is not None)
-    return {key: [*value] if isinstance(value, tuple) else value for key, value in values}
+    given = {key: getattr(device, key) for key in FIELDS[type(device)]}
+    entries = {key: _write(value) for key, value in given.items() if value is not None}
+    shapes = {key: _write(getattr(device, key)) for key in SHAPES if device.has(key)}
+    if isinstance(device, Shaft) and device.role != "balancer":
+        shapes["role"] = device.role
+    return shapes | entries
+
+
+def _write(value: object) -> object:
+    if isinstance(value, Sector):
+        return value.model_dump(include=value.model_fields_set)
+    return [*value] if isinstance(value, tuple) else value

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..analysis.devices_show import explain_holes, tell_rim
 from ..errors import BalcliError, legible
 from ..show.sheet import NAMELESS, capitalized, degrees, number, sentence
-from ..show.units import IMPERIAL, POUND, SI
+from ..show.units import IMPERIAL, SI, ShownUnit
 from ..sizing.bobweights import NO_THROW
 from ..sizing.factor import name_one_cylinder
 from ..sizing.planes import find_unbalance
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 
 WIDTH = 80
-OUNCE_G = 1e3 * POUND / 16
 _RULE, _HEAVY = "─" * WIDTH, "═" * WIDTH
 _INDENT = "  "
 _NAMES = 56  # width of the first two columns
@@ -48,11 +47,12 @@ def name_pins(pins: Sequence[Bobweight]) -> str:
     return f"pin{'s' if len(pins) > 1 else ''} {names}"
 
 
-def multiply(line: CardLine) -> str:
+def multiply(line: CardLine, unit: ShownUnit = SI.scales) -> str:
     """Return the terms of a line's sum: `2 × 775`, or `775 + 780`."""
+    each = [number(unit.of(mass_g / 1e3)) for mass_g in line.each_g]
     if len(set(line.each_g)) == 1:
-        return f"{len(line.each_g)} × {number(line.each_g[0])}"
-    return " + ".join(map(number, line.each_g))
+        return f"{len(each)} × {each[0]}"
+    return " + ".join(each)
 
 
 def percent(share: float) -> str:
@@ -175,7 +175,7 @@ def _row(left: str, right: str) -> str:
 
 
 def _weight(grams: float) -> tuple[str, str]:
-    return f"{grams:.1f}", f"{grams / OUNCE_G:.2f}"
+    return f"{grams:.1f}", f"{IMPERIAL.scales.of(grams / 1e3):.2f}"
 
 
 def _unbalance(kg_m: float) -> tuple[str, str]:

@@ -18,7 +18,7 @@ from ..file.edit import set_speed
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import format_of, format_option, require_ending, text_format
-from ..shell.inputs import read_engine
+from ..shell.inputs import read_engine, warn_each
 from ..shell.options import (
     EnginePath,
     Orders,
@@ -31,13 +31,21 @@ from ..shell.options import (
 )
 from ..shell.output import emit, refuse_leaving_files, refuse_overwriting, show, write_file
 from ..shell.scheme_options import choose_scheme, complete_schemes, parse_scheme_options
-from ..shell.values import optional, read_length, read_mass, read_number
+from ..shell.values import (
+    optional,
+    read_angle,
+    read_length,
+    read_lengths,
+    read_mass,
+    read_number,
+    read_share,
+)
 from ..show.formats import Format, Units
 from ..sizing.options import SchemeOptions
 from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, SCHEMES
 
 if TYPE_CHECKING:
-    from ..sizing.workshop import Tools
+    from ..sizing.workshop import Shapes, Tools
     from .answer import Balance
 
 
@@ -107,6 +115,11 @@ Width = Annotated[
     str | None,
     optional("MM", "Room for holes along z; default: of a throw."),
 ]
+Bearings = Annotated[str | None, optional("Z1,Z2", "Bearings of the new shafts, along z in mm.")]
+SectorOption = Annotated[
+    str | None,
+    optional("INNER,OUTER,OPENING", "New counterweights as sectors: radii in mm, deg.", "--sector"),
+]
 Target = Annotated[
     str | None,
     optional(
@@ -114,6 +127,12 @@ Target = Annotated[
         'What devices with unbalance = "fit" cancel: force, moment, roll, roll_total; default: '
         "force,moment.",
     ),
+]
+Direction = Annotated[str | None, optional("DEG", "Direction of the force to leave, from x.")]
+Ratio = Annotated[str | None, optional("SHARE", "Smallest over largest force to leave: 50%.")]
+Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
+Criterion = Annotated[
+    str | None, optional("largest|mean", "Force that it makes small; default: largest.")
 ]
 Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
@@ -166,6 +185,31 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
     return Tools(**found)
 
 
+def parse_shapes(
+    units: Units, bearings: str | None, sector: str | None
+) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
+    """Return the figures of `Shapes`; each argument is an option as typed, or None.
+
+    Args:
+        units: Units of the command.
+        bearings: Places of two bearings.
+        sector: Inner radius, outer radius and opening.
+
+    Raises:
+        BalcliError: A text that cannot be read.
+    """
+    places = None
+    if bearings is not None:
+        wanted = "the places of two bearings along z in mm, such as -130,130"
+        places = read_lengths("--bearings", bearings, wanted, 2, units)
+    if sector is None:
+        return places, None
+    wanted = "inner and outer radius in mm and opening in deg, such as 30,75,140"
+    radii, _, opening = sector.rpartition(",")
+    lengths = read_lengths("--sector", radii, wanted, 2, units)
+    return places, (*lengths, read_angle("--sector", opening))
+
+
 def parse_grade(text: str | None) -> float | None:
     """Return the grade of `--grade` (`16` or `G16`), mm/s."""
     if text is None:
@@ -209,6 +253,12 @@ def _check_even(scheme: str, options: SchemeOptions) -> None:
         raise BalcliError("scheme knuckles: has no option but --even")
 
 
+def _refuse_shapes(shapes: Shapes, scheme: str) -> None:
+    """Raise BalcliError for shapes of new devices of a scheme without any."""
+    if any(shapes) and scheme in (FIT, KNUCKLES):
+        raise BalcliError(f"--bearings and --sector are for new devices; scheme {scheme} adds none")
+
+
 def balance(
     path: EnginePath,
     scheme: Scheme = None,
@@ -223,6 +273,10 @@ def balance(
     step: Step = None,
     small: Small = None,
     target: Target = None,
+    direction: Direction = None,
+    ratio: Ratio = None,
+    design: Design = None,
+    criterion: Criterion = None,
     radius: Radius = None,
     thickness: Thickness = None,
     disc: Disc = None,
@@ -230,6 +284,8 @@ def balance(
     max_depth: MaxDepth = None,
     slug: Slug = None,
     width: Width = None,
+    bearings: Bearings = None,
+    sector: SectorOption = None,
     even: Even = None,
     grade: Grade = None,
     mass: Mass = None,
@@ -254,15 +310,22 @@ def balance(
     form = choose_balance_format(output, form)
     require_ending(write, ".toml", "--write")
     from ..sizing.fit import list_to_fit, remove_to_fit
-    from ..sizing.workshop import HolesDoNotFitError
+    from ..sizing.workshop import HolesDoNotFitError, Shapes
     from . import answer
 
     options = parse_scheme_options(
         order, at, position, planes, factor, measured, roll, units, small
     )
-    options = options._replace(step=step)
+    options = options._replace(
+        step=step,
+        direction=None if direction is None else read_angle("--direction", direction),
+        ratio=None if ratio is None else read_share("--ratio", ratio, "a share such as 50%"),
+        design=design,
+        criterion=criterion,
+    )
     lengths = {"radius": radius, "thickness": thickness, "disc": disc, "drill": drill}
     tools = parse_tools(units, slug, **lengths, max_depth=max_depth, width=width)
+    shapes = Shapes(*parse_shapes(units, bearings, sector))
     grade_mm_s = parse_grade(grade)
     mass_kg = None if mass is None else read_mass("--mass", mass, units)
     asked, rpm = parse_orders(orders), parse_speed(speed)
@@ -276,6 +339,7 @@ def balance(
     fits = open_devices or target is not None or scheme == FIT
     if fits:
         _check_fit(name_file(path), scheme, options, open_devices)
+    _refuse_shapes(shapes, scheme)
     wanted = None if target is None else [each.strip() for each in target.split(",")]
 
     def find(tools: Tools) -> Balance:
@@ -285,7 +349,7 @@ def balance(
             _check_even(scheme, options)
             goal = even or "dead-centres"
             return answer.balance_knuckles(model, goal, asked, float(engine.speed_rpm))
-        return answer.balance_engine(engine, scheme, options, asked, tools)
+        return answer.balance_engine(engine, scheme, options, asked, tools, shapes)
 
     misfit = None
     try:
@@ -295,6 +359,7 @@ def balance(
         result = find(tools._replace(**dict.fromkeys(holes)))
     permitted = answer.permit_unbalance(result.remedy, grade_mm_s, mass_kg, float(engine.speed_rpm))
     result = replace(result, permitted=permitted)
+    warn_each(() if result.parts is None else result.parts.doubts, name_file(path))
     if write is not None and misfit is None:
         refuse_leaving_files(text, path, write)
         new = answer.insert_remedy(text, result.remedy, name_file(path))

@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 from ..core.records import Node, find_unit, remove_unit
 from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
-from ..show.units import System
+from ..show.units import ShownUnit, System
 from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
 from ..sizing.factor import name_one_cylinder
-from ..sizing.planes import measure_direction
+from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
 from .bobweight_page import group_equal_pins, multiply, name_pins, percent
 
@@ -53,16 +53,30 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
             (_name(each), f"{_show(each, system)}{remarks.get(each.key, '')}") for each in details
         )
         yield Facts(tuple(pairs), "Details")
+    if compensators := tuple(_tell_compensators(result, system)):
+        yield Facts(compensators, "Compensators")
     if remedy.needs:
         yield _needs_grid(remedy.needs, system)
     if remedy.card:
-        yield _card_grid(remedy.card)
+        yield _card_grid(remedy.card, system)
     if remedy.sweep:
         known = result.before.moments_known
         rows = (row if known else replace(row, peak_moment_Nm=nan) for row in remedy.sweep)
         yield _sweep_grid(tuple(rows), system)
     if optima := remedy.details.get("optima"):
         yield _optima_grid(optima)
+
+
+def _tell_compensators(result: Balance, system: System) -> Iterator[tuple[str, str]]:
+    """Yield place, force and masses of each compensator."""
+    remedy = result.remedy
+    for each in remedy.details.get("compensators", ()):
+        pair = [shaft for shaft in remedy.shafts if shaft.position == each["position_mm"]]
+        mass = size_text(find_unbalance(pair[0]), system.unbalance)
+        angles = " and ".join(f"{shaft.angle:.4f} deg (at {shaft.ratio:+d})" for shaft in pair)
+        place = f"{number(system.length.of(each['position_mm'] / 1e3))} {system.length.name}"
+        force = size_text(each["force_N"], system.force)
+        yield f"at z = {place}", f"force of {force}; 2 masses of {mass} at {angles}"
 
 
 def tell_change(result: Balance, system: System) -> str:
@@ -72,13 +86,13 @@ def tell_change(result: Balance, system: System) -> str:
     details, unit = result.remedy.details, system.unbalance
     if not (changes := details.get("change")):
         return ""
-    what = [
-        f"{one['action']} {size_text(abs(one['unbalance_kg_m']), unit)} opposite "
-        f"{'the pin' if len(changes) == 1 else 'pin ' + str(one['throw'])}"
-        if one["unbalance_kg_m"]
-        else f"nothing at pin {one['throw']}"
-        for one in changes
-    ]
+    sizes = [one["unbalance_kg_m"] for one in changes]
+    alike = all(abs(size - sizes[0]) <= 1e-9 * abs(sizes[0]) for size in sizes)
+    everywhere, what = "each pin" if len(sizes) > 1 else "the pin", []
+    for one, size in zip(changes, sizes, strict=True):
+        pin = everywhere if alike else f"pin {one['throw']}"
+        done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
+        what.append(done if size else f"nothing to do at {pin}")
     has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])
     return f"It has the factor {has}; you want {wanted}: {', '.join(dict.fromkeys(what))}."
 
@@ -105,7 +119,7 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
     for key, value in result.remedy.details.items():
         if isinstance(value, dict) and key != "best":
             yield from (_Figure(key, name, figure) for name, figure in value.items())
-        elif key not in ("best", "optima", "change"):
+        elif key not in ("best", "optima", "change", "compensators"):
             yield _Figure("", key, value)
     if result.speed_note:
         yield _Figure("", "speed", result.speed_note)
@@ -123,7 +137,8 @@ def _choose_figures(result: Balance) -> list[_Figure]:
             each = each._replace(value=nan)
         if result.before.engine.gas is not None and each.key in _ROLLS[0]:
             each = each._replace(key=each.key.replace("roll", "roll_of_inertia"))
-        if {"left", "before"}.intersection(each.key.split("_")) and order and not each.group:
+        states = {"left", "before", "after"}.intersection(each.key.split("_"))
+        if states and order and not each.group:
             each = each._replace(group=f"order {order}")  # other orders may leave more
         chosen.append(each)
     return chosen
@@ -157,13 +172,13 @@ def _show(figure: _Figure, system: System) -> str:
         words = isinstance(value[0], str)
         return ", ".join(value) if words else f"{', '.join(map(degrees, value))} deg"
     if figure.key.endswith("_g"):
-        return f"{number(value)} g"
+        return f"{number(system.scales.of(value / 1e3))} {system.scales.name}"
     if unit == "deg":
         return f"{value + 0.0:.3f} deg".replace("-0.000", "0.000")
     if not unit:
         return percent(value) if figure.key.startswith("factor") else number(value)
     shown = system.unbalance if unit == "kg·m" else system.instead_of(unit)
-    return f"{number(shown.of(value / 1e3 if unit == 'mm' else value))} {shown.name}"
+    return size_text(value / 1e3 if unit == "mm" else value, shown)
 
 
 def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
@@ -209,39 +224,41 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
     return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
 
 
-def _card_grid(card: tuple[Bobweight, ...]) -> Grid:
-    """Return the table of the card, quantity x each = sum, in grams in both systems of units, as a
-    balancing shop's scales show them. Equal pins share a column.
-    """
+def _card_grid(card: tuple[Bobweight, ...], system: System) -> Grid:
+    """Return quantity x each = sum; equal pins stand in one column."""
+    unit = system.scales
     columns = group_equal_pins(card)
     weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)
     labels = list(dict.fromkeys(line.part for line in weighed))
-    rows = [(part, *(_line_cell(pins[0], part) for pins in columns)) for part in labels]
+    rows = [(part, *(_line_cell(pins[0], part, unit) for pins in columns)) for part in labels]
     sums = {
         "rotating": "rotating_g",
         "reciprocating": "reciprocating_g",
         f"bobweight ({percent(card[0].factor)})": "bobweight_g",
     }
     for name, key in sums.items():
-        rows.append((name, *(number(getattr(pins[0], key), 5) for pins in columns)))
+        sizes = (unit.of(getattr(pins[0], key) / 1e3) for pins in columns)
+        rows.append((name, *(number(size, 5) for size in sizes)))
     heads = ("", *map(name_pins, columns))
-    return Grid("Bobweight card, g for each pin", heads, tuple(rows))
+    return Grid(f"Bobweight card, {unit.name} for each pin", heads, tuple(rows))
 
 
-def _line_cell(bobweight: Bobweight, part: str) -> str:
+def _line_cell(bobweight: Bobweight, part: str, unit: ShownUnit) -> str:
     line = next((line for line in bobweight.lines if line.part == part), None)
-    return "–" if line is None else f"{multiply(line)} = {number(line.sum_g, 5)}"
+    if line is None:
+        return "–"
+    return f"{multiply(line, unit)} = {number(unit.of(line.sum_g / 1e3), 5)}"
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     force, moment = system.force, system.moment
     unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    weight = ("bobweight, g", f"weight, {unbalance.name}")
+    weight = (f"bobweight, {system.scales.name}", f"weight, {unbalance.name}")
     heads = ("factor", *weight, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
     rows = tuple(
         (
             percent(row.factor),
-            number(row.bobweight_g),
+            number(system.scales.of(row.bobweight_g / 1e3)),
             number(unbalance.of(row.counterweight_kg_m)),
             *(number(force.of(v)) for v in (row.peak_force_N, row.along_N, row.across_N)),
             number(moment.of(row.peak_moment_Nm)),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
@@ -20,13 +20,14 @@ from ..analysis.devices_show import (
     practical_grid,
 )
 from ..analysis.order_tables import fit_largest
-from ..analysis.overview import name_column
-from ..analysis.records import Devices, PeaksAndOrders, describe_devices
+from ..analysis.overview import name_column, name_orders, tell_couple
+from ..analysis.parts import lay_out_parts
+from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN
 from ..forces.crankshaft import CrankLoads, find_crank_loads
-from ..forces.kinds import COUPLE, FORCE, MOMENT, ROLL, ROLL_TOTAL, Kind
+from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
 from ..show.csv import Columns, Rows
@@ -89,6 +90,8 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts += [device_grid(remedy, system), practical_grid(remedy, result.practical, system)]
         if any(figures.holes for figures in result.practical):
             parts.append(holes_grid(remedy, result.practical, result.tools, system))
+        if result.parts is not None:
+            parts += lay_out_parts(result.parts, system)
     elif remedy.beyond:
         parts.append(
             Text("Fitted devices", ("Shafts that no engine file describes; see Details.",))
@@ -98,6 +101,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     notes = (
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
+        _tell_couple(result, system),
         _tell_bearings(result, system),
         tell_best_factors(result, system),
         _tell_negligible(result, loads),
@@ -116,9 +120,9 @@ def sheet(result: Balance, system: System) -> Sheet:
 
 
 def _tell_left(result: Balance, system: System) -> str:
-    """Return in words the forces, moments and couple of orders 1 and 2 that a step leaves."""
+    """Return words on the forces and moments of orders 1 and 2 that a step leaves."""
     known, left = result.after.moments_known, []
-    kinds = (FORCE, MOMENT, COUPLE) if known else (FORCE,)
+    kinds = (FORCE, MOMENT) if known else (FORCE,)
     spectra = compute_spectra(result.after.engine, [1, 2], [kind.name for kind in kinds])
     for k, order in enumerate((1, 2)):
         sizes = [(kind, float(spectra[kind.name].major[k])) for kind in kinds]
@@ -131,6 +135,14 @@ def _tell_left(result: Balance, system: System) -> str:
         return f"Leaves {'; '.join(left)}."
     what = "force or moment" if known else "force"
     return f"Leaves no {what} of orders 1 and 2."
+
+
+def _tell_couple(result: Balance, system: System) -> str:
+    """Return words on the transverse couple that the devices leave as it was; empty if it is
+    negligible, or if they change it.
+    """
+    before, after = (tell_couple(one, system) for one in (result.before, result.after))
+    return f"{after} No scheme changes the couple." if after and after == before else ""
 
 
 def _tell_bearings(result: Balance, system: System) -> str:
@@ -215,13 +227,8 @@ def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
     return (change > 0) & (change >= 0.01 * np.maximum(before, after))
 
 
-def _tell_unchanged(values: Iterable[tuple[Kind, float]], system: System) -> str:
-    """Return a line on values that do not change; values of 0 are omitted."""
-    told = [
-        f"{name_column(kind)} of at most {size_text(size, system.unit(kind))}"
-        for kind, size in values
-        if size > 0
-    ]
+def _tell_unchanged(told: Collection[str]) -> str:
+    """Return a line on values that do not change, given in words."""
     return f"Unchanged within 1 %: {', '.join(told)}." if told else ""
 
 
@@ -239,7 +246,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
     changed = (_find_changes(*sizes.swapaxes(0, 1)) & ~small.all(axis=1)) | every
-    left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1]).max(axis=1)
+    left = np.where(changed | small.any(axis=1), 0.0, sizes[:, 1])
     columns = [
         (k, kind, fit_largest(system.unit(kind), *(state[kind.name] for state in states)))
         for k, kind in enumerate(kinds)
@@ -256,30 +263,36 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         )
         for n in np.flatnonzero(changed.any(axis=0))
     )
+    unchanged = []
+    for kind, after in zip(kinds, left, strict=True):
+        if orders := result.before.orders[after > 0].tolist():
+            most = size_text(float(after[after > 0].max()), system.unit(kind))
+            unchanged.append(f"{name_column(kind)} of {name_orders(orders)} (at most {most})")
     if rows:
         heads = [(f"{name_column(kind)}, {unit.name}", "after") for _, kind, unit in columns]
         yield Grid(
             "Largest value by order, before and after",
             ("order", *(head for pair in heads for head in pair)),
             rows,
-            _tell_unchanged(zip(kinds, left.tolist(), strict=True), system),
+            _tell_unchanged(unchanged),
         )
 
 
 def _peaks(result: Balance, system: System) -> Iterator[Grid]:
     """Yield a table of the largest values over a revolution that change."""
-    rows, left = [], []
+    rows, left = [], list[str]()
     for (kind, before), (_, after) in zip(result.before.peaks, result.after.peaks, strict=True):
         if kind is MOMENT and not result.before.moments_known:
             continue
         if not result.every_order and not _find_changes(before.value, after.value):
-            left.append((kind, after.value))
+            size = size_text(after.value, system.unit(kind))
+            left += [f"largest {kind.name} ({size})"] * (after.value > 0)
             continue
         unit = system.unit(kind).fit(max(before.value, after.value))
         rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
     uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
     if rows:
-        notes = (_tell_unchanged(left, system), uneven if result.before.engine.ripple else "")
+        notes = (_tell_unchanged(left), uneven if result.before.engine.ripple else "")
         yield Grid(
             "Largest over a revolution, all orders",
             ("", "before", "at, deg", "after", "at, deg"),
@@ -333,6 +346,7 @@ class BalanceDocument:
         after: Peaks and orders with the devices.
         permitted: Residual unbalance that a balance grade permits in each plane.
         ladder: Devices that balance the engine, step by step.
+        parts: New shafts in their bearings and new counterweights as sectors.
     """
 
     format: Literal["balcli.balance/1"] = "balcli.balance/1"
@@ -348,6 +362,7 @@ class BalanceDocument:
     after: PeaksAndOrders
     permitted: PermittedUnbalance | None = None
     ladder: Ladder | None = None
+    parts: BalanceParts | None = None
 
 
 def _shorten(analysis: Analysis) -> PeaksAndOrders:
@@ -370,6 +385,7 @@ def document(result: Balance) -> Node:
         after=_shorten(result.after),
         permitted=result.permitted,
         ladder=result.ladder,
+        parts=result.parts,
     )
     return to_document(described)
 
@@ -411,8 +427,8 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
         yield "step", "", "", "name", result.remedy.step, ""
     for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
         yield "ladder", step, "", name, value, unit
-    if result.permitted is not None:
-        yield from _rows_of("permitted", result.permitted)
+    yield from _rows_of("permitted", result.permitted)
+    yield from _rows_of("parts", result.parts)
     for state, analysis in (("before", result.before), ("after", result.after)):
         for row in figure_rows(analysis, system):
             yield state, row.quantity, row.order, row.figure, row.value, row.unit
@@ -422,7 +438,8 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
 
 
 def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
-    for name, value in _with_paths(write_each(record)):
+    """Yield the figures of a record; none of None."""
+    for name, value in () if record is None else _with_paths(write_each(record)):
         yield part, "", "", name, value, ""
 
 

@@ -88,12 +88,14 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "tsinghua-1-4": tsinghua.tabulate_extremes,
     "tsinghua-1-5": tsinghua.tabulate_mean_speeds,
     "tsinghua-1-6": tsinghua.tabulate_acceleration,
+    "tsinghua-two-terms": tsinghua.tabulate_two_terms,
     "liu-1": liu.tabulate_paths,
     "liu-2": liu.tabulate_vectors,
     "liu-3": liu.tabulate_sliders,
     "wang-1": wang.tabulate_optimum,
     "kvasnikov-1": series.tabulate_piston,
     "kvasnikov-2": series.tabulate_rod,
+    "kvasnikov-statements": series.tabulate_kvasnikov_statements,
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,
     "series": series.tabulate_series,
@@ -102,8 +104,11 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
 }
 NAMES = tuple(TABLES)
 TAKES = {  # option for another range: the tables that accept it
-    "lambda": (*(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)), "kvasnikov-1", "kvasnikov-2"),
-    "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6"),
+    "lambda": (
+        *(f"tsinghua-1-{k}" for k in (2, 3, 4, 6)),
+        *("tsinghua-two-terms", "wang-1", "kvasnikov-1", "kvasnikov-2"),
+    ),
+    "angle": ("tsinghua-1-2", "tsinghua-1-3", "tsinghua-1-6", "liu-1", "liu-2", "liu-3"),
     "power": ("series",),
 }
 
@@ -116,7 +121,7 @@ def select_tables(
     Args:
         name: Name; None: all tables.
         lam: Range of crank ratios as text, `0.20:0.40:0.01`.
-        angle: Range of crank angles as text, deg.
+        angle: Range of crank or bank angles as text, deg.
         power: Highest power of the crank ratio.
 
     Raises:
@@ -149,23 +154,23 @@ def find_errata(
 def tables(
     name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
 ) -> Table:
-    """Return a printed coefficient table: recomputed figures, printed figures and errata.
+    """Return a printed coefficient table, recomputed, with its print.
 
     Args:
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
-        ratios: Crank ratios (crank radius over rod length) for the columns in place of the printed
-            ones, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Crank angles for the rows in place of the printed ones, deg, in the same form.
+        ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
+            table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
+        angles: Other angles than the printed ones, deg, in the same form: crank angles, in the
+            tables of liu bank angles.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
     Returns:
-        The table: `exact` cells with the headings `columns`, the `printed` texts, and `errata`: the
-        printed figures that differ from the rounded exact ones.
+        The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
+        printed figure that is not the exact one rounded.
 
     Raises:
-        BalcliError: there is no such table (the message suggests the nearest name), or the table
-            does not take a range.
-        TypeError: the name or a range is not a text, or the power is not a whole number.
+        BalcliError: there is no such table, with the nearest name; a range that it does not take.
+        TypeError: the name or a range is no text, the power no whole number.
 
     Example:
         >>> tables("tsinghua-1-2").errata

@@ -39,7 +39,9 @@ Kind = Annotated[
 Lam = Annotated[
     str | None, optional("0.20:0.40:0.01", "Other crank ratios; or a list 0.25,1/3.", "--lambda")
 ]
-Angle = Annotated[str | None, optional("0:180:5", "Other crank angles (degrees).", "--angle")]
+Angle = Annotated[
+    str | None, optional("0:180:5", "Other crank or bank angles (degrees).", "--angle")
+]
 Power = Annotated[
     int | None, optional("N", "Highest power in `series`; default 12.", min=0, max=HIGHEST_POWER)
 ]

@@ -10,13 +10,25 @@ Sliders cancel the components Z_x and Z_y.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import cos, radians
 from typing import TypeAlias
 
 import numpy as np
 
 from ..core.phasors import Array, unit
-from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers, head_rows
+from .recomputed import (
+    Explanation,
+    Print,
+    Ranges,
+    Row,
+    Table,
+    Words,
+    as_cells,
+    as_numbers,
+    head_rows,
+    identify,
+)
 
 Cosine: TypeAlias = Callable[[Array], Array]  # function of an angle in degrees
 ROUGH = "cos 45° taken as 0.706"
@@ -24,6 +36,9 @@ ROUGH = "cos 45° taken as 0.706"
 
 def _cos(degrees: Array) -> Array:
     return unit(degrees).real
+
+
+_LENGTHS = ["length of the path of b''/b from g = 0", "length of the path of b'''/b from g = 0"]
 
 
 def _rough(degrees: Array) -> Array:
@@ -38,49 +53,79 @@ def _rough(degrees: Array) -> Array:
 
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1: radii of the two shafts over gamma, their derivatives, and the ratios of
-    both.
+    """Return Table 1: radii of the two shafts over gamma, their ratio, and the same for the
+    derivatives of the radii. With other angles than the printed ones, the lengths of both paths
+    follow; the text of the source gives them at 180 degrees: 3 b and b.
     """
-    gamma, stub = as_numbers(printed.headings()), printed.column(printed.columns[0])
-    return _compare(printed, lambda cosine: head_rows(stub, _paths(gamma, cosine)))
+    headings = ranges.angle or printed.headings()
+    gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
+    stub += _LENGTHS if ranges.angle else []
+    columns = (printed.columns[0], *headings)
+
+    def compute(cosine: Cosine) -> tuple[Row, ...]:
+        return head_rows(stub, _paths(gamma, cosine)[: len(stub)])
+
+    return _compare(printed, columns, compute, printed.align_cells(stub, columns))
 
 
-def _compare(printed: Print, compute: Callable[[Cosine], tuple[Row, ...]], stub: int = 1) -> Table:
+def _compare(
+    printed: Print,
+    columns: Sequence[str],
+    compute: Callable[[Cosine], tuple[Row, ...]],
+    cells: Sequence[Words],
+    stub: int = 1,
+) -> Table:
     """Return the table of exact rows; rows with the rough cosine explain its errata."""
     rough = Explanation(ROUGH, compute(_rough), "approximation")
-    return printed.compare(printed.columns, compute(_cos), explanations=[rough], stub=stub)
+    return printed.compare(columns, compute(_cos), cells, [rough], stub)
 
 
 def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
     """Return Table 2: the two rotating vectors."""
-    gamma = as_numbers(printed.headings())
-    vectors = [_cos(gamma / 2), _cos(3 * gamma / 2)]
-    rows = head_rows(printed.column(printed.columns[0]), vectors)
-    return printed.compare(printed.columns, rows)
+    headings = ranges.angle or printed.headings()
+    gamma, stub = as_numbers(headings), printed.column(printed.columns[0])
+    columns = (printed.columns[0], *headings)
+    rows = head_rows(stub, [_cos(gamma / 2), _cos(3 * gamma / 2)])
+    return printed.compare(columns, rows, printed.align_cells(stub, columns))
 
 
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:
     """Return Table 3: the sliders' forces over the crank angle alpha, for each gamma."""
-    gammas = [float(text) if text else None for text in printed.column("gamma_deg")]
-    return _compare(printed, lambda cosine: _sliders(printed, gammas, cosine), stub=2)
+    names = [(row[0] or "", row[1]) for row in printed.rows]
+    if ranges.angle is not None:
+        margins = [name for name in names if name[1] is None]
+        names = margins + [(force, gamma) for gamma in ranges.angle for force in ("Zx", "Zy")]
+    cells = {(row[0], identify(row[1] or "")): row for row in printed.rows}
+    nothing = (None,) * len(printed.columns)
+    words = [cells.get((force, identify(gamma or "")), nothing) for force, gamma in names]
+    alpha = as_numbers(printed.headings())
+    compute = partial(_sliders, names, alpha)
+    return _compare(printed, printed.columns, compute, words, stub=2)
 
 
 def _paths(gamma: Array, cosine: Cosine) -> Array:
-    """Return b''/b, b'''/b, their ratio, their derivatives by gamma, and the ratio of the
-    derivatives.
+    """Return b''/b, b'''/b, their ratio, their derivatives by gamma, the ratio of the derivatives,
+    and the lengths of both paths from gamma = 0 over b.
 
     The ratios are computed without division by zero, with x = gamma/2, from -cos 3x/cos x = 3 - 4
     cos^2 x and -3 sin 3x/sin x = 3 - 12 cos^2 x.
     """
     near, far = cosine(gamma / 2), cosine(3 * gamma / 2)
     rates = 1.5 * cosine(3 * gamma / 2 - 90), -0.5 * cosine(gamma / 2 - 90)
-    return np.array(
-        [-far, near, 3 - 4 * _cos(gamma / 2) ** 2, *rates, 3 - 12 * _cos(gamma / 2) ** 2]
-    )
+    ratios = 3 - 4 * _cos(gamma / 2) ** 2, 3 - 12 * _cos(gamma / 2) ** 2
+    lengths = _walk(3 * gamma / 2), _walk(gamma / 2)
+    return np.array([-far, near, ratios[0], *rates, ratios[1], *lengths])
 
 
-def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> tuple[Row, ...]:
-    alpha = as_numbers(printed.headings())
+def _walk(angle: Array) -> Array:
+    """Return the way that the cosine covers from 0 to an angle, deg: 2 in each half turn."""
+    halves, rest = np.divmod(np.abs(angle), 180)
+    return np.asarray(2 * halves + 1 - _cos(rest))
+
+
+def _sliders(
+    names: Sequence[tuple[str, str | None]], alpha: Array, cosine: Cosine
+) -> tuple[Row, ...]:
     double, sine = cosine(2 * alpha), cosine(2 * alpha - 90)
     margin = {"2alpha_deg": 2 * alpha, "cos 2alpha": double, "sin 2alpha": sine}
 
@@ -90,7 +135,8 @@ def _sliders(printed: Print, gammas: Sequence[float | None], cosine: Cosine) -> 
         near, far = cosine(np.array(gamma / 2)), cosine(np.array(3 * gamma / 2))
         return (far - near) * sine if label == "Zx" else (far + near) * double
 
-    return tuple(
-        (label, g, *as_cells(line(label, g)))
-        for label, g in zip(printed.column("row"), gammas, strict=True)
-    )
+    rows: list[Row] = []
+    for label, heading in names:
+        gamma = None if heading is None else float(as_numbers([heading])[0])
+        rows.append((label, gamma, *as_cells(line(label, gamma))))
+    return tuple(rows)

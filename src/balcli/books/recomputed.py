@@ -312,12 +312,12 @@ _PLAIN = re.compile(r"\s*[-+.\d/]{1,30}(e-?\d{1,2})?\s*", re.IGNORECASE)
 
 
 class Ranges(NamedTuple):
-    """Columns and rows in place of the printed ones; None: as printed.
+    """Other columns and rows; None: as printed.
 
     Attributes:
-        lam: Columns: headings that are crank radius over rod length.
-        angle: Rows: headings that are crank angles in degrees.
-        power: Highest power of lambda.
+        lam: columns: crank radius over rod length, as headings.
+        angle: crank angles as rows, or bank angles, in degrees, as headings.
+        power: the highest power of lambda.
     """
 
     lam: tuple[str, ...] | None = None

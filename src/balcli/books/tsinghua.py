@@ -75,6 +75,38 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(columns, rows, printed.align_cells(stub, columns))
 
 
+def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
+    """Sections 1.1.1.1 to 1.1.1.3: largest errors of the formulas of two terms over a revolution,
+    their share of the largest value and of the exact value there; and the largest error relative to
+    the exact value (of the acceleration, which has zeros between 0 and 180 degrees, without bound).
+    """
+    headings = ranges.lam or printed.headings()
+    lam, stub = as_numbers(headings), printed.column(printed.columns[0])
+    psi = np.radians(np.arange(1, 3600) / 20)[:, None]  # 0 and 180 degrees are exact
+    first, second = np.cos(psi), np.cos(2 * psi)
+    travel = _find_errors(1 + lam / 4 - first - lam / 4 * second, sc.displacement(psi, lam))
+    speed = _find_errors(np.sin(psi) + lam / 2 * np.sin(2 * psi), sc.velocity(psi, lam))
+    acceleration = _find_errors(first + lam * second, sc.acceleration(psi, lam))[:-1]
+    columns = (printed.columns[0], *headings)
+    rows = head_rows(stub, [*travel, *speed, *acceleration])
+    return printed.compare(columns, rows, printed.align_cells(stub, columns))
+
+
+def _find_errors(approximate: Array, exact: Array) -> list[Array]:
+    """Return the largest error; in percent of the largest value, and of the smallest value at which
+    it occurs; the largest error relative to the exact value, percent.
+
+    Args:
+        approximate: Approximate values, shape (angles, lambdas).
+        exact: Exact values, of the same shape.
+    """
+    error, size = np.abs(approximate - exact), np.abs(exact)
+    largest = error.max(axis=0)
+    there = np.where(error > largest * (1 - 1e-9), size, np.inf).min(axis=0)
+    relative = (error / size).max(axis=0)
+    return [largest, 100 * largest / size.max(axis=0), 100 * largest / there, 100 * relative]
+
+
 def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
     """Return Table 1-5: usual ranges, which cannot be recomputed."""
     return printed.compare(printed.columns, [tuple(map(_given, words)) for words in printed.rows])

@@ -13,31 +13,45 @@ from __future__ import annotations
 import numpy as np
 
 from ..core.extrema import find_least
+from ..errors import BalcliError
 from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers
 
 SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
 )
 SEARCH = "half-cycle search, theta to 180 deg only: larger forces follow"
+_MOST_RATIOS = 1000  # each takes a search of 40,000 forces
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
-    """Return the true optimum, the author's search, and the largest force over the whole revolution
-    with the printed choice.
+    """Return the true optimum, the printed search, and the force that the printed choice leaves
+    over the whole revolution.
+
+    Raises:
+        BalcliError: there are too many crank ratios.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
-    lams, k0, alpha0 = (
-        as_numbers(printed.column(head)).tolist() for head in ("lambda", "k0", "alpha0_deg")
-    )
+    stub = ranges.lam or printed.column("lambda")
+    words = printed.align_cells(stub, columns)
+    lams = as_numbers(stub).tolist()
+    if len(lams) > _MOST_RATIOS:
+        raise BalcliError(
+            f"{len(lams)} crank ratios are to be searched, and at most {_MOST_RATIOS} can be: take "
+            "larger steps of --lambda"
+        )
     searches = [_half_cycle(lam) for lam in lams]
     rows: list[Row] = []
-    for lam, search, k, alpha in zip(lams, searches, k0, alpha0, strict=True):
-        size, theta = max(_stationary(lam, k * np.exp(1j * np.radians(alpha))))
-        rows.append((lam, *_true(lam), *search, size, theta % 360 % 360))
+    for lam, search, (_, _, k0, alpha0, *_) in zip(lams, searches, words, strict=True):
+        followed: Row = (None, None)
+        if k0 is not None and alpha0 is not None:
+            k, alpha = as_numbers((k0, alpha0))
+            size, theta = max(_stationary(lam, k * np.exp(1j * np.radians(alpha))))
+            followed = (size, theta % 360 % 360)
+        rows.append((lam, *_true(lam), *search, *followed))
     rest = (None,) * (len(columns) - 6)
     search_rows = tuple((lam, *search, *rest) for lam, search in zip(lams, searches, strict=True))
-    return printed.compare(columns, rows, explanations=[Explanation(SEARCH, search_rows)])
+    return printed.compare(columns, rows, words, [Explanation(SEARCH, search_rows)])
 
 
 def _true(lam: float) -> Row:

@@ -206,6 +206,24 @@ def press(
     return GasTorque(piston, breaks, resolved(torque, breaks), pressure, crankcase)
 
 
+def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
+    """Return the torque of pressures that lie between those of two torques on the same piston, at
+    every cycle angle by this share of their distance from the first; beyond them if it exceeds 1.
+    """
+    breaks = merged_breaks([(first.breaks, 0.0), (second.breaks, 0.0)], first.curve.period)
+
+    def mix(one: PiecewiseCurve, other: PiecewiseCurve) -> PiecewiseCurve:
+        def value(angle: Array) -> Array:
+            return (1 - share) * one.at(angle) + share * other.at(angle)
+
+        return resolved(value, breaks)
+
+    known = first.pressure is not None and second.pressure is not None
+    pressure = mix(first.pressure, second.pressure) if known else None  # type: ignore[arg-type]
+    curve = mix(first.curve, second.curve)
+    return replace(first, breaks=breaks, curve=curve, pressure=pressure)
+
+
 def find_highest(pressure: PiecewiseCurve) -> Extreme:
     """Return the highest pressure, Pa, and the first cycle angle (rad, in [-period/2, period/2)) at
     which it is reached.

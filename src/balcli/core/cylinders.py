@@ -142,6 +142,9 @@ class Device(NamedTuple):
         place: Position x + iy of its axis, m.
         z: Position along the crank, m.
         kind: Kind of the device.
+        compensates: Whether it is there for its moment, and its force is meant to remain.
+        spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
+            kg m2.
         axle: Axle of a locomotive that carries it; empty: the driving axle.
     """
 
@@ -151,6 +154,8 @@ class Device(NamedTuple):
     place: complex | Complex
     z: Figure
     kind: DeviceKind = DeviceKind.OTHER
+    compensates: bool = False
+    spin: Figure = 0.0
     axle: str = ""
 
 
@@ -172,24 +177,38 @@ def find_travel(c: Cylinders) -> Travel:
     at the bottom), and are found on the curve of the motion for others. The stroke is `(l + r) cos
     tau_top - (l - r) cos tau_bottom`, without the division by lambda, which may be 0.
     """
+    _, stroke, top_deg, bottom_deg = _find_dead_centres(c)
+    shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
+    return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
+
+
+def find_innermost(c: Cylinders) -> Array:
+    """Return the distance of each piston pin from the crank axis along its cylinder at the inner
+    dead centre, m, shape (cylinders or 1, *trailing); infinite in harmonic motion.
+    """
+    return np.asarray(c.radius * _find_dead_centres(c)[0])
+
+
+def _find_dead_centres(c: Cylinders) -> tuple[Array, Array, Array, Array]:
+    """Return the distance of the piston pins from the crank axis at the inner dead centre and their
+    stroke, both in crank radii, and the crank angles of both dead centres (`Travel`). The stroke is
+    `(l + r) cos tau_top - (l - r) cos tau_bottom` without a division by lambda, which may be 0.
+    """
     if c.linkage is None:
         top, bottom = c.eps / (1 + c.lam), c.eps / (1 - c.lam)
         both = np.sqrt((1 - top) * (1 + top)) + np.sqrt((1 - bottom) * (1 + bottom))
         stroke = both + 2 * c.eps * (top + bottom) / ((1 - c.lam) * (1 + c.lam) * both)
-        top_deg, bottom_deg = np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
-    else:
-        psi = revolution(_STEPS)
-        place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
-        top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
-        bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
-        high, low = (
-            c.linkage.motion(at[..., None], c.lam, c.eps).place[..., 0] for at in (top, bottom)
-        )
-        stroke = high - low
-        top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
-        bottom_deg = np.degrees(bottom) - 180
-    shape, found = c.pin_deg.shape, (c.radius * stroke, top_deg, bottom_deg)
-    return Travel(*(np.broadcast_to(v, np.broadcast_shapes(shape, v.shape)) for v in found))
+        with np.errstate(divide="ignore"):
+            low = (1 - c.lam) * np.sqrt((1 - bottom) * (1 + bottom)) / c.lam
+        return low, stroke, np.degrees(np.arcsin(top)), np.degrees(np.arcsin(bottom))
+    psi = revolution(_STEPS)
+    place = c.linkage.sample(lambda motion: motion.place, psi, c.lam, c.eps)
+    top = _refine(c, c.linkage, psi[place.argmax(axis=-1)])
+    bottom = _refine(c, c.linkage, psi[place.argmin(axis=-1)])
+    high = c.linkage.motion(top[..., None], c.lam, c.eps).place[..., 0]
+    low = c.linkage.motion(bottom[..., None], c.lam, c.eps).place[..., 0]
+    top_deg = np.remainder(np.degrees(top) + 180, 360) - 180
+    return low, high - low, top_deg, np.degrees(bottom) - 180
 
 
 def _refine(c: Cylinders, linkage: Linkage, psi: Array) -> Array:

@@ -118,6 +118,18 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
     return GasCycle(join(curves), np.array(breaks), heat, cycle.find_imep(heat))
 
 
+def find_least_imep(piston: GasPiston, process: Process) -> float:
+    """Return the indicated mean effective pressure (Pa) of the cycle with the least heat: none, or
+    what takes a dual cycle to its `max_pressure`.
+
+    Args:
+        piston: Piston of the cylinder.
+        process: Laws of compression, combustion and expansion.
+    """
+    cycle = _Cycle(piston, process)
+    return cycle.find_imep(cycle.least)
+
+
 # ---------------------------------------------------------------- what is wrong
 def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
     """Raise GasError for the first mistake in a cycle before it is computed."""

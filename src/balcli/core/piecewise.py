@@ -61,7 +61,8 @@ class PiecewiseCurve:
     Attributes:
         breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
-        series: Legendre coefficients on each panel, shape (terms, panels).
+        series: Legendre coefficients on each panel, shape (terms, panels); or those of many
+            functions, shape (terms, panels, *figure), of which `within` alone makes values.
     """
 
     breaks: Array
@@ -93,11 +94,14 @@ class PiecewiseCurve:
         return self.within(start + turned - _SAME)
 
     def within(self, angle: Array) -> Array:
-        """Return values at angles between the first and the last breakpoint."""
+        """Return values at angles between the first and the last breakpoint, shape (*angle,
+        *figure); beyond these the value there.
+        """
         panel = np.searchsorted(self.breaks, angle + _SAME, side="right") - 1
         panel = np.clip(panel, 0, len(self.breaks) - 2)
         middle, half = _find_middles(self.breaks)
         x = np.clip((angle - middle[panel]) / half[panel], -1, 1)
+        x = x.reshape(x.shape + (1,) * (self.series.ndim - 2))
         return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
 
     def repeated(self, times: int) -> PiecewiseCurve:
@@ -117,8 +121,7 @@ class PiecewiseCurve:
         def turn(harmonics: NDArray[np.intp]) -> Complex:
             return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
 
-        # with k = high * stride + low, e^(-i k angle) is a product of two factors: few waves have
-        # to be computed
+        # e^(-i k angle) of k = high * stride + low is a product: few waves of each make all
         stride = math.isqrt(top) + 1
         every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
@@ -184,25 +187,28 @@ def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
     return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
 
 
-def resolved(function: Function, breaks: ArrayLike) -> PiecewiseCurve:
+def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> PiecewiseCurve:
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
-    value, or until there are so many panels that only rounding errors remain.
+    value, or until there are so many panels that they show rounding errors alone.
 
     Args:
-        function: Returns values at angles strictly between breakpoints, in the shape of the angles.
-        breaks: Rising breakpoints, rad; the last is one period after the first.
+        function: Values at angles strictly between breakpoints, of the shape of the angles, or
+            (*angles, *figure).
+        breaks: Rising, rad; the last a period after the first.
+        widest: Largest width of a panel before any is halved, rad.
     """
-    edges = cut(np.asarray(breaks, float), _WIDEST)
+    edges = cut(np.asarray(breaks, float), widest)
     low, high = edges[:-1], edges[1:]
     size, starts, found = 0.0, [], []
     for halvings in range(_HALVINGS + 1):
         middle = (low + high) / 2
         values = function(middle + (high - low) / 2 * gauss(_TERMS)[0][:, None])
-        series = values_to_series(_TERMS) @ values
+        series = np.tensordot(values_to_series(_TERMS), values, 1)
         size = max(size, float(np.abs(values).max()))
-        halve = np.abs(series[-2:]).max(axis=0) > _RESOLVED * size
+        last = np.abs(series[-2:]).reshape(2, len(low), -1)
+        halve = last.max(axis=(0, 2)) > _RESOLVED * size
         halve &= halvings < _HALVINGS and len(low) < _EVERYWHERE * len(edges)
         starts.append(low[~halve])
         found.append(series[:, ~halve])
@@ -222,9 +228,9 @@ def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
 
     Args:
         angle: Rising angles, rad, shape (points,).
-        value: Values at the angles, shape (points,).
+        value: Values at the angles, shape (points, *figure).
     """
-    angles, values = np.asarray(angle, float), np.asarray(value, float)
+    angles, values = np.asarray(angle, float), np.asarray(value)
     wide = np.diff(angles) > 0
     first, last = values[:-1][wide], values[1:][wide]
     breaks = np.append(angles[:-1][wide], angles[-1])

@@ -54,6 +54,7 @@ Node = dict[str, Any]  # an object of JSON
 UNITS = {
     "Nms_per_rad": "N·m·s/rad",
     "Nm_per_rad": "N·m/rad",
+    "Nm_per_kW": "N·m/kW",
     "N_per_m": "N/m",
     "m_per_s2": "m/s²",
     "m_per_s": "m/s",

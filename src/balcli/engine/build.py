@@ -39,8 +39,8 @@ from ..file.fields import counted, join_words
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
-from .devices import build_devices
-from .engine import Bearings, Engine
+from .devices import build_devices, check_shafts
+from .engine import Bearings, Engine, Rating
 from .figures import FileFigures, column, divide
 from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
@@ -78,10 +78,15 @@ def build(
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
     inertia = figures.take_optional("crank.inertia", model.crank.inertia)
-    bearings = None
+    bearings, power = None, model.operation.power
     if (table := model.bearing) is not None:
         pairs = (table.pin_diameter, table.pin_width), (table.main_diameter, table.main_width)
-        bearings = Bearings(*(None if a is None or b is None else a * b * 1e-6 for a, b in pairs))
+        pin, main = (None if a is None or b is None else a * b * 1e-6 for a, b in pairs)
+        rings = (table.pin_diameter, table.pin_bore), (table.main_diameter, table.main_bore)
+        pin_m, main_m = (
+            None if outer is None else (outer / 1e3, inner / 1e3) for outer, inner in rings
+        )
+        bearings = Bearings(pin, main, pin_m, main_m)
     return Engine(
         name=model.name,
         source=model.source,
@@ -104,6 +109,7 @@ def build(
         crank_inertia=divide(inertia, 1e6),
         flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
         bearings=bearings,
+        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         inferred=() if varied else tuple(list_inferred(parts)),
         model=None if varied else model,
     )
@@ -362,17 +368,18 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
                 if getattr(own, key) is not None and not dummy:
                     told = "needs [gas], which says what the gas does in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)
-    elif parts.gas is None and not parts.rank:
+    elif not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
 
-        parts.gas = build_gas(parts)
+        speed = parts.figures.take("operation.speed", parts.model.operation.speed)
+        parts.gas = (parts.gas or build_gas(parts)).at(float(speed))
 
 
 STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
-    (check_knuckles,),  # pins
+    (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
     (check_gas, check_locomotive),

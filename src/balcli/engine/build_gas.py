@@ -8,24 +8,27 @@ mechanism, diagram and heat share one torque curve.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import fields, replace
-from functools import cache
-from typing import NamedTuple
+from functools import cache, lru_cache, partial
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, pistons, press
-from ..core.gas_cycle import GasCycle, Goal, Process, gas_cycle
+from ..core.cylinder_pressure import GasError, GasPiston, GasTorque, blend, pistons, press
+from ..core.gas_cycle import GasCycle, Goal, Process, find_least_imep, gas_cycle
 from ..core.phasors import Array
 from ..core.piecewise import resolved
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import Head, NumberColumns, locate_beside, read_columns
-from ..file.gas_tables import DIAGRAM_KEYS, Gas
+from ..file.gas_tables import DIAGRAM_KEYS, MEAN_PRESSURES, Gas
 from ..file.model import Override
+from ..file.table import FileTable
 from ..file.units import BAR
 from ..limits import HIGHEST_TABLE_ORDER, MOST_DIFFERENT_GAS
-from .gas import CylinderGas, EngineGas
+from .gas import CylinderGas, EngineGas, GasLaw
 from .indicator import HEADS, build_diagram, list_doubts
 from .layout import find_first
 from .parts import Parts
@@ -34,6 +37,9 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # Above this ratio of heat to pressure x volume of the charge, a warning is given. If all air burns,
 # the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
+_KEPT = 512  # speeds at which the gas is remembered
+_OVERSPEED = 1.6  # of the rated speed: more is computed speed by speed
+Table = TypeVar("Table", bound=FileTable)
 
 
 class _Source(NamedTuple):
@@ -57,18 +63,146 @@ class _Source(NamedTuple):
 
 
 def build_gas(parts: Parts) -> EngineGas:
-    """Return the gas of an engine with [gas]; all other tables have been checked.
+    """Return the gas of an engine with [gas], whose tables fit together otherwise; where it depends
+    on the speed, that at the first speed of the file.
 
     Raises:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
             error lists all of them.
     """
-    gas, strokes = _vary(parts), parts.model.layout.strokes
-    sources = [_find_source(parts, gas, number) for number in parts.numbers]
-    bore = _take(parts, "piston.bore", parts.model.piston.bore)
-    if problems := list(_list_contradictions(parts, gas, sources, bore)):
+    gas, bore = _vary(parts), _take(parts, "piston.bore", parts.model.piston.bore)
+    if problems := list(_list_contradictions(parts, gas, bore)):
         raise InputError(problems)
     found = pistons(parts.cylinders, math.pi / 4 * ((bore or 0.0) / 1e3) ** 2)
+
+    @cache
+    def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
+        return read_columns(locate_beside(parts.model.folder, name), heads)
+
+    make = partial(_build_steady, parts, found, read)
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
+    rows = [row for row, one in enumerate(sources) if one.heat is None and one.indicator is None]
+    if not gas.speeds or (gas.law and not rows):  # cylinders with heats or diagrams of their own
+        return make(gas)
+    strokes = parts.model.layout.strokes
+    return _follow_speed(gas, make, partial(_find_knees, gas, [found[k] for k in rows], strokes))
+
+
+def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
+    """Return the shares of the rated speed up to which the propeller law asks for less imep than
+    the cycle of each piston has without heat, and than takes a dual one to its pressure.
+    """
+    process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
+    kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
+    processes = [replace(process, cycle=kind) for kind in kinds]
+    least = [[find_least_imep(piston, one) for piston in found] for one in processes]
+    return [np.sqrt(np.maximum(each, 0.0) / rated) for each in least]
+
+
+def _follow_speed(
+    gas: Gas, make: Callable[..., EngineGas], find_knees: Callable[[], list[Array]]
+) -> EngineGas:
+    """Return the gas at the first speed of the file, with its law for other speeds.
+
+    Args:
+        gas: Table of a gas that depends on the speed.
+        make: Function of a table for one speed to the gas, as `_build_steady`.
+        find_knees: As `_find_knees`, for a valid propeller law.
+
+    Raises:
+        InputError: As of `build_gas`.
+    """
+    nodes, problems, doubts = dict[float, EngineGas](), list[Problem](), list[str]()
+    for number, speed in enumerate(gas.speeds, 1):
+        name = partial(_name_point, gas, number)
+        try:
+            nodes[speed] = make(_take_at(gas, speed))
+            doubts += map(name, nodes[speed].doubts)
+        except InputError as error:
+            problems += (one._replace(path=name(one.path)) for one in error.problems)
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
+
+    @lru_cache(_KEPT)
+    def solve(speed: float) -> EngineGas:
+        if speed in nodes:
+            return nodes[speed]
+        if gas.cycle is None:
+            return _blend(nodes, speed)
+        return make(_take_at(gas, speed), at_least=gas.law is not None and speed < gas.speeds[-1])
+
+    first, speeds, least = nodes[gas.speeds[0]], gas.speeds, 0.0
+    if gas.law is not None:
+        (rated,), knees = gas.speeds, find_knees()
+        low = {0.0, *(rated * share for share in np.ravel(knees).tolist() if share < 1)}
+        speeds, least = (*sorted(low), rated), rated * float(knees[0].max())
+        with suppress(InputError):  # of cycles that cannot have so much
+            solve(rated * _OVERSPEED)
+            speeds = (*speeds, rated * _OVERSPEED)
+    law = GasLaw(solve, speeds, gas.cycle is None, 2 if gas.law else 1, least)
+    return replace(first, doubts=tuple(dict.fromkeys(doubts)), law=law)
+
+
+def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
+    """Return the gas at a speed, whose pressures are linear between those at the nodes."""
+    low = max((node for node in nodes if node < speed), default=min(nodes))
+    high = min((node for node in nodes if node > speed), default=low)
+    if high == low or speed < low:
+        return nodes[low]
+    share, one, two = (speed - low) / (high - low), nodes[low].cylinders, nodes[high].cylinders
+    rows = {cylinder.like for cylinder in one}
+    torques = {row: blend(one[row].torque, two[row].torque, share) for row in rows}
+    each = (cylinder._replace(torque=torques[cylinder.like]) for cylinder in one)
+    return replace(nodes[low], cylinders=tuple(each))
+
+
+def _take_at(gas: Gas, speed: float) -> Gas:
+    """Return the table of a gas that is at all speeds as this one is at one speed (rpm). Texts are
+    those of the nearest point.
+    """
+    if gas.rated_speed is not None:
+        grown = (speed / gas.rated_speed) ** 2
+        found = {key: getattr(gas, key) * grown for key in MEAN_PRESSURES if gas.has(key)}
+    else:
+        nearest = min(gas.at, key=lambda point: abs(point.speed - speed))
+        found = {key: getattr(nearest, key) for key in gas.keys_of_points}
+        for key in filter(lambda key: isinstance(found[key], float), gas.keys_of_points):
+            values = [getattr(point, key) for point in gas.at]
+            found[key] = float(np.interp(speed, gas.speeds, values))
+    kept = gas.model_fields_set - {"at", "law", "rated_speed"}
+    return Gas.model_construct(**{key: getattr(gas, key) for key in kept} | found)
+
+
+def _name_point(gas: Gas, number: int, text: str) -> str:
+    """Return a path or warning with the keys of a point (from 1) by their paths in the file."""
+    if not (keys := "|".join(gas.keys_of_points)):
+        return text
+    return re.sub(rf"\bgas\.({keys})\b", rf"gas.at.{number}.\1", text)
+
+
+def _build_steady(
+    parts: Parts,
+    found: Sequence[GasPiston],
+    read: Callable[[str, tuple[Head, ...]], NumberColumns],
+    gas: Gas,
+    *,
+    at_least: bool = False,
+) -> EngineGas:
+    """Return the gas of a table that is the same at all speeds.
+
+    Args:
+        parts: Stages of the engine.
+        found: Piston of each row.
+        read: Function of the name and headings of a file to its columns.
+        gas: The table.
+        at_least: Whether a cycle may burn less than its kind needs: a dual one less than takes it
+            to its pressure, and others nothing where the table asks for less imep than that has.
+
+    Raises:
+        InputError: As of `build_gas`.
+    """
+    strokes, problems = parts.model.layout.strokes, list[Problem]()
+    sources = [_find_source(parts, gas, number) for number in parts.numbers]
     keys = [
         (*mechanism, source.indicator, source.heat)
         for mechanism, source in zip(parts.cylinders.mechanisms, sources, strict=True)
@@ -79,17 +213,13 @@ def build_gas(parts: Parts) -> EngineGas:
         told = f"{MOST_DIFFERENT_GAS} are computed: give more of them the same figures"
         raise InputError([Problem("gas", many + told)])
 
-    @cache
-    def read(name: str, heads: tuple[Head, ...]) -> NumberColumns:
-        return read_columns(locate_beside(parts.model.folder, name), heads)
-
     torques, doubts, overfed = dict[int, GasTorque](), list[str](), list[str]()
     for row in sorted(set(like)):
         source, piston = sources[row], found[row]
         name = source.indicator or gas.harmonics
         try:
             if name is None:
-                cycle = _compute_cycle(gas, source, piston, strokes)
+                cycle = _compute_cycle(gas, source, piston, strokes, at_least=at_least)
                 torques[row] = press(piston, cycle.pressure, cycle.breaks, gas.crankcase * BAR)
                 overfed += _doubt_heat(gas, source, piston, cycle)
             elif source.indicator is None:
@@ -128,12 +258,20 @@ def build_gas(parts: Parts) -> EngineGas:
 # ------------------------------------------------------------------ keys of the file
 def _vary(parts: Parts) -> Gas:
     """Return [gas] with varied figures; they replace its own and all that exclude them."""
-    gas, varied = parts.model.gas or Gas.model_construct(), parts.figures.of_table("gas")
+    gas = _vary_table(parts, "gas", parts.model.gas or Gas.model_construct())
+    points = (_vary_table(parts, f"gas.at.{k}", point) for k, point in enumerate(gas.at, 1))
+    return gas.model_copy(update={"at": tuple(points)}) if gas.at else gas
+
+
+def _vary_table(parts: Parts, path: str, table: Table) -> Table:
+    """Return a table (at this path) with the figures that vary, without their rivals."""
+    varied = parts.figures.of_table(path)
     if not varied:
-        return gas
-    displaced = {rival for key in varied for rival in gas.rivals(key)}
-    kept = {key: getattr(gas, key) for key in gas.model_fields_set - displaced}
-    return Gas.model_construct(**kept | {key: float(value) for key, value in varied.items()})
+        return table
+    displaced = {rival for key in varied for rival in table.rivals(key)}
+    kept = {key: getattr(table, key) for key in table.model_fields_set - displaced}
+    changed = kept | {key: float(value) for key, value in varied.items()}
+    return type(table).model_construct(**changed)
 
 
 def _take(parts: Parts, path: str, given: float | None) -> float | None:
@@ -153,9 +291,7 @@ def _find_source(parts: Parts, gas: Gas, number: int) -> _Source:
     return _Source(number, "gas.indicator", gas.indicator, heat, heat_path, share)
 
 
-def _list_contradictions(
-    parts: Parts, gas: Gas, sources: Sequence[_Source], bore: float | None
-) -> Iterator[Problem]:
+def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator[Problem]:
     """Yield the contradictions between [gas], keys of single cylinders and the engine."""
     two_stroke = parts.model.layout.strokes == 2
     yield from (Problem("gas", fault) for fault in gas.contradictions())  # from varied figures
@@ -168,9 +304,12 @@ def _list_contradictions(
         if gas.cycle is None and table.heat is not None:
             told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
             yield Problem(f"cylinder.{number}.heat", told)
-    measured = any(source.indicator is not None for source in sources)
-    for key in () if measured else DIAGRAM_KEYS:
-        if key in gas.model_fields_set:
+        for key in sorted(gas.keys_of_points & table.model_fields_set):
+            told = f"[[gas.at]] has {key} for all cylinders at each speed; leave one of both out"
+            yield Problem(f"cylinder.{number}.{key}", told)
+    own = any(table.indicator is not None for table in parts.model.cylinder.values())
+    for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
+        if gas.has(key):
             yield Problem(f"gas.{key}", "belongs to an indicator diagram; leave it out")
     if two_stroke and gas.intake_closes is not None:
         told = "has no meaning in a two-stroke cycle, whose ports close where they opened"
@@ -218,29 +357,40 @@ def _read_harmonics(
 
 
 # ------------------------------------------------------------------ computed cycles
-def _compute_cycle(gas: Gas, source: _Source, piston: GasPiston, strokes: int) -> GasCycle:
-    """Return the computed cycle of a cylinder.
+def _compute_cycle(
+    gas: Gas, source: _Source, piston: GasPiston, strokes: int, *, at_least: bool
+) -> GasCycle:
+    """Return the computed cycle of a cylinder; arguments as of `_build_steady`.
 
     Raises:
         InputError: No cycle can be computed from a key.
     """
-    keys = [field.name for field in fields(Process) if field.name != "strokes"]
-    given = {key: getattr(gas, key) for key in keys}
-    for key in ("intake", "exhaust", "max_pressure"):
-        given[key] = given[key] and given[key] * BAR
-    process, goal = Process(strokes=strokes, **given), _find_goal(gas, source)
+    process, goal = _describe_process(gas, strokes), _find_goal(gas, source.heat)
     if source.heat == 0:  # expansion reverses compression
         process = replace(process, cycle="otto", expansion_index=process.compression_index)
     try:
+        if at_least and goal.name == "imep":
+            if process.cycle == "dual" and goal.value < find_least_imep(piston, process):
+                process = replace(process, cycle="otto")
+            goal = Goal("imep", max(goal.value, find_least_imep(piston, process)))
         return gas_cycle(piston, process, goal)
     except GasError as error:
         raise InputError([_locate(error, gas, source)]) from None
 
 
-def _find_goal(gas: Gas, source: _Source) -> Goal:
-    """Return the figure that a computed cycle must reach."""
-    if source.heat is not None:
-        return Goal("heat", source.heat)
+def _describe_process(gas: Gas, strokes: int) -> Process:
+    """Return the laws of a computed cycle."""
+    keys = [field.name for field in fields(Process) if field.name != "strokes"]
+    given = {key: getattr(gas, key) for key in keys}
+    for key in ("intake", "exhaust", "max_pressure"):
+        given[key] = given[key] and given[key] * BAR
+    return Process(strokes=strokes, **given)
+
+
+def _find_goal(gas: Gas, heat: float | None) -> Goal:
+    """Return the figure that a computed cycle has to reach; this heat (J) if it is not None."""
+    if heat is not None:
+        return Goal("heat", heat)
     if gas.cut_off is not None:
         return Goal("cut_off", gas.cut_off)
     if gas.bmep is not None:
@@ -267,7 +417,7 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     ratio = gas.compression_ratio or math.nan
     charge = gas.intake * BAR * float(piston.volume(cycle.breaks[0], ratio))
     if cycle.heat > HEAT_MOST * charge:
-        path = _locate(GasError(_find_goal(gas, source).name, ""), gas, source).path
+        path = _locate(GasError(_find_goal(gas, source.heat).name, ""), gas, source).path
         yield (
             f"{path} takes {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
             f"charge burns; is gas.intake = {gas.intake:.4g} bar right? It is absolute, and more "

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
 from ..errors import InputError, Problem
-from ..file.model import Counterweight, Shaft, Slider, label_table
+from ..file.fields import shorten
+from ..file.model import (
+    Counterweight,
+    Sector,
+    Shaft,
+    Slider,
+    group_eccentrics,
+    label_table,
+)
 from .figures import AS_GIVEN, FileFigures, divide, or_zero, place_in_plane, value_or
 
 if TYPE_CHECKING:
@@ -46,7 +56,7 @@ def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Devic
         for mass, z, angle in zip(masses, planes, angles, strict=True):
             turning, kind = mass * radius * unit(angle + first_axis_deg), DeviceKind.COUNTERWEIGHT
             if np.any(mass):
-                yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle.name)
+                yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
 
 
 def build_device(
@@ -69,14 +79,21 @@ def build_device(
     turning = _unbalance(figures, path, table) * unit(take(f"{path}.angle", table.angle) + start)
     z = take(f"{path}.position", table.position) / 1e3
     if isinstance(table, Counterweight):
-        return Device(1, turning, 0j, 0j, z, DeviceKind.COUNTERWEIGHT, table.axle or "")
+        spin = take(f"{path}.inertia", table.inertia) / 1e6
+        if table.sector is not None:
+            spin = find_sector(table, table.sector, figures, path).inertia
+        return Device(
+            1, turning, 0j, 0j, z, DeviceKind.COUNTERWEIGHT, spin=spin, axle=table.axle or ""
+        )
     x, y = figures.take_each(f"{path}.at", table.at)
     place = place_in_plane(x / 1e3, y / 1e3)
     if isinstance(table, Shaft):
         forward, backward = (turning, 0j) if table.ratio > 0 else (0j, turning)
-        return Device(abs(table.ratio), forward, backward, place, z, DeviceKind.SHAFT)
-    # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
-    # turn in opposite directions.
+        order, compensates = abs(table.ratio), table.role == "compensator"
+        spin = table.ratio * take(f"{path}.inertia", table.inertia) / 1e6
+        kind = DeviceKind.SHAFT
+        return Device(order, forward, backward, place, z, kind, compensates, spin)
+    # The displacement `U cos(n theta + angle)` is two vectors of half the size, one each way.
     half = unit(take(f"{path}.direction", table.direction)) / 2
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
@@ -91,8 +108,108 @@ def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | 
     if device.to_fit:
         command = "run balcli balance FILE --write OUT, which puts a figure in its place"
         raise InputError([Problem("", f'{path}.unbalance is "fit": {command}')])
+    if isinstance(device, Counterweight) and device.sector is not None:
+        return find_sector(device, device.sector, figures, path).unbalance
+    return or_zero(find_given_unbalance(device, figures, path))
+
+
+def find_given_unbalance(
+    device: Counterweight | Shaft | Slider, figures: FileFigures = AS_GIVEN, path: str = ""
+) -> Figure | None:
+    """Return mass x radius, kg m; None where the file gives neither it nor mass and radius.
+
+    Raises:
+        InputError: Only one of mass and radius varies, and the file gives neither.
+    """
     unbalance = figures.take_optional(f"{path}.unbalance", device.unbalance)
     if unbalance is not None:
         return unbalance / 1e6
-    mass = or_zero(figures.take_optional(f"{path}.mass", device.mass))
-    return mass * or_zero(figures.take_optional(f"{path}.radius", device.radius)) / 1e3
+    mass = figures.take_optional(f"{path}.mass", device.mass)
+    radius = figures.take_optional(f"{path}.radius", device.radius)
+    if mass is not None and radius is not None:
+        return mass * radius / 1e3
+    if mass is not None or radius is not None:
+        raise InputError([Problem(path, "the file gives neither mass nor radius; vary unbalance")])
+    return None
+
+
+class SectorFigures(NamedTuple):
+    """Figures of a counterweight in the shape of a sector, SI.
+
+    Attributes:
+        unbalance: Mass x distance of its center of mass, kg m.
+        mass: Mass, kg.
+        center_of_mass: Distance of its center of mass from the crank axis, m.
+        thickness: Thickness, m.
+        inertia: Polar moment of inertia about the crank axis, kg m2.
+    """
+
+    unbalance: Figure
+    mass: Figure
+    center_of_mass: Figure
+    thickness: Figure
+    inertia: Figure
+
+
+def find_sector(
+    table: Counterweight, sector: Sector, figures: FileFigures = AS_GIVEN, path: str = ""
+) -> SectorFigures:
+    """Return the figures of a counterweight from the thickness of its sector, or from its
+    unbalance.
+
+    With the radii r and R and the opening q, the integrals of r, r^2 cos and r^3 over the sector
+    are `q/2 (R^2 - r^2)`, `2/3 (R^3 - r^3) sin(q/2)`, `q/4 (R^4 - r^4)`.
+
+    Args:
+        table: The counterweight.
+        sector: Its sector.
+        figures: Figures of the file.
+        path: Dotted name of the counterweight.
+
+    Raises:
+        InputError: Thickness and unbalance are both given, or inertia, which only variants do.
+    """
+    inner, outer, opening, density = (
+        figures.take(f"{path}.sector.{key}", getattr(sector, key))
+        for key in ("inner_radius", "outer_radius", "opening", "density")
+    )
+    thickness = figures.take_optional(f"{path}.sector.thickness", sector.thickness)
+    unbalance = find_given_unbalance(table, figures, path)
+    is_double = thickness is not None and unbalance is not None
+    if is_double or figures.is_displaced(f"{path}.sector"):
+        told = "the file gives a sector, by its thickness or by an unbalance; vary that one"
+        raise InputError([Problem(path, told)])
+    inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
+    area = angle / 2 * (outer**2 - inner**2)
+    first = 2 / 3 * (outer**3 - inner**3) * (unit(opening / 2).imag + 0.0)  # 0 for a whole ring
+    # kg of each m2
+    weight = density * or_zero(thickness) if unbalance is None else unbalance / first
+    polar = angle / 4 * (outer**4 - inner**4)
+    return SectorFigures(
+        weight * first, weight * area, first / area, weight / (1e3 * density), weight * polar
+    )
+
+
+# ------------------------------------------------------------------ rules between entries
+_OF_SHAFT = ("inertia", "bearings", "gear", "drag")  # keys of a whole shaft
+
+
+def check_shafts(parts: Parts) -> Iterator[Problem]:
+    """Check that eccentrics of one name have one ratio and place, that each key of the whole shaft
+    stands in one of them, and that a shaft with drag has a gear.
+    """
+    for name, entries in group_eccentrics(parts.model.shaft):
+        first, *others = entries
+        for number, key in product(others, ("ratio", "at")):
+            value, wanted = (shorten(getattr(entries[k], key)) for k in (number, first))
+            if value != wanted:
+                told = f'is {value}, but shaft.{first} of the name "{name}" has {wanted}: '
+                yield Problem(f"shaft.{number}.{key}", f"{told}give one shaft the same {key}")
+        for key in _OF_SHAFT:
+            for number in [k for k, one in entries.items() if one.has(key)][1:]:
+                told = f'is given twice for the shaft "{name}"; give it once'
+                yield Problem(f"shaft.{number}.{key}", told)
+        driven = [number for number, one in entries.items() if one.drag]
+        if driven and not any(one.gear for one in entries.values()):
+            told = "needs gear, such as { position = -150, radius = 35, direction = 90 }"
+            yield Problem(f"shaft.{driven[0]}.drag", told)

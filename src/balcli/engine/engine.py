@@ -6,14 +6,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..core.cylinders import Cylinders, Device, find_travel
+from ..core.cylinders import Cylinders, Device, DeviceKind, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Figure, Phasors
 from ..core.records import Node
@@ -32,12 +33,36 @@ if TYPE_CHECKING:
 
 
 class Bearings(NamedTuple):
-    """Projected areas (diameter times width) of crank-pin and main bearings, m2; None if the file
-    gives none.
+    """Bearings of the crankshaft; None where the file gives none.
+
+    Attributes:
+        pin_m2, main_m2: Projected area (diameter times width) of each bearing.
+        pin_m, main_m: Outer and inner diameter of each journal.
     """
 
     pin_m2: float | None = None
     main_m2: float | None = None
+    pin_m: tuple[float, float] | None = None
+    main_m: tuple[float, float] | None = None
+
+
+class Rating(NamedTuple):
+    """Speed of the file, rpm, and the brake power at it, W; None where the file gives none."""
+
+    speed_rpm: float
+    power_W: float | None = None
+
+
+class TurningInertia(NamedTuple):
+    """Constant inertia of turning parts, by the crank speed, kg m2.
+
+    Attributes:
+        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, k the ratio of a shaft.
+        energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
+    """
+
+    momentum: Figure
+    energy: Figure
 
 
 class SilentCylinders(NamedTuple):
@@ -60,37 +85,40 @@ _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 class Engine:
     """An engine, or variants of one, in SI units except where a name says otherwise.
 
-    In variants, a figure that varies is an array whose axes are those of the variants ("trailing
-    axes"). All figures of an engine broadcast against each other.
+    A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
+    an engine broadcast against each other.
 
     Attributes:
         name: Name in the file; may be empty.
         source: Source of the figures; may be empty.
         numbers: Cylinder number of each row of `cylinders`.
-        cylinders: Geometry and masses, one row for each cylinder, sorted by bank.
-        fires_deg: Crank angle at which each cylinder fires, counted from the first, by cylinder
-            number in the firing order; empty without a firing order.
+        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
+            of the variants.
+        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
+            the firing order; empty without a firing order.
         strokes: 2 or 4.
-        bore_m: Cylinder bore; nan if the file gives none.
+        bore_m: Cylinder bore; nan where the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         throw_radii_m: Crank radius of each throw, of this shape.
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
-        up_deg: Direction that points up, deg from x; None if the file gives none.
+        up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
-            all throws are in one plane, and moments have no meaning.
-        gas: Gas in the cylinders; None if the file has no [gas], and for arrays of variants.
-        gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
-            (orders,); None except in sweeps.
+            all throws stand in one plane, and moments have no meaning.
+        gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
+            variants.
+        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
+            None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
             kg m2; None if the file gives none.
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
         bearings: Bearings of the crankshaft; None if the file gives none.
+        rated: Speed of the file, and brake power at it.
         inferred: Keys that the file leaves out and on which results depend, with the values that
-            are used (`layout.strokes = 4`).
+            are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
     """
 
@@ -115,6 +143,7 @@ class Engine:
     crank_inertia: Figure | None = None
     flywheel_inertia: Figure | None = None
     bearings: Bearings | None = None
+    rated: Rating | None = None
     up_deg: float | None = None
     inferred: tuple[str, ...] = ()
     model: EngineFile | None = None
@@ -143,6 +172,11 @@ class Engine:
         varied: Engine = import_name(VARY)(self, {**changes, **named})
         return varied
 
+    def at_speed(self, speed_rpm: Figure) -> Engine:
+        """Return the engine at another speed (rpm), with its gas there."""
+        gas = None if self.gas is None else self.gas.at(float(speed_rpm))
+        return replace(self, speed_rpm=speed_rpm, gas=gas)
+
     def explore(self) -> Any:
         """Return the live page of the engine for a notebook: it shows the engine in motion, and its
         numbers can be changed.
@@ -165,7 +199,7 @@ class Engine:
     def doubts(self) -> tuple[str, ...]:
         """Warnings of unlikely figures in the file, and of missing positions."""
         unknown = () if self.places_known else (MOMENTS_UNKNOWN,)
-        return (*unknown, *self.unlikely)
+        return (*unknown, *self.unlikely, *self.doubt_speeds(self.speed_rpm))
 
     @property
     def unlikely(self) -> tuple[str, ...]:
@@ -174,6 +208,11 @@ class Engine:
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
+
+    def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
+        """Return a warning if the file does not give the gas at some of these speeds."""
+        law = None if self.gas is None else self.gas.law
+        return () if law is None else tuple(law.list_doubts(speeds_rpm))
 
     @property
     def speed_assumed(self) -> bool:
@@ -191,6 +230,7 @@ class Engine:
                 mount, flywheel.
             without: Keys to omit.
         """
+        chapters = (*chapters, "flywheel") if self.ripple else chapters
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
         return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
@@ -230,6 +270,29 @@ class Engine:
     def cycle_revolutions(self) -> int:
         """Number of revolutions after which a cylinder's forces repeat, gas included."""
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+
+    def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:
+        """Return the inertia of all that turns in a constant ratio to the crank: crankshaft,
+        flywheel and shafts; without `crank.inertia` the counterweights. The crankshaft of a rotary
+        engine stands still.
+
+        Args:
+            beyond_pins: Whether to leave out the throw masses in `crank.inertia`, which count with
+                the pins.
+        """
+        crank = None if self.rotary else self.crank_inertia
+        on_crank: Figure = 0.0
+        for inertia in (crank, self.flywheel_inertia):
+            on_crank = on_crank + (0.0 if inertia is None else inertia)
+        if beyond_pins and crank is not None:
+            radii = zip(self.weighed, self.cylinders.radius_of_each, strict=True)
+            on_crank = on_crank - sum(masses.share * radius**2 for masses, radius in radii)
+        momentum, energy = on_crank, on_crank
+        for device in self.devices:
+            if device.kind is DeviceKind.SHAFT or crank is None:
+                momentum = momentum + device.spin
+                energy = energy + np.abs(device.spin) * device.order
+        return TurningInertia(momentum, energy)
 
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
@@ -393,19 +456,19 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
-def find_row(engine: Engine, number: int, option: str) -> int:
+def find_row(engine: Engine, number: int) -> int:
     """Return the row of a cylinder in the arrays of its engine.
 
     Args:
         engine: Engine.
         number: Cylinder number.
-        option: Option that names the cylinder, for the message.
 
     Raises:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        some = f"{engine.name or 'the engine'} has the cylinders "
-        some += ", ".join(map(str, sorted(engine.numbers)))
-        raise BalcliError(f"{option} {number}: {some}")
+        last = max(engine.numbers)
+        some = f"cylinders 1 to {last}" if last > 1 else "only cylinder 1"
+        name = engine.name or "the engine"
+        raise BalcliError(f"there is no cylinder {number}: {name} has {some}")
     return engine.numbers.index(number)

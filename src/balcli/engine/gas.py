@@ -6,13 +6,17 @@ firing order tells in which of the two revolutions that is.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..core.cylinder_pressure import GasPiston, GasTorque
 from ..core.phasors import Array
+from ..core.piecewise import PiecewiseCurve, polyline, resolved
 from ..errors import BalcliError
 
 
@@ -65,6 +69,7 @@ class EngineGas:
         mechanical_efficiency: Brake work over indicated work; None if the file gives none.
         compression_ratio: Compression ratio; None if the file gives none.
         doubts: Warnings, each with its path in the file.
+        law: The gas at other speeds; None: it is the same at all of them.
     """
 
     cylinders: tuple[CylinderGas, ...]
@@ -72,6 +77,7 @@ class EngineGas:
     mechanical_efficiency: float | None = None
     compression_ratio: float | None = None
     doubts: tuple[str, ...] = ()
+    law: GasLaw | None = None
 
     @property
     def cycle(self) -> float:
@@ -88,9 +94,100 @@ class EngineGas:
         """Factor of each cylinder's gas force, shape (cylinders,)."""
         return np.array([cylinder.share for cylinder in self.cylinders])
 
+    @property
+    def work(self) -> float:
+        """Work of all cylinders in a cycle, J."""
+        return sum(cylinder.share * cylinder.torque.work for cylinder in self.cylinders)
+
+    def at(self, speed_rpm: float) -> EngineGas:
+        """Return the gas at another speed; the cylinders keep their shares.
+
+        Raises:
+            InputError: No cycle can be computed at this speed.
+        """
+        if self.law is None:
+            return self
+        found = self.law.solve(speed_rpm).cylinders
+        pairs = zip(found, self.cylinders, strict=True)
+        return replace(self, cylinders=tuple(new._replace(share=own.share) for new, own in pairs))
+
+    def follow(self, find: Callable[[EngineGas], ArrayLike]) -> Callable[[ArrayLike], Array]:
+        """Return a function of speeds, rpm, to a figure at each of them, shape (*speeds, *figure).
+
+        Args:
+            find: Function of the gas at one speed to the figure, which is linear in the pressures.
+        """
+        if (law := self.law) is None:
+            figure = np.asarray(find(self))
+            return lambda speeds_rpm: np.broadcast_to(figure, np.shape(speeds_rpm) + figure.shape)
+        nodes = np.array(law.nodes_rpm) ** law.power
+
+        def find_each(grown: Array) -> Array:
+            speeds = grown.ravel() ** (1 / law.power)
+            figures = np.array([find(self.at(speed)) for speed in speeds.tolist()])
+            return figures.reshape(grown.shape + figures.shape[1:])
+
+        @cache
+        def find_curve() -> PiecewiseCurve:
+            if law.linear:
+                return polyline(nodes, find_each(nodes))
+            return resolved(find_each, nodes, math.inf)
+
+        def find_at_all(speeds_rpm: ArrayLike) -> Array:
+            grown = np.asarray(speeds_rpm, float) ** law.power
+            found, beyond = find_curve().within(grown), grown > nodes[-1]
+            if law.power > 1 and beyond.any():
+                found[beyond] = find_each(grown[beyond])
+            return found
+
+        return find_at_all
+
+    @property
+    def nodes_rpm(self) -> tuple[float, ...]:
+        """Speeds between which the gas is smooth, rpm; empty if it is the same at all speeds."""
+        return () if self.law is None else self.law.nodes_rpm
+
     def group_equal(self) -> list[tuple[GasTorque, list[int]]]:
         """Return each torque with the rows of the cylinders that have it."""
         rows: dict[int, list[int]] = {}
         for row, cylinder in enumerate(self.cylinders):
             rows.setdefault(cylinder.like, []).append(row)
         return [(self.cylinders[first].torque, own) for first, own in rows.items()]
+
+
+@dataclass(frozen=True, eq=False)
+class GasLaw:
+    """Gas of an engine by its speed: smooth between the nodes; before the first point of the file
+    and after the last one it is that of this point.
+
+    Attributes:
+        solve: Function of a speed, rpm, to the gas there; InputError if no cycle can be computed.
+        nodes_rpm: Rising speeds: the points of the file; or by the propeller law 0, those at which
+            a cycle begins to burn or reaches its limit, the rated speed, and an overspeed.
+        linear: Whether all pressures are linear in the speed between the nodes.
+        power: Power of the speed in which mean pressures are linear between the nodes: 1 between
+            points, 2 by the propeller law, which holds beyond the last node as well.
+        least_rpm: Speed up to which that law asks for less than a cycle has without heat.
+    """
+
+    solve: Callable[[float], EngineGas]
+    nodes_rpm: tuple[float, ...]
+    linear: bool
+    power: int = 1
+    least_rpm: float = 0.0
+
+    def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
+        """Yield a warning if some speeds (rpm) are beyond the points, or the propeller law asks for
+        less at them than a cycle has without heat.
+        """
+        low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
+        first, last = self.nodes_rpm[0], self.nodes_rpm[-1]
+        ends = [f"the gas of {first:g} rpm holds at {low:g} rpm"] * bool(low < first)
+        ends += [f"the gas of {last:g} rpm holds at {high:g} rpm"] * bool(high > last)
+        if ends and self.power == 1:
+            yield f"gas.at: beyond its points {' and '.join(ends)}"
+        if low < least:
+            yield (
+                f"gas.law: up to {least:.4g} rpm it asks for less than the cycle has without heat; "
+                "that cycle holds there"
+            )

@@ -21,6 +21,7 @@ from .engine import Engine, take_model
 from .parse import parse, parse_dict, parse_tables
 
 if TYPE_CHECKING:
+    from ..file.gas_tables import Gas
     from .gas import EngineGas
 
 _WANTED = "give the path of an engine file, the text of one, or a dict of its tables"
@@ -138,9 +139,15 @@ _OF_GAS = (
 )
 
 
-def concerns_gas(path: str) -> bool:
-    """Return whether the gas torque of a cylinder depends on a figure, by its dotted name."""
-    return re.fullmatch(_OF_GAS, path) is not None
+def concerns_gas(path: str, gas: Gas | None = None) -> bool:
+    """Return whether the gas torque of a cylinder depends on a figure.
+
+    Args:
+        path: Dotted name of the figure.
+        gas: Table of the file; if it depends on the speed, the speed is such a figure.
+    """
+    of_speed = path == SPEED and gas is not None and gas.speeds
+    return bool(of_speed or re.fullmatch(_OF_GAS, path))
 
 
 Key = TypeVar("Key")

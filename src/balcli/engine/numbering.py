@@ -476,6 +476,7 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
     crank, rod, layout, running = model.crank, model.rod, model.layout, model.operation
     together = parts.plan.rods_on_throw > 1 and hinged is None
     uneven = model.flywheel is not None or running.speed_ripple
+    weighed = any(one.inertia or one.sector for one in model.counterweight)
     throws = parts.plan.throws
     turn = float(find_row_angle(layout, throws, parts.figures))
     left_out = {
@@ -485,7 +486,7 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
         "crank.spacing = 0": not are_places_known(model, parts.plan),
         "layout.stagger = 0": together and not layout.has("stagger"),
         "crank.throw_mass = 0": not (crank.has("throw_mass") or layout.rotary),
-        "crank.inertia = 0": crank.inertia is None and uneven,
+        "crank.inertia = 0": crank.inertia is None and uneven and not weighed,
         "flywheel.inertia = 0": crank.inertia is not None and model.flywheel is None,
         "rod.mass = 0": rod.mass is None and rod.small_end is None,
         "rod.cg = 0": rod.mass and rod.cg is None,
@@ -504,7 +505,7 @@ def _list_defaults(parts: Parts) -> Iterator[str]:
     if gas is not None:
         diagrams = sum(one.indicator is not None for one in model.cylinder.values())
         computed = gas.cycle is not None and diagrams < len(parts.plan.cells)
-        measured = gas.indicator is not None or diagrams > 0
+        measured = gas.has("indicator") or diagrams > 0
         yield from gas.list_assumed(layout.strokes, measured, computed)
 
 

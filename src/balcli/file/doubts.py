@@ -96,9 +96,12 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     question = ask_unit("bar", "130 psi", "0.9 MPa")
-    for key, usual in PRESSURES.items() if model.gas else ():
-        if (value := getattr(model.gas, key)) is not None:
-            figures.append(Figure(f"gas.{key} is", value, *usual, question))
+    points = () if model.gas is None else model.gas.at
+    tables = {"gas": model.gas} | {f"gas.at.{k}": point for k, point in enumerate(points, 1)}
+    for path, table in tables.items():
+        for key, usual in PRESSURES.items():
+            if (value := getattr(table, key, None)) is not None:
+                figures.append(Figure(f"{path}.{key} is", value, *usual, question))
     return [*_find_missing(model), *_doubt(figures), *doubt_losses(_list_losses(model))]
 
 
@@ -136,12 +139,23 @@ def _round(value: float) -> str:
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for keys that are left out and probably forgotten."""
+    """Yield warnings for keys that are left out, and probably forgotten, or contradict others."""
     if _weigh_piston(model) == 0:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
         yield "rod.cg is not given, and 0 is taken; measure it from the big-end centre"
     crank, (throws, rods) = model.crank, _count_throws_and_rods(model)
+    masses, strokes = (
+        values * throws if len(values) == 1 else values
+        for values in (crank.throw_masses, crank.strokes)
+    )
+    pairs = zip(masses, strokes, strict=False)  # lists of a wrong length are refused elsewhere
+    of_throws = sum(mass * (stroke / 2) ** 2 for mass, stroke in pairs)
+    if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
+        yield (
+            f"crank.inertia is {crank.inertia:.4g} kg mm^2, less than the {of_throws:.4g} kg mm^2 "
+            "of its throws alone (crank.throw_mass at the crank radius)"
+        )
     placed = [number for number, own in model.cylinder.items() if own.position is not None]
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
@@ -259,6 +273,8 @@ def _list_losses(model: EngineFile) -> Iterator[tuple[str, float | None]]:
             yield f"torsion.{end}.{number}.loss", part.loss
             if part.damper is not None:
                 yield f"torsion.{end}.{number}.damper.loss", part.damper.loss
+    for number, on_throw in enumerate(model.torsion.throw, 1):
+        yield f"torsion.throw.{number}.damper.loss", on_throw.damper.loss
 
 
 def _has_crosshead(model: EngineFile) -> bool:

@@ -391,22 +391,25 @@ class Choice(NamedTuple):
         unless: Key beside which none must be given; empty: none.
         complete: Whether a group must be given in full once begun; or the one group for which
             this holds.
+        instead: Keys that may be given in place of a required group, or next to it.
     """
 
     groups: tuple[tuple[str, ...], ...]
     required: bool = False
     complete: bool | tuple[str, ...] = False
+    instead: tuple[str, ...] = ()
     unless: str = ""
 
     def mistakes(self, given: Collection[str]) -> Iterator[str]:
         """Yield the mistakes in the given keys, as text that follows the name of the table."""
         begun = [group for group in self.groups if any(key in given for key in group)]
         keys = [key for group in begun for key in group if key in given]
-        choices = " or ".join(map(join_words, self.groups))
+        instead = [] if begun else self.instead
+        choices = " or ".join([*map(join_words, self.groups), *instead])
         wanted = f"give {'either' if len(self.groups) > 1 else 'both'} {choices}"
         if len(begun) > 1:
             yield f"has {join_words(keys)}; {wanted}"
-        elif not begun and self.required and self.unless not in given:
+        elif not begun and self.required and not {*self.instead, self.unless}.intersection(given):
             yield f"has neither {' nor '.join(map(join_words, self.groups))}; {wanted}"
         elif begun and self.complete in (True, begun[0]) and len(keys) < len(begun[0]):
             missing = [key for key in begun[0] if key not in given]

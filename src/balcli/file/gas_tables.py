@@ -5,14 +5,24 @@ This module is imported only for files that have one of these tables (`names.CHA
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Annotated
 
+from pydantic import Field
+
+from ..limits import MOST_GAS_POINTS
 from .fields import Choice, FileName, Number, OneOf, join_words
-from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size
+from .table import Angle, Distance, FileTable, GivenInertia, Heat, Mass, Size, Speed
 from .units import ANGLE, PLAIN, PRESSURE
 
 Pressure = Annotated[float, Number(PRESSURE, least=0, most=1e6)]
+PressureAbove0 = Annotated[float, Number(PRESSURE, above=0, most=1e6)]
 MeanPressure = Annotated[float, Number(PRESSURE, most=1e6)]
+CutOff = Annotated[float, Number(PLAIN, least=1, most=1000)]
+Duration = Annotated[float, Number(ANGLE, above=0, most=720)]
+NamedFile = Annotated[str, FileName()]
+Zero = Annotated[str, OneOf("firing", "gas-exchange")]
+Reference = Annotated[str, OneOf("absolute", "gauge")]
 
 _GOALS = ("imep", "bmep", "max_pressure", "cut_off", "heat")
 DIAGRAM_KEYS = ("zero", "phase", "pressure")
@@ -24,20 +34,61 @@ _CYCLE_KEYS = (
 )
 
 
+MEAN_PRESSURES = ("imep", "bmep")
+
+
+class GasPoint(FileTable):
+    """Gas at one of several speeds, between which its figures and pressures are linear."""
+
+    speed: Speed
+    """Crank speed. Example: 1000"""
+    indicator: NamedFile | None = None
+    """As gas.indicator, at this speed. Example: 'p_1000.csv'"""
+    zero: Zero | None = None
+    """As gas.zero. Example: 'gas-exchange'"""
+    phase: Angle | None = None
+    """As gas.phase. Example: -0.5"""
+    pressure: Reference | None = None
+    """As gas.pressure. Example: 'gauge'"""
+    intake: PressureAbove0 | None = None
+    """As gas.intake. Example: 1.2"""
+    exhaust: Pressure | None = None
+    """As gas.exhaust. Example: 1.1"""
+    imep: MeanPressure | None = None
+    """As gas.imep. Example: 6"""
+    bmep: MeanPressure | None = None
+    """As gas.bmep. Example: 5"""
+    max_pressure: Pressure | None = None
+    """As gas.max_pressure. Example: 45"""
+    cut_off: CutOff | None = None
+    """As gas.cut_off. Example: 1.5"""
+    heat: Heat | None = None
+    """As gas.heat. Example: 700"""
+    burn_start: Angle | None = None
+    """As gas.burn_start. Example: -8"""
+    burn_duration: Duration | None = None
+    """As gas.burn_duration. Example: 45"""
+    harmonics: NamedFile | None = None
+    """As gas.harmonics, at this speed. Example: 'tangential_1000.csv'"""
+
+
 class Gas(FileTable):
     """Pressure on the pistons over a cycle: measured, computed, or as harmonics of its torque."""
 
-    choices = (Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),)
+    choices = (
+        Choice((("indicator",), ("cycle",), ("harmonics",)), required=True),
+        Choice((("at",), ("law", "rated_speed")), complete=("law", "rated_speed")),
+    )
 
-    indicator: Annotated[str, FileName()] | None = None
+    indicator: NamedFile | None = None
     """A measured diagram: CSV next to the engine file, headed angle_deg,pressure_bar (or _MPa,
     _kPa, _Pa, _psi; gauge pressures _barg, _psig). Example: 'p_2000rpm.csv'
     """
-    zero: Annotated[str, OneOf("firing", "gas-exchange")] = "firing"
+    zero: Zero = "firing"
     """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
     phase: Angle = 0.0
     """Added to the angles of the diagram. Example: -0.5"""
-    pressure: Annotated[str, OneOf("absolute", "gauge")] = "absolute"
+    pressure: Reference = "absolute"
     """Kind of the diagram's pressures; gauge: above an atmosphere of 1.01325 bar. Example: 'gauge'
     """
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
@@ -50,7 +101,7 @@ class Gas(FileTable):
     """Index n of the compression, p V^n = const. Example: 1.35"""
     expansion_index: Annotated[float, Number(PLAIN, above=1, most=5)] = 1.28
     """Index n of the expansion, p V^n = const, and of the burn. Example: 1.27"""
-    intake: Annotated[float, Number(PRESSURE, above=0, most=1e6)] = 1.0
+    intake: PressureAbove0 = 1.0
     """Absolute pressure while the cylinder fills. Example: 1.8"""
     exhaust: Pressure = 1.05
     """Absolute pressure while the cylinder empties; four-stroke. Example: 1.3"""
@@ -66,13 +117,13 @@ class Gas(FileTable):
     """Absolute highest pressure of a computed cycle, or (dual) the pressure of the burn. Example:
     70
     """
-    cut_off: Annotated[float, Number(PLAIN, least=1, most=1000)] | None = None
+    cut_off: CutOff | None = None
     """Volume after burning at constant pressure over the volume before. Example: 2"""
     heat: Heat | None = None
     """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
     """Wiebe: cycle angle at which the burn starts. Example: -10"""
-    burn_duration: Annotated[float, Number(ANGLE, above=0, most=720)] = 50.0
+    burn_duration: Duration = 50.0
     """Wiebe: crank angle that the burn takes. Example: 60"""
     burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
     """Wiebe: exponent m. Example: 1.5"""
@@ -80,11 +131,35 @@ class Gas(FileTable):
     """Cycle angle of opening; left out: lower dead centre. Example: 140"""
     intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
     """Cycle angle of closing, four-stroke; left out: lower dead centre. Example: 580"""
-    harmonics: Annotated[str, FileName()] | None = None
+    harmonics: NamedFile | None = None
     """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
     the firing dead centre. Example: 'tangential.csv'"""
     crankcase: Pressure = 1.0
     """Absolute pressure under the pistons. Example: 1.1"""
+    at: Annotated[tuple[GasPoint, ...], Field(max_length=MOST_GAS_POINTS)] = ()
+    """Gas at two or more speeds; what stands there does not stand in [gas]."""
+    law: Annotated[str, OneOf("propeller")] | None = None
+    """Instead of at: imep (or bmep) grows with the square of the speed, to its value at
+    rated_speed. Example: 'propeller'"""
+    rated_speed: Speed | None = None
+    """Of the law: speed at which the engine has its imep. Example: 120"""
+
+    @property
+    def given(self) -> set[str]:
+        """Keys that the file gives, in [gas] or for each speed."""
+        return self.model_fields_set | self.keys_of_points
+
+    @property
+    def keys_of_points(self) -> set[str]:
+        """Keys that the file gives for each speed."""
+        return set[str]().union(*(point.model_fields_set for point in self.at)) - {"speed"}
+
+    @property
+    def speeds(self) -> tuple[float, ...]:
+        """Speeds for which the file gives the gas, rpm; empty: it is the same at all speeds."""
+        if self.rated_speed is not None:
+            return (self.rated_speed,)
+        return tuple(point.speed for point in self.at)
 
     @property
     def goals(self) -> tuple[str, ...]:
@@ -105,7 +180,11 @@ class Gas(FileTable):
             measured: Whether a cylinder has a diagram.
             computed: Whether a cylinder has a computed cycle.
         """
-        idle: set[str] = set()
+        idle = self.keys_of_points | {*([] if self.law else ["rated_speed"])}
+        if not idle.isdisjoint(self.goals):
+            idle.update(self.goals)
+        absent = GasPoint.model_fields.keys() - self.keys_of_points - {"speed"}
+        idle.update(f"at.{k}.{key}" for k, _ in enumerate(self.at, 1) for key in absent)
         if not computed:
             idle.update(_CYCLE_KEYS, ("compression_ratio", "imep"))
         elif self.cycle != "wiebe":
@@ -120,7 +199,7 @@ class Gas(FileTable):
 
     def list_assumed(self, strokes: int, measured: bool, computed: bool) -> Iterator[str]:
         """Yield the defaults on which results depend; arguments as for `list_idle_keys`."""
-        idle = self.list_idle_keys(strokes, measured, computed) | {"phase", "zero", "pressure"}
+        idle = self.list_idle_keys(strokes, measured, computed) | {*DIAGRAM_KEYS, "at"}
         at_dead_centre = dict.fromkeys(("exhaust_opens", "intake_closes"), "lower dead centre")
         for key in type(self).model_fields:
             value = getattr(self, key)
@@ -128,18 +207,45 @@ class Gas(FileTable):
             if left_out and (value is not None or key in at_dead_centre):
                 yield f"gas.{key} = {at_dead_centre.get(key) or format(value, 'g')}"
 
+    def _check_points(self) -> Iterator[str]:
+        """Check that the points have rising speeds and the same keys, which [gas] does not have."""
+        if not self.at:
+            return
+        if len(self.at) == 1:
+            yield "has one [[gas.at]]; give two or more, or its keys in [gas] for all speeds"
+        for k, (low, high) in enumerate(pairwise(self.speeds), 2):
+            if high <= low:
+                yield (
+                    f"at.{k}.speed = {high:g} rpm does not exceed the {low:g} rpm before it; give "
+                    "the points by rising speed"
+                )
+        first, *others = (point.model_fields_set for point in self.at)
+        for k, keys in enumerate(others, 2):
+            if keys != first:
+                listed = join_words(sorted(keys ^ first))
+                yield f"at.1 and at.{k} do not both have {listed}; give each point the same keys"
+        if twice := sorted(self.keys_of_points & self.model_fields_set):
+            yield f"has {join_words(twice)}, and so does [[gas.at]]; give it for each speed alone"
+
+    def _check_law(self) -> Iterator[str]:
+        """Check that a law has a mean pressure to act on."""
+        if self.law is not None and self.cycle is None:
+            yield "has law, which a diagram does not have; give [[gas.at]] with a diagram each"
+        elif self.law is not None and not any(map(self.has, MEAN_PRESSURES)):
+            yield "has law without imep; give imep, or bmep, at rated_speed"
+
     def _check_misplaced(self) -> Iterator[str]:
         """Check that keys of a computed cycle are given only with `cycle`."""
-        others = [key for key in _CYCLE_KEYS if key in self.model_fields_set]
-        if others and self.cycle is None and (self.indicator or self.harmonics):
-            what = "indicator" if self.indicator else "harmonics"
+        others = [key for key in _CYCLE_KEYS if self.has(key)]
+        if others and self.cycle is None and (self.has("indicator") or self.has("harmonics")):
+            what = "indicator" if self.has("indicator") else "harmonics"
             yield f"has {join_words(others)} with {what}; these belong to a computed cycle"
 
     def _check_cycle(self) -> Iterator[str]:
         """Check that a computed cycle has all its keys, and exactly one that sets the heat."""
         if self.cycle is None:
             return
-        wiebe = [key for key in WIEBE_KEYS if key in self.model_fields_set]
+        wiebe = [key for key in WIEBE_KEYS if self.has(key)]
         if wiebe and self.cycle != "wiebe":
             yield f"has {join_words(wiebe)}, which only a wiebe cycle has"
         given = [key for key in self.goals if self.has(key)]
@@ -148,9 +254,9 @@ class Gas(FileTable):
             yield f"has {join_words(given)}; {choice}"
         elif not given:
             yield f"does not say how much is burnt; {choice}"
-        if self.cycle == "dual" and self.max_pressure is None:
+        if self.cycle == "dual" and not self.has("max_pressure"):
             yield "needs max_pressure for a dual cycle, at which it burns on"
-        if self.bmep is not None and self.mechanical_efficiency is None:
+        if self.has("bmep") and self.mechanical_efficiency is None:
             yield "has bmep without mechanical_efficiency; give both, or imep"
         if self.compression_ratio is None:
             yield "needs compression_ratio for a computed cycle, such as compression_ratio = 10.5"

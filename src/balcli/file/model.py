@@ -8,10 +8,10 @@ that a file has. The string below a key documents it (`table.document_keys`).
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
@@ -24,7 +24,9 @@ from .table import (
     AnglesOfRows,
     Count,
     Counts,
+    Density,
     Distance,
+    Drag,
     FileTable,
     GivenInertia,
     Heat,
@@ -37,8 +39,11 @@ from .table import (
     Name,
     Numbers,
     NumbersOfBanks,
+    OpeningAngle,
     Period,
     Place,
+    Power,
+    PressureAngle,
     RippleOrder,
     RodRatio,
     ShaftRatio,
@@ -166,6 +171,9 @@ class Piston(FileTable):
     """All rings of one piston. Example: 0.036"""
     locks: Mass | None = None
     """Both locks (clips) of the pin. Example: 0.004"""
+    skirt: Distance | None = None
+    """From the pin's axis to the lowest edge, towards the crank; for the clearance of
+    counterweights. Example: 38"""
     offset: Length = 0.0
     """Offset of the piston pin's path, positive towards the side to which the crank pin moves after
     top dead centre. Example: -1.6
@@ -298,6 +306,8 @@ class Operation(FileTable):
 
     speed: Speed = 1000.0
     """Crank speed (mean over the angle). Example: 3000"""
+    power: Power | None = None
+    """Brake power at this speed, for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
     """Uneven crank speed, by orders: whole ones, or halves of a four-stroke engine."""
 
@@ -364,7 +374,9 @@ class Override(FileTable):
 class Device(FileTable):
     """Keys of all devices: the unbalance, or mass and radius; and the position."""
 
-    choices = (Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),)
+    choices: ClassVar[tuple[Choice, ...]] = (
+        Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),
+    )
 
     unbalance: Unbalance | None = None
     """Mass times radius; "fit": `balcli balance` computes it. Example: 9000"""
@@ -381,24 +393,102 @@ class Device(FileTable):
         return self.unbalance is not None and math.isnan(self.unbalance)
 
 
+class Sector(FileTable):
+    """A counterweight as a sector of a disc; its middle is at the angle of the counterweight."""
+
+    inner_radius: Distance = 0.0
+    """Inner radius. Example: 30"""
+    outer_radius: Size
+    """Outer radius. Example: 75"""
+    opening: OpeningAngle
+    """Full angle of the sector. Example: 140"""
+    thickness: Size | None = None
+    """Thickness, instead of the unbalance; left out: it follows from the unbalance. Example: 18"""
+    density: Density = 7.85
+    """Density. Example: 7.85"""
+
+    def _check_radii(self) -> Iterator[str]:
+        inner, outer = self.inner_radius, self.outer_radius
+        if inner >= outer:
+            yield f"inner_radius = {inner:g} mm: has to be below outer_radius = {outer:g} mm"
+
+
 class Counterweight(Device):
     """An unbalance fixed to the crankshaft."""
+
+    choices = (
+        Device.choices[0]._replace(instead=("sector",)),
+        Choice((("inertia",), ("sector",))),
+    )
 
     angle: Angle = 0.0
     """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
     axle: Name | None = None
     """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
+    inertia: Inertia = 0.0
+    """Polar moment of inertia about the crank axis, for an uneven speed; with crank.inertia, which
+    has it, it counts nowhere. Example: 2600"""
+    sector: Sector | None = None
+    """Its shape, with its thickness in place of the unbalance or next to an unbalance."""
+
+    def _check_sector(self) -> Iterator[str]:
+        if self.sector is None:
+            return
+        is_sized = self.unbalance is not None or self.mass is not None
+        if is_sized == (self.sector.thickness is not None):
+            has = "sector.thickness and an unbalance" if is_sized else "a sector without thickness"
+            yield f"has {has}; give either sector.thickness or unbalance, the other follows"
+        elif is_sized and self.sector.opening == 360:
+            yield "has a sector with opening = 360, which has no unbalance; give less than 360"
+        elif self.unbalance is not None and self.unbalance < 0:
+            yield f"has a sector and unbalance = {self.unbalance:g}; turn its angle by 180 deg"
+
+
+class Gear(FileTable):
+    """The gear that drives a balancer shaft."""
+
+    position: Length
+    """Axial place (z). Example: -150"""
+    radius: Size
+    """Pitch radius. Example: 35"""
+    direction: Angle
+    """From the shaft's axis to the mesh, from the x axis. Example: 90"""
+    pressure_angle: PressureAngle = 20.0
+    """Pressure angle. Example: 20"""
 
 
 class Shaft(Device):
-    """A balancer shaft, or one of several eccentrics on it."""
+    """A balancer shaft, or one of several eccentrics on it. inertia, bearings, gear and drag belong
+    to the whole shaft and stand in one of its entries.
+    """
 
+    choices = (Device.choices[0]._replace(instead=("inertia",)),)
+
+    name: Name = ""
+    """Name of the shaft: entries with the same name are eccentrics of one shaft. Example:
+    'left'"""
     ratio: ShaftRatio
     """Speed over crank speed; negative: against the crank. Example: -2"""
     angle: Angle = 0.0
     """Angle of the eccentric at crank angle 0, from the x axis. Example: 90"""
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
+    role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
+    """Compensator: far from the engine, its force makes a moment and is meant to remain.
+    Example: 'balancer'"""
+    inertia: Inertia = 0.0
+    """Polar moment of inertia about its own axis, for an uneven speed and the flywheel. Example:
+    150"""
+    bearings: Place | None = None
+    """Axial places (z) of its two bearings. Example: [-130, 130]"""
+    gear: Gear | None = None
+    """The gear that drives it."""
+    drag: Drag = 0.0
+    """Torque of friction at the shaft, which its gear transmits. Example: 0.2"""
+
+    def _check_bearings(self) -> Iterator[str]:
+        if self.bearings is not None and self.bearings[0] == self.bearings[1]:
+            yield f"bearings are both at {self.bearings[0]:g} mm; give two different places"
 
 
 class Slider(Device):
@@ -422,8 +512,24 @@ def label_table(table: FileTable, number: int) -> str:
         table: Table, which may have a name.
         number: Number of the table, from 1.
     """
-    name = getattr(table, "name", "").replace(" ", "_")
+    # Balancer shafts are numbered: `shaft.NAME` is a shaft of [torsion].
+    name = "" if isinstance(table, Shaft) else getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
+
+
+def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft]]]:
+    """Return the entries of each balancer shaft, with their numbers in the file, from 1.
+
+    Args:
+        shafts: All [[shaft]] tables.
+
+    Returns: The name of each shaft, or `shaft 2` by its number, and its entries.
+    """
+    groups: dict[tuple[str, int], dict[int, Shaft]] = {}
+    for number, table in enumerate(shafts, 1):
+        key = table.name, 0 if table.name else number
+        groups.setdefault(key, {})[number] = table
+    return [(name or f"shaft {number}", entries) for (name, number), entries in groups.items()]
 
 
 class EngineFile(FileTable):

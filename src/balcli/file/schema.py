@@ -33,8 +33,9 @@ def describe_engine_file() -> Node:
         rules: list[Node] = []
         for choice in table.choices:
             if choice.required:
-                groups = (*choice.groups, *([(choice.unless,)] if choice.unless else []))
-                rules.append({"anyOf": [{"required": list(group)} for group in groups]})
+                others = [*choice.instead, *([choice.unless] if choice.unless else [])]
+                ways = (*choice.groups, *((key,) for key in others))
+                rules.append({"anyOf": [{"required": list(group)} for group in ways]})
             for group, other in combinations(choice.groups, 2):
                 rules += [{"not": {"required": list(pair)}} for pair in product(group, other)]
         document["$defs"][table.__name__] |= {"allOf": rules} if rules else {}

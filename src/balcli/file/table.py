@@ -17,7 +17,20 @@ from pydantic.fields import FieldInfo
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
 from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole
-from .units import ANGLE, ENERGY, INERTIA, LENGTH, MASS, PLAIN, SPEED, TIME, UNBALANCE
+from .units import (
+    ANGLE,
+    DENSITY,
+    ENERGY,
+    INERTIA,
+    LENGTH,
+    MASS,
+    PLAIN,
+    POWER,
+    SPEED,
+    TIME,
+    TORQUE,
+    UNBALANCE,
+)
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
@@ -32,6 +45,8 @@ Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
 
 Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
+Density = Annotated[float, Number(DENSITY, above=0, most=30)]
+
 Sizes = Annotated[float | tuple[float, ...], OneOrEach(Number(LENGTH, above=0, most=1e9))]
 
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
@@ -39,6 +54,10 @@ Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 Masses = Annotated[float | tuple[float, ...], OneOrEach(Number(MASS, least=0, most=1e12))]
 
 Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+
+OpeningAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
+
+PressureAngle = Annotated[float, Number(ANGLE, least=0, below=90)]
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -49,7 +68,11 @@ GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 FIT = "fit"  # in place of an unbalance: `balance` finds it
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
+Drag = Annotated[float, Number(TORQUE, least=0, most=1e12)]
+
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
+
+Power = Annotated[float, Number(POWER, above=0, most=1e9)]
 
 Period = Annotated[float, Number(TIME, above=0, most=1e6)]
 
@@ -113,8 +136,7 @@ class FileTable(BaseModel):
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
         """Reject contradictions; each is an argument of the error."""
-        given = self.model_fields_set
-        of_choices = [fault for choice in self.choices for fault in choice.mistakes(given)]
+        of_choices = [fault for choice in self.choices for fault in choice.mistakes(self.given)]
         if found := [*of_choices, *self.contradictions()]:
             raise ValueError(*found)
         return self
@@ -128,9 +150,14 @@ class FileTable(BaseModel):
                 if name.startswith("_check_"):
                     yield from rule(self)
 
+    @property
+    def given(self) -> set[str]:
+        """Keys that the file gives."""
+        return self.model_fields_set
+
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""
-        return key in self.model_fields_set
+        return key in self.given
 
     def rivals(self, key: str) -> tuple[str, ...]:
         """Return the keys that exclude this one, because they give the same figure."""

@@ -10,11 +10,10 @@ from pydantic import Field
 
 from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, as_written, counted, shorten
-from .table import FileTable, GivenInertia, Name, Size
+from .fields import RIGID, Number, OneOf, Whole, as_written, counted, shorten
+from .table import Density, FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
-    DENSITY,
     INERTIA,
     MASS,
     PLAIN,
@@ -56,11 +55,11 @@ Stiffness = Annotated[float, _Stiffness()]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
-Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
 _RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
+_PendulumOrder = Annotated[float, Number(PLAIN, above=0, most=1e3)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
@@ -123,8 +122,9 @@ class ShaftKeys(FileTable):
 _KEYS_OF_KIND = {
     "viscous": ("inertia", "damping"),
     "rubber": ("inertia", "stiffness", "loss"),
-    "pendulum": ("mass", "radius", "length"),
+    "pendulum": ("mass", "radius"),
 }
+_TUNINGS = "length", "order"  # of a pendulum: one of them
 
 
 class Damper(FileTable):
@@ -147,11 +147,28 @@ class Damper(FileTable):
     """Distance from the axis to the pivot of a pendulum. Example: 60"""
     length: Size | None = None
     """Length of a pendulum, from its pivot to its centre of mass. Example: 2.4"""
+    order: _PendulumOrder | None = None
+    """Instead of length: the order, per turn of the node, that the pendulum cancels;
+    length = radius/order^2. Example: 4.5"""
+
+    @property
+    def swinging_length(self) -> float:
+        """Length of a pendulum, mm; 0 for a damper of another kind."""
+        if self.order is not None and self.radius is not None:
+            return self.radius / self.order**2
+        return self.length or 0.0
 
     def _check_keys(self) -> Iterator[str]:
         wanted = _KEYS_OF_KIND[self.kind]
         given = self.model_fields_set - {"kind"}
-        if missing := [key for key in wanted if key not in given]:
+        missing = [key for key in wanted if key not in given]
+        if self.kind == "pendulum":
+            tuning = given.intersection(_TUNINGS)
+            given -= tuning
+            missing += ["length (or order)"] * (not tuning)
+            if len(tuning) > 1:
+                yield "has length and order; leave one of them out"
+        if missing:
             yield f"is {self.kind} and lacks {' and '.join(missing)}"
         if strange := sorted(given - set(wanted)):
             yield f"is {self.kind}, which has no {' and no '.join(strange)}"
@@ -257,7 +274,17 @@ class Part(ShaftKeys, NodeKeys):
     """Damping of the part against ground, such as a propeller in water. Example: 5"""
 
 
+class ThrowDamper(FileTable):
+    """A damper on a throw of the crankshaft; a throw may have several."""
+
+    throw: Annotated[int, Whole(least=1, most=MOST_TORSION_NODES)]
+    """Number of the throw. Example: 6"""
+    damper: Damper
+    """The damper. Example: { kind = 'pendulum', mass = 3.6, radius = 62, order = 4.5 }"""
+
+
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
+_ThrowDampers = Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
 class Torsion(ChainKeys):
@@ -282,6 +309,8 @@ class Torsion(ChainKeys):
     """Parts before the first throw, from it outwards."""
     rear: _Parts = ()
     """Parts behind the last throw, from it outwards."""
+    throw: _ThrowDampers = ()
+    """Dampers on throws."""
 
     def _check_bore(self) -> Iterator[str]:
         if self.throw_bore is not None and (

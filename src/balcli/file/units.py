@@ -168,6 +168,7 @@ SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6
 FORCE = Dimension("N", "a force", ("98 kN", "22000 lbf"))
 VELOCITY = Dimension("km/h", "a velocity", ("80 km/h", "50 mph"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
+POWER = Dimension("kW", "a power", ("3820 kW", "5200 hp"))
 PLAIN = Dimension("", "a plain number")
 # Below this, a point with exactly three digits behind it probably separates thousands.
 _LEAST_WITH_DECIMALS = {SPEED: 100, STIFFNESS: 1, TORSIONAL_STIFFNESS: 1000}

@@ -24,6 +24,7 @@ from ..core.phasors import Array, Complex, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
 from ..engine.engine import Engine, find_row
 from ..errors import BalcliError
+from ..file.model import Override
 from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
@@ -258,12 +259,13 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Return the moment of inertia of crankshaft and flywheel, kg m2; None if the file gives
-    neither. The crankshaft of a rotary engine is at rest and does not count.
+    """Return the moment of inertia of all that turns in a constant ratio to the crank, at the
+    crank, kg m2; None where the file gives none.
     """
     crank = None if engine.rotary else engine.crank_inertia
-    given = [v for v in (crank, engine.flywheel_inertia) if v is not None]
-    return float(sum(given)) if given else None
+    found = float(engine.find_turning_inertia().energy)
+    is_given = found or crank is not None or engine.flywheel_inertia is not None
+    return found if is_given else None
 
 
 def silence(engine: Engine, number: int) -> Engine:
@@ -276,9 +278,14 @@ def silence(engine: Engine, number: int) -> Engine:
     Raises:
         BalcliError: The engine has no gas, or no such cylinder.
     """
-    gas, row = take_gas(engine), find_row(engine, number, "--misfire")
+    gas, row = take_gas(engine), find_row(engine, number)
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
-    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=None)
+    model = engine.model
+    if model is not None:
+        table = model.cylinder.get(number, Override.model_construct())
+        own = table.model_copy(update={"gas": 0.0})
+        model = model.model_copy(update={"cylinder": {**model.cylinder, number: own}})
+    return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=model)
 
 
 def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:

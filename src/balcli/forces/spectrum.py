@@ -17,11 +17,11 @@ order n = h/2.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import reduce
 from operator import add, sub
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,7 +45,7 @@ from ..limits import (
 from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
 
 if TYPE_CHECKING:
-    from ..engine.gas import CylinderGas, EngineGas
+    from ..engine.gas import CylinderGas, EngineGas, GasLaw
 
 # orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
 _AT_ONCE = 1 << 18
@@ -255,21 +255,16 @@ def _compute_inertia(
     }
     if not uneven:
         return steady
-    # `crank.inertia` minus the throws' inertia, which is counted with the crank pins
-    found, crank = {}, engine.crank_inertia
-    if crank is None or engine.rotary:
-        crank = 0.0
-    else:
-        radii = zip(engine.weighed, c.radius_of_each, strict=True)
-        throws = sum(masses.share * radius**2 for masses, radius in radii)
-        crank = (crank - throws) * engine.omega**2 / (c.count if each else 1)
+    scale = engine.omega**2 / (c.count if each else 1)
+    momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
+    found = {}
     for name, phasors in steady.items():
         if name == "torque":
-            inertia = lowest.mean_inertia + crank
+            inertia = lowest.mean_inertia + energy
             mixed = ripple.apply_to_torque(phasors.drop_noise(), speed, inertia)
         else:
-            momentum = lowest.mean_momentum + crank if name == "couple" else 0.0
-            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, momentum)
+            spin = lowest.mean_momentum + momentum if name == "couple" else 0.0
+            mixed = ripple.apply_to_force(phasors.drop_noise(), speed, spin)
         found[name] = mixed.select_orders(orders)
     return found
 
@@ -422,6 +417,44 @@ def take_gas(engine: Engine) -> EngineGas:
     if engine.gas is None:
         raise BalcliError(f"{engine.name or 'the engine'}: {NO_GAS}")
     return engine.gas
+
+
+class GasAtSpeeds(NamedTuple):
+    """Gas of an engine at any speeds.
+
+    Attributes:
+        torque: Function of speeds, rpm, to torques by order, N m, shape (orders, *speeds, ...).
+        imep: Function of speeds, rpm, to the indicated mean effective pressure, Pa.
+        law: How it depends on the speed; None: it does not.
+    """
+
+    torque: Callable[[ArrayLike], Complex]
+    imep: Callable[[ArrayLike], Array]
+    law: GasLaw | None
+
+    def select_orders(self, rows: NDArray[np.bool_]) -> GasAtSpeeds:
+        """Return the same with the torques of some orders."""
+        return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm)[rows])
+
+
+def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds:
+    """Return the gas of an engine at any speeds.
+
+    Args:
+        engine: Engine with gas, without trailing axes.
+        find: Function of the engine with the gas of one speed to torques by order, shape (orders,
+            ...), in which gas alone counts.
+
+    Raises:
+        BalcliError: The engine has no gas.
+    """
+    gas, volume = take_gas(engine), float(engine.displacement_m3)
+    by_speed = gas.follow(lambda own: find(replace(engine, gas=own)))
+
+    def find_torque(speeds_rpm: ArrayLike) -> Complex:
+        return np.moveaxis(np.asarray(by_speed(speeds_rpm), complex), np.ndim(speeds_rpm), 0)
+
+    return GasAtSpeeds(find_torque, gas.follow(lambda own: own.work / volume), gas.law)
 
 
 def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> Phasors:

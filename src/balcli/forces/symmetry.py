@@ -157,10 +157,11 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
 _GROUPS = {
     "force": ("force",),
     "moment": ("moment",),
+    "couple": ("couple",),
     "turning": ("couple", "torque"),
     "gas": ("gas",),
 }
-_WORDS = {"turning": "couple, torque and roll", "gas": "gas torque"}
+_WORDS = {"turning": "torque and roll", "gas": "gas torque"}
 _INERTIA = ("force", "moment", "couple", "torque", "roll")
 NEARLY = 1e-2  # of one cylinder
 _DRAWS = 3
@@ -173,14 +174,14 @@ class Reason(NamedTuple):
 
     Attributes:
         order: Order, above 0.
-        quantity: Group of kinds: force, moment, turning (couple, torque and roll) or gas.
-        verdict: "none": no cylinder has this order; "symmetry": balanced for any masses and rod
-            length that all cylinders share; "chance": balanced for these figures only; "nearly":
+        quantity: Group of kinds: force, moment, couple, turning (torque and roll) or gas.
+        verdict: "none": no cylinder has any; "symmetry": balanced for any masses and rod length
+            that all cylinders have in common; "chance": balanced for these figures only; "nearly":
             less than 1 % of one cylinder is left; "unbalanced".
-        size: Remaining amplitude, relative to the largest of a single cylinder.
-        reciprocating: Remaining amplitude of reciprocating masses only, as in textbooks, in `unit`.
-        built: Remaining amplitude of the engine as built, in `unit`.
-        unit: F_n of the order, or F_n a; empty if there is none.
+        size: Rest, in units of the largest that one cylinder makes.
+        reciprocating: Rest of the reciprocating masses alone, as textbooks have it, in `unit`.
+        built: Rest of the engine as built, in `unit`.
+        unit: F_n of the order, or F_n a; else empty.
     """
 
     order: float
@@ -245,19 +246,19 @@ class Symmetry(NamedTuple):
 def explain_symmetry(
     engine: Engine, orders: Iterable[float], kinds: Collection[str] = _INERTIA
 ) -> Symmetry:
-    """Find out whether an engine without devices, at steady speed, is balanced by symmetry or by
-    chance.
+    """Find out whether the cylinders alone, without devices and at steady speed, are balanced by
+    symmetry or by chance.
 
-    Moments are about the engine's point of reference; couple, torque and roll are about the crank
-    axis.
+    Moments are about the engine's point of reference; in couple, torque and roll the displacement
+    of this point is left out.
 
     Args:
-        engine: Engine without trailing axes.
-        orders: Multiples of 1/2, above 0.
-        kinds: Any of force, moment, couple, torque, roll and gas; couple, torque and roll share one
-            verdict.
+        engine: without trailing axes.
+        orders: multiples of 1/2, above 0.
+        kinds: any of force, moment, couple, torque, roll and gas; torque and roll have one reason
+            in common.
     """
-    asked = {"turning" if kind in _INERTIA[2:] else kind for kind in kinds}
+    asked = {"turning" if kind in ("torque", "roll") else kind for kind in kinds}
     groups = {
         group: parts
         for group, parts in _GROUPS.items()

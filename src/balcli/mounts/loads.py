@@ -10,10 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.phases import RPM
 from ..core.phasors import Array, Phasors
 from ..core.speed_ripple import (
     count_in_time,
@@ -27,16 +29,21 @@ from ..engine.engine import NONE_SILENT, Engine, SilentCylinders
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.kinds import GAS_KINDS
 from ..forces.spectrum import (
+    GasAtSpeeds,
     Spectra,
     choose_orders,
     compute_spectra,
     dense_orders,
     find_relevant_orders,
+    follow_gas,
     list_gas_orders,
     merge_orders,
 )
 from ..limits import MOST_SAMPLES
 from .rigid_body import ROLL, load_at_centre
+
+if TYPE_CHECKING:
+    from ..engine.gas import GasLaw
 
 _MOST_COUNTED = 1 << 26  # most samples times orders, which take seconds
 
@@ -44,21 +51,24 @@ _MOST_COUNTED = 1 << 26  # most samples times orders, which take seconds
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
-    """Return the spectra of an engine with uneven speed by orders of time. The arguments are those
-    of `compute_spectra`.
+    """Return the spectra of an engine by orders of the time, in which the crank turns faster than
+    over the angle at uneven speed; arguments as for `compute_spectra`.
 
     Returns:
-        The spectra, and the mean speed over time divided by the mean speed over the angle.
+        The spectra, and the mean speed over the time, as a multiple of that over the angle.
 
     Raises:
-        BalcliError: The crank almost stops, or a kind needs gas that the engine does not have.
+        BalcliError: The crank almost stops; a kind of gas for an engine without gas.
     """
+    if not engine.ripple:
+        return compute_spectra(engine, orders, kinds), 1.0
     mixed = [*(line.order for line in engine.ripple), *orders]
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
-    # enough samples where the crank is slowest
-    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))
+    samples = 1 << math.ceil(
+        math.log2(32 * len(fastest) / slowest)
+    )  # enough samples where the crank is slowest
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
@@ -83,36 +93,49 @@ class BodyLoads:
 
     Attributes:
         orders: Orders, all above 0, shape (orders,).
-        inertia: Force (N) and moment about the centre of gravity (N m) at the speed `omega`, shape
-            (orders, 6); both grow with the square of the speed.
-        omega: Speed of `inertia`, rad/s. All speeds here are means over time.
-        gas: Load of the gas torque, a roll moment that is the same at every speed, shape (orders,
-            6).
-        mean: Steady torque on the body about the crankshaft's axis, N m: the reaction to a constant
-            load. The load is the mean gas torque over the crank angle, minus friction, which acts
-            between parts of the body.
-        fired: Whether the file has gas.
+        inertia: Force (N) and moment about the centre of gravity (N m) at `omega`, shape
+            (orders, 6); they grow with the square of the speed.
+        omega: Speed of `inertia`, rad/s, mean over the time, as all speeds here are.
+        turns: This speed over the mean over the crank angle.
+        gas: Torque of the gas, which leaves its reaction as a roll, by the mean speed over the
+            crank angle; None: the file has no gas.
+        mean: Steady torque about the crankshaft's axis on the body, N m: the reaction to a constant
+            load, which takes the mean of the gas torque over the crank angle, at uneven speed as
+            well, less the share that goes into friction, which acts between parts of the body. It
+            is that at the engine's own speed.
         silent: Cylinders that do not fire.
     """
 
     orders: Real
     inertia: Complex
     omega: float
-    gas: Complex
+    turns: float
+    gas: GasAtSpeeds | None
     mean: float
-    fired: bool
     silent: SilentCylinders
 
     def at(self, omega: Real) -> Complex:
         """Return the load, shape (orders, *speeds, 6), at speeds (rad/s, any shape)."""
         square = np.asarray((omega / self.omega) ** 2)
-        gas = np.einsum("oi,...->o...i", self.gas, np.ones_like(square))
-        return np.einsum("oi,...->o...i", self.inertia, square) + gas
+        load = np.einsum("oi,...->o...i", self.inertia, square)
+        if self.gas is not None:
+            load[..., ROLL] -= self.gas.torque(self.to_crank_rpm(omega))
+        return load
+
+    def to_crank_rpm(self, omega: Real) -> Real:
+        """Return the mean speeds over the crank angle, rpm, of those over the time, rad/s."""
+        return np.asarray(omega / self.turns / RPM)
+
+    @property
+    def law(self) -> GasLaw | None:
+        """How the gas depends on the speed; None: it does not."""
+        return None if self.gas is None else self.gas.law
 
     @property
     def there(self) -> NDArray[np.bool_]:
-        """Whether an order has any load, shape (orders,)."""
-        return np.any((self.inertia != 0) | (self.gas != 0), axis=1)
+        """Whether an order has any load at some speed, shape (orders,)."""
+        nodes = [] if self.law is None else [rpm * RPM * self.turns for rpm in self.law.nodes_rpm]
+        return np.any(self.at(np.array([self.omega, *nodes])) != 0, axis=(1, 2))
 
 
 def find_loads(
@@ -137,24 +160,30 @@ def find_loads(
     wanted = np.array(usual if orders is None else orders, np.float64)
     wanted = wanted[wanted > 0]
     kinds = ("force", "moment", "roll", *["gas"] * fired)
-    if engine.ripple:  # by orders of time; the mean speed over time is higher than over the angle
-        found, turns = compute_spectra_in_time(engine, wanted, kinds)
-    else:
-        found, turns = compute_spectra(engine, wanted, kinds), 1.0
+    found, turns = compute_spectra_in_time(engine, wanted, kinds)
     if orders is None:
-        found = found.select_orders(choose_orders(found, of_gas))
+        each = (engine.at_speed(rpm) for rpm in (engine.gas.nodes_rpm if engine.gas else ()) if rpm)
+        all_found = (found, *(compute_spectra_in_time(one, wanted, kinds)[0] for one in each))
+        shown = merge_orders(*(choose_orders(one, of_gas) for one in all_found))
+        found = found.select_orders(np.array(shown))
     force, moment, roll = (found[kind].drop_noise() for kind in ("force", "moment", "roll"))
     pull = np.stack([force.x, force.y, 0 * force.x], axis=-1)
     turn = np.stack([moment.x, moment.y, roll.x], axis=-1)
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
-    gas, mean, silent = np.zeros_like(inertia), 0.0, NONE_SILENT
+    by_speed, mean, silent = None, 0.0, NONE_SILENT
     if fired:
-        gas[:, ROLL] = -found["gas"].drop_noise().x
+
+        def find_torque(own: Engine) -> NDArray[np.complex128]:
+            torque = compute_spectra_in_time(own, found.orders, ("gas",))[0]["gas"]
+            return np.asarray(torque.drop_noise().x, complex)
+
+        by_speed = follow_gas(engine, find_torque)
         indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
         mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
     omega = turns * float(engine.omega)
-    loads = BodyLoads(found.orders, inertia, omega, gas, mean, fired, silent)
+    loads = BodyLoads(found.orders, inertia, omega, turns, by_speed, mean, silent)
     kept = loads.there
     if orders is not None or not kept.any():
         return loads
-    return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=gas[kept])
+    by_speed = by_speed and by_speed.select_orders(kept)
+    return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)

@@ -182,6 +182,7 @@ class BodyResponse:
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
         orders: Orders in the response: those requested, or all that contribute.
         speeds_rpm: Crank speeds.
+        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all.
         mounts: Force of each mount.
         points: Motion of each point.
         passed: Load on the frame, by order.
@@ -193,6 +194,7 @@ class BodyResponse:
     no_burning_in: tuple[int, ...] | None = None
     orders: list[float]
     speeds_rpm: Real
+    imep_Pa: Real | None = None
     mounts: tuple[MountForce, ...]
     points: tuple[PointMotion, ...]
     passed: tuple[Passed, ...]
@@ -279,9 +281,13 @@ class MountReport(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warning about the mount that travels most, if its travel is implausibly large."""
+        """Warnings of speeds for which the file gives no gas, and about the mount that travels
+        most, if no mount travels as far.
+        """
         if self.response is None:
             return ()
+        law, speeds = self.response.loads.law, self.response.speeds_rpm
+        of_gas = () if law is None else tuple(law.list_doubts(speeds))
         stiffness, loss, damping = self.mounted.dynamic[2:]
         worst = [mount.worst for mount in self.response.mounts]
         frequency = np.array([[each.order * each.speed_rpm * RPM] for each in worst])
@@ -289,11 +295,11 @@ class MountReport(Result):
         travels = np.array([each.force_N for each in worst]) / springs
         farthest = int(travels.argmax())
         if (travel := travels[farthest]) <= TRAVEL_MOST:
-            return ()
+            return of_gas
         told = (
             f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
             f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, where stops "
             "hold others at 10 to 20; are loss and damping right, and does it run at that speed, "
             "or pass it?"
         )
-        return (told,)
+        return (*of_gas, told)

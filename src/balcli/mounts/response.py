@@ -26,7 +26,7 @@ from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError
 from ..file.fields import order_number
-from ..forces.spectrum import compute_spectra, list_gas_orders
+from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
 from ..show.figures import silent_entries
 from .build import BodyModes, MountedBody
@@ -104,15 +104,15 @@ class RunningBody(NamedTuple):
         points = carry_points(mounted.points, centre)
         couplings = np.concatenate([mounts, np.concatenate([points, 0 * points], axis=-1)])
         running = cls(modes, find_loads(engine, centre, orders), couplings)
-        if orders is not None or not running.loads.fired:
+        if orders is not None or running.loads.gas is None:
             return running
         running.refuse_resonance(omega, ranged=ranged)
         every = list_gas_orders(engine, HIGHEST_ORDER_UNASKED)
         rows = np.linspace(0, len(omega) - 1, _LOOKED_AT).round().astype(int)
         some = np.unique(omega[rows])
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
-        roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
-        sizes = roll[:, None, None] * running.bound_response(every, some)
+        gas = follow_gas(engine, lambda own: compute_spectra(own, every, ["gas"])["gas"].x)
+        sizes = np.abs(gas.torque(some / RPM))[..., None] * running.bound_response(every, some)
         beyond = sizes[::-1].cumsum(axis=0)[::-1]  # sum of an order and all higher ones
         needed = (beyond > _BEYOND * own).any(axis=(1, 2))
         highest = every[needed].max(initial=HIGHEST_GAS_ORDER_UNASKED)
@@ -307,6 +307,7 @@ def respond(
         **silent_entries(loads.silent),
         orders=numbers,
         speeds_rpm=rpm,
+        imep_Pa=loads.gas.imep(loads.to_crank_rpm(omega)) if loads.gas and loads.law else None,
         mounts=tuple(places[: len(mounts)]),
         points=tuple(places[len(mounts) :]),
         passed=tuple(

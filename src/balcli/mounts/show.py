@@ -113,10 +113,11 @@ def _answer(result: MountReport, response: BodyResponse, kinds: Sequence[Kind]) 
 
 def _tell_gas(response: BodyResponse) -> str:
     """Return a sentence on whether gas is included, and on cylinders that do not fire."""
-    if not response.loads.fired:
+    if response.loads.gas is None:
         return "Inertia only: gas torque, which also rolls an engine, is not included."
     silent = "".join(f"; {what} {numbers}" for what, numbers in list_silent(response.loads.silent))
-    return f"Inertia and gas torque, with the same gas diagram at every speed{silent}."
+    gas = "gas of each speed" if response.loads.law else "same gas diagram at every speed"
+    return f"Inertia and gas torque, with the {gas}{silent}."
 
 
 def _compare(own: BodyResponse, other: BodyResponse, kind: Kind) -> str:
@@ -287,8 +288,16 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
     for label, response in zip(labels, result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
+        yield from _list_imep(response, label)
         for kind in (force, motion):
             yield from _list_curves(response, kind, label)
+
+
+def _list_imep(response: BodyResponse, label: str) -> Iterator[tuple[object, ...]]:
+    """Yield the mean pressure by speed, if it depends on the speed."""
+    if response.imep_Pa is not None:
+        for rpm, imep in zip(response.speeds_rpm, response.imep_Pa.tolist(), strict=True):
+            yield f"{label}engine", "", None, clean(rpm), "imep", imep, "Pa"
 
 
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:

@@ -37,10 +37,12 @@ WHAT = (
     "polar: loci; orders: both vectors of each order; spectrum: bars; curves: over the "
     "crank angle; all: loci, bars and curves on one page; "
     "ladder: loci with the devices of each balancing step; "
-    "factor: over the balance factor; bank: the force of a vee over its bank angle; inner: "
-    "along the crankshaft; with [gas]: pressure, p-v, torque (with its surplus areas), pin and "
-    "main (polar diagrams of bearing loads); with [torsion]: modes, campbell, response, "
-    "waterfall. Several pages form one PDF, or one file each (v8-pin.svg)."
+    "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
+    "two-shaft the radii of its shafts; inner: along the crankshaft; piston: travel, velocity and "
+    "acceleration, with [gas] side thrust and rod force; journals: torque in the main journals; "
+    "with [gas]: pressure, p-v, torque (with its surplus areas), pin and main (polar diagrams of "
+    "bearing loads); with [torsion]: modes, campbell, response, waterfall. Several pages form one "
+    "PDF, or one file each (v8-pin.svg)."
 )
 
 
@@ -59,6 +61,7 @@ def report(
     small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
+    cylinder: Annotated[int | None, optional("N", "Also the motion of this piston.")] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Write a self-contained page: the engine in motion, and its free forces and moments without
@@ -85,7 +88,7 @@ def report(
         book = live.describe_one(
             model, engine, system, text.decode(), name_file(path), options.read_small()
         )
-        page = pages.page(found, system, tell, live=book)
+        page = pages.page(found._replace(cylinder=cylinder), system, tell, live=book)
     emit(page, output)
 
 
@@ -114,6 +117,7 @@ def plot(
     speed: Speed = None,
     orders: Orders = None,
     speeds: Annotated[str | None, optional("A:B:STEP", SPEEDS)] = None,
+    cylinder: Annotated[int | None, optional("N", "Of the page piston; default: 1.")] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Draw free forces and moments: the locus over a revolution and the spectrum of orders, or
@@ -137,7 +141,7 @@ def plot(
     )
     from .plot import Asked, make_figures, write_pages
 
-    asked = Asked(speed, orders, speeds, scheme, options, units)
+    asked = Asked(speed, orders, speeds, cylinder, scheme, options, units)
     write_pages(make_figures(path, pages, asked), files, form)
 
 

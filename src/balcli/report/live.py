@@ -49,25 +49,19 @@ from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, System
 from ..studies.parameters import find_numbers
 
-_TABLES = (
-    "crank",
-    "rod",
-    "piston",
-    "crosshead",
-    "layout",
-    "operation",
-    "cylinder",
-)  # tables with numbers to change
+# tables with numbers to change
+_TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
-_UNUSED = ("crank.inertia", "operation.speed_ripple")
+# Numbers that count only at an uneven speed.
+_UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
 _MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # axes, pins or positions
 _UNITS = {  # further units that the page reads, by dimension
-    LENGTH: ("cm", "m", "in", "inch", "ft"),
-    MASS: ("g", "lb", "oz"),
-    UNBALANCE: ("kg mm", "kg m", "g cm", "oz in", "lb in"),
-    ANGLE: ("rad", "turn"),
-    SPEED_OF_ROTATION: ("1/min", "Hz", "rad/s"),
-    INERTIA: ("kg m^2", "lb in^2"),
+    LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
+    MASS: ("mg", "g", "gram", "grams", "t", "lb", "lbs", "pounds", "oz", "ounces"),
+    UNBALANCE: ("kg mm", "kg m", "g cm", "g m", "g in", "oz in", "lb in", "lb ft"),
+    ANGLE: ("degree", "degrees", "rad", "turn"),
+    SPEED_OF_ROTATION: ("1/min", "min^-1", "rps", "Hz", "rad/s"),
+    INERTIA: ("kg m^2", "kg cm^2", "g mm^2", "g cm^2", "lb in^2", "lb ft^2", "oz in^2"),
 }
 _NEW = {  # keys of a new device with their dimensions and initial values
     "counterweight": {"unbalance": (UNBALANCE, 1e4), "angle": (ANGLE, 0), "position": (LENGTH, 0)},
@@ -100,6 +94,10 @@ def explain_still(engine: Engine) -> str:
     )
     if lists or len(engine.cylinders.radius) > 1:
         return "its throws differ"
+    if engine.model is not None:
+        devices = (*engine.model.counterweight, *engine.model.shaft)
+        if any(one.unbalance is None and one.mass is None for one in devices):
+            return "a counterweight or shaft has no unbalance in the file"
     return "its speed is uneven" if engine.ripple else ""
 
 
@@ -194,6 +192,7 @@ def make_book(
         "source": file if file.endswith(".toml") else "",
         "choice": choice,
         "small": small,
+        "options": "" if small == SMALL else f" --small {100 * small:g}%",
         "negligible": NEGLIGIBLE,
         "shown": SHOWN,
         "unknown": sentence(MOMENTS_UNKNOWN),
@@ -241,7 +240,7 @@ def _list_numbers(model: EngineFile) -> Iterator[Node]:
     tables = dict(model.tables())
     for name, number in find_numbers(model).items():
         value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or name.startswith(_UNUSED):
+        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or re.match(_UNUSED, name):
             continue
         yield {"name": name, "value": value, **_describe_limits(number)}
     for path, table in tables.items():

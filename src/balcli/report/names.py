@@ -8,10 +8,12 @@ from ..errors import BalcliError
 from ..file.fields import nearest
 
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
+OF_PARTS = ("piston", "journals")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
     *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also for a Balance
     *("ladder", "factor", "bank", "inner"),
+    *OF_PARTS,
     *OF_GAS,
     *OF_TORSION,
 )

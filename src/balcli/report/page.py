@@ -48,7 +48,7 @@ from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
 from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
-from .pages import PageSubject, draw_panel
+from .pages import PageSubject, draw_panel, make_page
 from .study import Study, analyze_steps
 
 if TYPE_CHECKING:
@@ -190,16 +190,20 @@ def _shakes(result: Analysis, order: float) -> bool:
 FOLDER = Path(__file__).with_name("assets")
 _PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
 _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
+_STILL = (("force", "polar"), ("moment", "polar"))  # for a browser without JavaScript
 
 
 class Answers(NamedTuple):
-    """Results in a report on an engine. Chapters that its file does not have are None."""
+    """Results in a report on an engine; None for a chapter that its file does not have. The motion
+    of one piston is drawn if its cylinder is named.
+    """
 
     result: Analysis
     balanced: Balance
     mounted: MountReport | None = None
     twisted: TorsionAnalysis | None = None
     turning: Engine | None = None
+    cylinder: int | None = None
 
 
 def find_answers(
@@ -249,16 +253,19 @@ def _warning(chapter: str) -> Iterator[None]:
 def page(
     found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
-    """Return the page on an engine: its analysis, a balance scheme, vibration on mounts, torsion,
-    and gas. All text from the engine file is escaped.
+    """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
+    gas. All text from the engine file is escaped.
 
     Args:
         found: Results to show.
         system: Units of figures and pictures.
-        tell: Called with the share of the pictures of forces and moments drawn so far.
-        live: Data of the panel for changing numbers, from `live.make_book`; None: no panel.
+        tell: Called with the share of the pictures of forces and moments that is drawn.
+        live: Numbers to change on the page, as of `live.make_book`; None: none.
+
+    Raises:
+        BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, turning = found
+    result, balanced, mounted, twisted, turning, cylinder = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
@@ -266,10 +273,11 @@ def page(
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
+    panels = (*alone, *beside, *_choose_panels(now, _STILL, told))
     pictures = []
-    for panel in (*alone, *beside):
+    for panel in panels:
         pictures.append(draw_panel(*panel))
-        tell(len(pictures) / (len(alone) + len(beside)))
+        tell(len(pictures) / len(panels))
     return _template().render(
         whole=True,
         live=live,
@@ -282,7 +290,9 @@ def page(
         remedy=remedy.parts,
         scene=scene(result, _list_variants(result, balanced), system),
         pictures=pictures[: len(alone)],
-        compared=pictures[len(alone) :],
+        piston=None if cylinder is None else _draw_piston(now, cylinder),
+        compared=pictures[len(alone) : len(alone) + len(beside)],
+        loci=pictures[len(alone) + len(beside) :],
         running=None if turning is None else running(turning, system),
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
@@ -331,7 +341,7 @@ def make_play_page() -> str:
         version=__version__,
         verdict=None,
         scene=None,
-        **dict.fromkeys(("mounts", "torsion", "running")),
+        **dict.fromkeys(("mounts", "torsion", "running", "loci")),
     )
 
 
@@ -346,6 +356,12 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     if remedy.reasons and not remedy.step:
         shown[f"scheme {remedy.scheme}"] = balanced.after
     return shown
+
+
+def _draw_piston(subject: PageSubject, cylinder: int) -> str:
+    """Return the picture of a piston's motion as SVG."""
+    figure = make_page(replace(subject, cylinder=cylinder), "piston")
+    return inline_svg(save_figure(figure, "svg"), "piston")
 
 
 def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:

@@ -21,6 +21,8 @@ from ..analysis.plot import (
     draw_along,
     draw_curves,
     draw_factors,
+    draw_journals,
+    draw_piston,
     draw_scalar_bars,
     draw_vector_bars,
     visible_rows,
@@ -33,6 +35,7 @@ from ..show.engine_facts import tell_pivot
 from ..show.plane import FINE, draw_loci, draw_locus, draw_order, draw_paths
 from ..show.plot_style import (
     BLUE,
+    GREEN,
     INK,
     RED,
     fit_name,
@@ -52,6 +55,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+_LARGEST_RATIO = 10.0  # of radii that are drawn
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -66,6 +70,50 @@ def draw_end_curves(ax: Axes, banks: Banks, unit: ShownUnit) -> None:
     draw_paths(ax, dict(zip(labels, paths, strict=True)), FORCE.name_components(None), s.name)
     ax.set_title(f"Force of order {banks.order:g}: path of its tip by bank angle")
     put_legend_above(ax, len(_BANKS_DEG))
+
+
+def draw_radii(ax: Axes, banks: Banks) -> None:
+    """Draw the radii of two shafts that cancel the force without a roll moment, and their ratio,
+    over the bank angle (Liu, figure 4).
+    """
+    with_crank, against, ratio = banks.find_radii()
+    angles = banks.angles_deg
+    ax.plot(angles, with_crank, color=BLUE, label="with the crank")
+    ax.plot(angles, against, color=RED, linestyle=(0, (5, 1.5)), label="against it")
+    drawn = np.abs(ratio) < _LARGEST_RATIO
+    ax.plot(angles[drawn], ratio[drawn], color=GREEN, linestyle=":", label="ratio")
+    ax.axhline(0, color=INK, linewidth=0.7)
+    ax.set(
+        xlim=(0, 180),
+        xticks=_BANKS_DEG,
+        xlabel="bank angle, deg (dotted: this engine)",
+        ylabel="radius over the longest; ratio",
+    )
+    if banks.own_deg <= 180:
+        ax.axvline(banks.own_deg, color=INK, linewidth=0.9, linestyle=":")
+    ax.set_title(f"Shafts at +{banks.order:g} and -{banks.order:g}: radii without a roll")
+    put_legend_above(ax, 3)
+
+
+def draw_radius_roses(ax: Any, banks: Banks) -> None:
+    """Draw the same as radii in the directions of both banks, over a whole turn: a circle, a rose,
+    and for a flat-plane V8 the four-leaved rose of Liu (figure 8), thick where it counts.
+    """
+    half = np.radians(banks.angles_deg) / 2
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    ratio = np.abs(banks.find_radii()[2])
+    drawn = ratio < _LARGEST_RATIO
+    for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
+        width = 1.0 if start else 2.4
+        ax.plot(start + sense * half[drawn], ratio[drawn], color=GREEN, linewidth=width)
+    both = np.concatenate([-half[::-1], half])
+    for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
+        ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
+    marks = np.arange(0, 360, 30)
+    angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
+    ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
+    ax.set_title("The same in the directions of the banks", pad=6)
 
 
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
@@ -103,10 +151,11 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 
 @dataclass(frozen=True)
 class PageSubject:
-    """The engine of a page, and the units of its pictures."""
+    """The engine of a page, the units in which it is drawn, and the cylinder of the page piston."""
 
     study: Study
     system: System = SI
+    cylinder: int = 1
 
     @property
     def now(self) -> Analysis:
@@ -303,6 +352,10 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
         size = size_text(largest, unit, 2)
         return f"Force of order {banks.order:g}: negligible ({size}), whatever the bank angle"
+    if subject.study.pair:
+        draw_radii(fig.add_subplot(1, 2, 1), banks)
+        draw_radius_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks)
+        return ""
     draw_end_curves(fig.add_subplot(1, 2, 1), banks, unit)
     draw_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks, unit)
     return ""
@@ -343,6 +396,14 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
     draw_gas(fig, subject.now.engine, what, subject.system)
 
 
+def _lay_out_piston(fig: Figure, subject: PageSubject) -> None:
+    draw_piston(fig, subject.now.engine, subject.cylinder, subject.system)
+
+
+def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
+    draw_journals(fig.subplots(), subject.now.engine, subject.system.moment)
+
+
 # Width and height in inches (some layouts change them), and the drawing function.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
@@ -355,6 +416,8 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
+    "piston": (7.2, 7.8, _lay_out_piston),
+    "journals": (8.4, 4.8, _lay_out_journals),
     "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
     "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
     "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),

@@ -20,7 +20,7 @@ from ..forces.spectrum import check_orders
 from ..limits import SMALL
 from ..mounts.plot import make_mounts
 from ..mounts.records import MountReport
-from ..shell.arguments import check_speeds, check_torsion_orders, tell_arguments
+from ..shell.arguments import check_count, check_speeds, check_torsion_orders, tell_arguments
 from ..shell.inputs import read_engine, require_gas
 from ..shell.options import parse_orders, parse_speed
 from ..shell.output import write_file
@@ -65,6 +65,7 @@ def plot(
     scheme: str | None = None,
     speeds_rpm: ArrayLike | None = None,
     small: float = SMALL,
+    cylinder: int = 1,
 ) -> Figure:
     """Draw an engine or a result as a figure of matplotlib; see also `balcli plot`.
 
@@ -76,32 +77,35 @@ def plot(
         what: Page of an engine, its analysis or balance: "overview" (default: one locus, and the
             spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "ladder" (loci of each balancing step), "bank" (a vee over its bank angle), "factor"
-            (over the balance factor); with gas "pressure", "p-v", "torque", "pin", "main"; for
-            torsion "all", "modes", "campbell", "response", "waterfall". Other results have one
-            picture.
+            "ladder" (loci, step by step), "bank" (a vee over its bank angle, with scheme
+            "two-shaft" the radii of its shafts), "factor" (over the balance factor), "piston",
+            "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; for torsion "all",
+            "modes", "campbell", "response", "waterfall". Other results have one picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme of an engine to compare with.
         speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.
         small: Share of one cylinder's first order below which the ladder of an engine ignores a
             part.
+        cylinder: Number of the cylinder whose piston is drawn.
 
     Raises:
-        BalcliError: There is no such picture; the error lists the existing ones.
+        BalcliError: There is no such picture; the error lists those there are.
         TypeError: `shown` has no picture.
 
     Example:
         >>> plot(load("v8.toml"), "polar").savefig("v8.png")
     """
     check_type("what", what, (str, NoneType), 'give the name of a page, such as "polar"')
+    check_count("cylinder", cylinder)
     options = SchemeOptions(small=check_small(check_number("small", small, "give a share")))
     match shown:
         case Engine():
-            return _plot_engine(shown, what or "overview", orders, scheme, options, speeds_rpm)
+            page = what or "overview"
+            return _plot_engine(shown, page, orders, scheme, options, speeds_rpm, cylinder)
         case Analysis():
             asked = shown.orders if orders is None else orders
             page = what or "overview"
-            return _plot_engine(shown.engine, page, asked, scheme, options, speeds_rpm)
+            return _plot_engine(shown.engine, page, asked, scheme, options, speeds_rpm, cylinder)
         case Balance():
             study = Study(shown.after, shown.before, shown.remedy)
             return make_page(PageSubject(study), check_page(what or "overview", PAGES[:6]))
@@ -128,10 +132,12 @@ def _plot_engine(
     scheme: str | None = None,
     options: SchemeOptions | None = None,
     speeds_rpm: ArrayLike | None = None,
+    cylinder: int = 1,
 ) -> Figure:
     if check_page(what) not in OF_TORSION:
         asked = None if orders is None else check_orders(orders).tolist()
-        return make_page(PageSubject(compute_study(engine, what, asked, scheme, options)), what)
+        study = compute_study(engine, what, asked, scheme, options)
+        return make_page(PageSubject(study, cylinder=cylinder), what)
     exciting = check_torsion_orders(orders)
     source = make_source(take_model(engine), engine, engine.name, exciting)
     speeds = check_speeds("plot", speeds_rpm)
@@ -158,6 +164,7 @@ class Asked(NamedTuple):
     speed: str | None
     orders: str | None
     speeds: str | None
+    cylinder: int | None
     scheme: str | None
     options: SchemeOptions
     units: Units
@@ -171,6 +178,8 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
         BalcliError: an option does not suit a page, or the file lacks data for a page.
     """
     found: dict[str, Figure] = {}
+    if asked.cylinder is not None and "piston" not in pages:
+        warn("--cylinder counts for the page piston alone")
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
     if of_torsion:
@@ -197,7 +206,8 @@ def _make_pages(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     for page in pages:
         scheme = asked.scheme if page == "factor" else beside
         study = compute_study(engine, page, orders, scheme, asked.options)
-        figures.append(make_page(PageSubject(study, SYSTEMS[asked.units]), page))
+        subject = PageSubject(study, SYSTEMS[asked.units], asked.cylinder or 1)
+        figures.append(make_page(subject, page))
     return figures
 
 

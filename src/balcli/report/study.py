@@ -12,22 +12,24 @@ import numpy as np
 
 from ..analysis.answer import Analysis, analyze, find_inner_loads
 from ..balancing.answer import balance_engine as balance
-from ..core.phasors import Array, Phasors
+from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import VECTORS
 from ..forces.spectrum import compute_spectra
+from ..forces.symmetry import with_reciprocating_only
 from ..sizing.bobweights import FactorPeaks
 from ..sizing.factor import find_best_peaks
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import SchemeOptions
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
-from .names import OF_GAS
+from .names import OF_GAS, OF_PARTS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_ALONE = ("ladder", "bank", *OF_GAS)  # pages of the engine without a scheme
+_NO_RADIUS = 1e-9  # share of the largest force below which one counts as 0
+_ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages of the engine without a scheme
 
 
 class Banks(NamedTuple):
@@ -36,24 +38,44 @@ class Banks(NamedTuple):
     Attributes:
         angles_deg: Bank angles, shape (angles,).
         own_deg: Bank angle of the engine.
+        middle_deg: Direction of the middle of the vee, deg from x.
         force: Force, N, shape (1, angles).
     """
 
     order: float
     angles_deg: Array
     own_deg: float
+    middle_deg: float
     force: Phasors
+
+    def find_radii(self) -> tuple[Array, Array, Array]:
+        """Return the radii of the shafts with and against the crank that cancel the force without
+        a roll moment, as shares of the longest radius, and their ratio; nan where no force turns
+        with the crank. Each has the shape (angles,).
+
+        Radii are inverse to the forces. Their sign is Liu's: above 0, one shaft stands above and
+        one below the crank on the same side of the middle plane; below 0, they stand at one height
+        on either side (docs/theory.md).
+        """
+        forward, backward = self.force.forward[0], self.force.backward[0]
+        alike = forward * backward * unit(-2 * self.middle_deg)
+        signed = np.where(alike.real > 0, -1, 1) * np.abs(backward)
+        against, longest = np.abs(forward), float(np.abs([forward, backward]).max())
+        there = against > _NO_RADIUS * longest
+        ratio = np.divide(signed, against, where=there, out=np.full(signed.shape, np.nan))
+        return signed / longest, against / longest, ratio
 
 
 class Study(NamedTuple):
     """Data of a page.
 
     Attributes:
-        now, before: Analysis of the engine with fitted devices, if any, and without them.
+        now, before: Analysis of the engine, and of the engine without fitted devices, if any.
         remedy: Fitted devices.
-        factors: Peaks over the balance factor, ascending, including the best factor.
-        banks: Force of one order over the bank angle.
-        bent: Loads along the crankshaft with fitted devices, and without.
+        factors: Rows of peaks over the balance factor, ascending, with the best of all.
+        banks: One order over the bank angle.
+        pair: Whether the page is of the two shafts that cancel the force at each bank angle.
+        bent: Loads along the crankshaft now, and before.
         steps: Engine with the devices of each step of the ladder, by name.
     """
 
@@ -62,6 +84,7 @@ class Study(NamedTuple):
     remedy: Remedy | None = None
     factors: Sequence[FactorPeaks] = ()
     banks: Banks | None = None
+    pair: bool = False
     bent: tuple[InnerLoads, ...] = ()
     steps: Mapping[str, Analysis] = {}
 
@@ -101,8 +124,17 @@ def compute_study(
     """
     if what == "factor":
         return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
-    if what in _ALONE:
+    asked = options or SchemeOptions()
+    pair = what == "bank" and scheme == "two-shaft"
+    if what in _ALONE and not (pair and asked._replace(order=None, small=None) == SchemeOptions()):
         refuse_scheme(scheme, what)
+    if what == "bank":
+        now = analyze(engine, orders)
+        force = now.spectra["force"]
+        free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
+        order = asked.order or [*(orders or free), 2][0]
+        swung = with_reciprocating_only(engine) if pair else engine  # counterweights take the rest
+        return Study(now, banks=swing_banks(swung, order), pair=pair)
     if scheme is not None:
         found = balance(engine, scheme, options, orders)
         engines = (found.after.engine, engine) if what == "inner" else ()
@@ -110,22 +142,19 @@ def compute_study(
         return Study(found.after, found.before, found.remedy, bent=bent)
     now = analyze(engine, orders)
     if what == "ladder":
-        ladder = find_ladder(engine, (options or SchemeOptions()).read_small())
+        ladder = find_ladder(engine, asked.read_small())
         return Study(now, steps=analyze_steps(engine, ladder, orders))
     if what == "inner":
         return Study(now, bent=(find_inner_loads(engine),))
-    if what == "bank":
-        force = now.spectra["force"]
-        free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
-        return Study(now, banks=swing_banks(engine, orders[0] if orders else [*free, 2][0]))
     return Study(now)
 
 
 def refuse_scheme(scheme: str | None, what: str) -> None:
     """Raise BalcliError if a scheme is given for a page that shows the engine without one."""
     if scheme is not None:
+        alone = "; it takes --scheme two-shaft with --order alone" if what == "bank" else ""
         raise BalcliError(
-            f"--what {what} shows the engine as it is: leave --scheme and its options out"
+            f"--what {what} shows the engine as it is: leave --scheme and its options out{alone}"
         )
 
 
@@ -166,4 +195,4 @@ def swing_banks(engine: Engine, order: float) -> Banks:
         alone = replace(engine, cylinders=swung, devices=(), ripple=())
         forces.append(compute_spectra(alone, [order], ["force"])["force"].vectors)
     force = Phasors(np.array([float(order)]), np.stack(forces, axis=2), np.zeros(1))
-    return Banks(order, angles, float(np.ptp(axes)), force)
+    return Banks(order, angles, float(np.ptp(axes)), float(middle), force)

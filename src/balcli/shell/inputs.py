@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 # Words of --only whose results include moments, among other things.
-ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "xy", "textbook", "verdict"})
+ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "pru", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
 T = TypeVar("T")
@@ -51,17 +51,19 @@ def read_engine(
     speed_rpm: float | None = None,
     asked: Collection[str] | None = None,
     prepare: Callable[[EngineFile], EngineFile] = lambda model: model,
+    over: Sequence[float] | None = None,
 ) -> LoadedEngine:
-    """Read one engine file (`-`: standard input), and print warnings of suspicious values.
+    """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
     Args:
-        speed_rpm: Crank speed that replaces the file's.
-        asked: Names of requested quantities and tables; None: all that the command shows. If no
-            moments are among them, no warning of unknown moments is printed.
-        prepare: Function that changes the model before the engine is built.
+        speed_rpm: crank speed of the engine instead of the file's.
+        asked: names of requested quantities and tables; None: all that the command shows. Without
+            moments among them, no warning of unknown moments is printed.
+        prepare: Changes the file before the engine is built.
+        over: Speeds at which the engine is looked at, rpm; None: its own.
 
     Raises:
-        BalcliError: the file has mistakes, or a requested moment or gas is unknown.
+        BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
         raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
@@ -80,10 +82,9 @@ def read_engine(
         require_gas(engine, path)
     if speed_rpm is not None:
         turned = engine.model and engine.model.with_table("operation", speed=speed_rpm)
-        engine = replace(engine, speed_rpm=speed_rpm, model=turned)
-    warn_each(engine.unlikely, name_file(path))
-    if speed_rpm is not None:
-        engine = replace(engine, model=None)
+        engine = replace(engine.at_speed(speed_rpm), model=turned)
+    speeds = [float(engine.speed_rpm)] if over is None else over
+    warn_each((*engine.unlikely, *engine.doubt_speeds(speeds)), name_file(path))
     return LoadedEngine(text, model, engine)
 
 

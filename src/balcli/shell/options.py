@@ -24,7 +24,8 @@ from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` for tables and texts of quantities that are computed anyway
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses")  # computed only if named
+CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only if named
+OF_ONE = (*PARTS, *CLOSER[2:])  # of one engine at one speed
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -101,7 +102,9 @@ OnlyParts = Annotated[
         "WHAT,...",
         f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
         "bearing loads along crankshaft and block), guide (H- and X-type), "
-        "journals (torque along the crankshaft), masses; or xy, textbook, verdict.",
+        "journals (torque along the crankshaft), masses, parts (balancer shafts in their "
+        "bearings, counterweights as sectors), pru (power related unbalance); or xy, "
+        "textbook, verdict.",
         "--only",
     ),
 ]
@@ -223,6 +226,9 @@ def parse_small(text: str | None) -> float:
     return check_small(SMALL if text is None else read_share("--small", text, wanted))
 
 
+_SEVERAL_SPEEDS = re.compile(r"[\d.]+(:[\d.]+)+|\d\d[\d.]*(,[1-9]\d[\d.]*)+")
+
+
 def parse_speed(text: str | None) -> float | None:
     """Return the speed of `--speed`, rpm.
 
@@ -231,6 +237,8 @@ def parse_speed(text: str | None) -> float | None:
     """
     if text is None:
         return None
+    if _SEVERAL_SPEEDS.fullmatch(text.replace(" ", "")):
+        raise BalcliError(f'--speed "{text}": give one speed here, such as --speed 3000')
     speed = read_speed("--speed", text)
     if not SMALLEST_POSITIVE <= speed < 1e9:
         raise BalcliError(f"--speed {speed:g}: give rpm above 0, below 1e9")

@@ -34,7 +34,9 @@ At = Annotated[
     list[str] | None,
     optional("X,Y", "Position of a shaft, mm; of two shafts, the one at -N first."),
 ]
-Position = Annotated[str | None, optional("Z", "Axial position of new devices, mm.")]
+Position = Annotated[
+    str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two for compensators.")
+]
 Planes = Annotated[
     str | None,
     optional(
@@ -79,11 +81,11 @@ def parse_scheme_options(
     """
     one = "one place along z in mm, such as 40"
     pair = "x,y of a shaft in mm, such as -40,60"
-    along = None if position is None else read_lengths("--position", position, one, 1, units)[0]
+    along = () if position is None else read_lengths("--position", position, one, units=units)
     return SchemeOptions(
         order=order,
         at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
-        position=along,
+        position=along[0] if len(along) == 1 else along or None,
         planes=None if planes is None else _parse_planes(planes, units),
         factor=None if factor is None else parse_factors(factor),
         measured=None if measured is None else read_mass_on_scales("--measured", measured, units),

@@ -110,7 +110,8 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
 
 def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
     first, last = (given(float(speed)) for speed in (speeds_rpm[0], speeds_rpm[-1]))
-    gas = "" if engine.gas is None else "; gas as in the file at every speed"
+    same = engine.gas is not None and engine.gas.law is None
+    gas = "; gas as in the file at every speed" if same else ""
     return f"{first} to {last} rpm, {len(speeds_rpm)} speeds{gas}"
 
 
@@ -149,11 +150,13 @@ def _bore(engine: Engine, system: System) -> str:
     bore_m = float(engine.bore_m)
     if math.isnan(bore_m):
         return ""
-    bore = number(system.length.of(bore_m), 5)
-    first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
-    stroke = f"{number(system.length.of(float(first)), 5)} {system.length.name}"
-    if len(engine.cylinders.radius) > 1:
-        stroke = _list_strokes(engine, system)
+    unit = system.length
+    bore = number(unit.of(bore_m), 5)
+    stroke, first = _list_strokes(engine, system), engine.numbers.index(1)
+    if len(engine.cylinders.radius) == 1:
+        nominal = number(unit.of(2 * float(engine.cylinders.radius[0])))
+        true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
+        stroke += f" (true stroke {true} {unit.name})" * (true != nominal)
     volume = system.volume.fit(float(engine.displacement_m3))
     size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
     return f", bore × stroke {bore} × {stroke}, {size}"

@@ -244,17 +244,16 @@ def describe_state(engine: Engine) -> EngineState:
 
 
 def list_assumed(
-    names: Sequence[str], engines: Sequence[Engine], chapters: Sequence[str] = ("gas",)
+    names: Sequence[str], assumed: Iterable[tuple[str, ...] | None]
 ) -> tuple[str, ...] | None:
-    """Return the values assumed because the files of several engines leave them out: first values
-    common to all, then values of single engines with their names; None if there are none.
+    """Return values taken because the files of several engines leave them out: first those common
+    to all, then those of single engines, with their names; None: no value.
 
     Args:
         names: Names of the engines.
-        engines: Engines to compare.
-        chapters: Chapters of the file to include.
+        assumed: Values that each file leaves out; None: none.
     """
-    each = [engine.list_assumed(*chapters) or () for engine in engines]
+    each = [lines or () for lines in assumed]
     common = [line for line in each[0] if all(line in lines for lines in each)]
     own = ([line for line in lines if line not in common] for lines in each)
     others = zip(names, map(tell_assumed, own), strict=True)

@@ -53,6 +53,7 @@ class System(NamedTuple):
     power: ShownUnit
     inertia: ShownUnit
     heat: ShownUnit
+    scales: ShownUnit
     velocity: ShownUnit
 
     @property
@@ -64,6 +65,14 @@ class System(NamedTuple):
     def torsional_damping(self) -> ShownUnit:
         """Unit of moment over angular velocity."""
         return ShownUnit(f"{self.moment.name}·s/rad", self.moment.size)
+
+    @property
+    def of_parts(self) -> dict[str, ShownUnit]:
+        """Units of masses, moments of inertia and lengths of single parts, by the SI unit."""
+        mass, inertia = self.mass, self.inertia
+        if self is SI:
+            mass, inertia = ShownUnit("g", 1e-3), ShownUnit("kg·mm²", 1e-6)
+        return {"kg": mass, "kg·m²": inertia, "m": self.length}
 
     def unit(self, kind: Kind) -> ShownUnit:
         """Return the unit of a kind of force or moment."""
@@ -90,6 +99,7 @@ SI = System(
     power=ShownUnit("W", 1, ShownUnit("kW", 1e3), 0),
     inertia=ShownUnit("kg·m²", 1),
     heat=ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000),
+    scales=ShownUnit("g", 1e-3),
     velocity=ShownUnit("km/h", 1 / 3.6),
 )
 _LBF_FT = units.POUND_FORCE * 12 * INCH
@@ -108,6 +118,7 @@ IMPERIAL = System(
     power=_HP,
     inertia=ShownUnit("lb·in²", POUND * INCH**2),
     heat=_HP,
+    scales=ShownUnit("oz", POUND / 16),
     velocity=ShownUnit("mph", 5280 * 12 * INCH / 3600),
 )
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}

@@ -76,6 +76,7 @@ class Slot(NamedTuple):
         sense: Sense of rotation: 1 with the crank, -1 against it; 0 for a slider.
         z, place: Position along the crank, m; position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
+        role: Role of a shaft.
     """
 
     kind: Literal["counterweight", "shaft", "slider"]
@@ -84,6 +85,7 @@ class Slot(NamedTuple):
     z: float
     place: complex = 0j
     direction_deg: float = 0.0
+    role: str = "balancer"
 
     def make_device(self, unbalance: complex) -> Device:
         """Return the device of this unbalance (kg m) in this slot, as rotating vectors."""
@@ -105,7 +107,8 @@ class Slot(NamedTuple):
             return Counterweight.model_construct(**values)
         values["at"] = (x, y)
         if self.kind == "shaft":
-            return Shaft.model_construct(ratio=self.sense * self.order, **values)
+            ratio = self.sense * self.order
+            return Shaft.model_construct(ratio=ratio, role=self.role, **values)
         return Slider.model_construct(order=self.order, direction=self.direction_deg, **values)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 import numpy as np
@@ -223,9 +223,22 @@ def _parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
     return FORWARD if sense > 0 else BACKWARD
 
 
+def ignore_compensators(engine: Engine) -> Engine:
+    """Return the engine with the moments, but without the forces, of its compensators: each has an
+    opposite one at the point of reference.
+    """
+    *_, z = engine.reference_m
+    opposite = [
+        device._replace(forward=-device.forward, backward=-device.backward, z=float(z), spin=0.0)
+        for device in engine.devices
+        if device.compensates
+    ]
+    return replace(engine, devices=(*engine.devices, *opposite)) if opposite else engine
+
+
 def size_complete(engine: Engine) -> Remedy:
     """Return devices that cancel all of orders 1 and 2, however small."""
-    fitting = Fitting.start(engine, "complete")
+    fitting = Fitting.start(ignore_compensators(engine), "complete")
     first, second = fitting.find_residual(1), fitting.find_residual(2)
     if any(first.parts[part] for part in FORWARD):
         fitting = add_at_ends(fitting, first)
@@ -244,7 +257,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
         BalcliError: `small` is not a share from 0 to 50 %.
     """
     check_small(small)
-    drawn, scales = Fitting.start(engine, ""), find_scales(engine)
+    drawn, scales = Fitting.start(ignore_compensators(engine), ""), find_scales(engine)
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
     auto = steps[-1].step

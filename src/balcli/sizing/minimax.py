@@ -1,5 +1,6 @@
 """The scheme `minimax`: the counterweight that makes the largest force over a revolution as small
-as possible.
+as possible; and the scheme `ellipse`: the counterweight that leaves the force of order 1 a wanted
+direction and shape.
 
 Seen from the turning crank, the force is the closed curve `f = F e^{-i theta}`, and a counterweight
 shifts it. So the best weight moves the centre of the smallest enclosing circle to the origin. The
@@ -24,7 +25,13 @@ from ..errors import BalcliError
 from .factor import find_curve, find_factor_peaks
 from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_crank_middle, measure_direction, read_planes
+from .planes import (
+    SAME_PLACE,
+    find_crank_middle,
+    measure_direction,
+    read_planes,
+    read_position,
+)
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
@@ -170,6 +177,43 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     return remedy if remedy.devices else remedy._replace(note=nothing_gained)
 
 
+def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Return the counterweight with which the force of order 1 runs on an ellipse whose major axis
+    has the given direction, and whose axes have the given ratio (Wang, conclusion 5).
+
+    A counterweight changes V+ alone. The axis lies at (arg V+ + arg V-)/2, the axes are |V-| + |V+|
+    and |V-| - |V+|; the other solution, |V+| > |V-|, has larger axes.
+
+    Raises:
+        BalcliError: Direction or ratio is missing, or the given planes cannot take the moment.
+        NothingToBalanceError: No force turns against the crank.
+    """
+    if options.direction is None or options.ratio is None:
+        raise BalcliError(
+            "ellipse: give the force to leave: --direction and --ratio, such as 90 and 50%"
+        )
+    fitting = Fitting.start(engine, "ellipse", 1)
+    residual = fitting.find_residual(1)
+    against = residual.force(-1)
+    if not against:
+        raise NothingToBalanceError(
+            "no force of order 1 turns against the crank, so it runs on a circle, and "
+            "counterweights can cancel all of it"
+        )
+    with_crank = against.conjugate() * unit(2 * options.direction)
+    wanted = complex(with_crank) * (1 - options.ratio) / (1 + options.ratio)
+    slots, unbalances = _split(engine, options, fitting, wanted - residual.force(1))
+    largest = 2 * abs(against) / (1 + options.ratio) * residual.newtons_per_kg_m
+    reason = (
+        "The force of order 1 keeps its part that turns against the crank; the weight makes the "
+        "other part such that both add up in the wanted direction, and to the wanted ratio across"
+    )
+    fitting = fitting.add(slots, unbalances, reason)
+    return fitting.remedy.add_details(
+        order_1_largest_N=largest, order_1_smallest_N=largest * options.ratio
+    )
+
+
 def _split(
     engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
 ) -> tuple[Sequence[Slot], Sequence[complex]]:
@@ -177,7 +221,7 @@ def _split(
     planes such that they also cancel the forward moment of order 1.
     """
     if options.planes is None:
-        z = find_crank_middle(engine) if options.position is None else options.position
+        z = find_crank_middle(engine) if options.position is None else read_position(options)
         return [Slot("counterweight", 1, 1, z)], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, cast
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
-from .schemes import FIT, KNUCKLES, NAMES, SCHEMES
+from .schemes import CRITERIA, DESIGNS, FIT, KNUCKLES, NAMES, SCHEMES
 
 # Kind of number of each option, and words for a right value.
 _NUMBERS: dict[str, tuple[type, str]] = {
@@ -23,7 +23,10 @@ _NUMBERS: dict[str, tuple[type, str]] = {
     "orders": (Real, "orders, such as (1, 2)"),
     "small": (Real, "a share, such as 0.05"),
     "radius": (Real, "a length in m, such as 0.03"),
+    "direction": (Real, "an angle in degrees, such as 90"),
+    "ratio": (Real, "a share, such as 0.5"),
 }
+_CHOICES = {"roll": ("zero",), "design": DESIGNS, "criterion": CRITERIA}
 _SEVERAL = ("at", "planes", "factor", "orders")
 
 
@@ -35,7 +38,7 @@ class SchemeOptions(NamedTuple):
         order: Order to balance; default: the lowest with a part that the scheme cancels.
         at: Positions x + iy of shafts or sliders; of a pair of shafts, first that of the shaft
             turning against the crank.
-        position: Position z of new devices.
+        position: Position z of new devices; of compensators one z, or two (fore and aft).
         planes: "ends", "throws", or positions z of new devices.
         factor: Shares of the reciprocating mass; the best one is fitted; default: 0.5.
         measured: Mass on each bare pin that balances the crank, kg, instead of a factor.
@@ -44,11 +47,15 @@ class SchemeOptions(NamedTuple):
         small: Share of one cylinder below which a part of an order is left unbalanced.
         step: Name or number of a step of the ladder (scheme step).
         radius: Radius of the weights of eccentric-slider and oldham; default: the crank radius.
+        direction: Direction of the largest force of order 1 that is to remain, deg from x.
+        ratio: Smallest over largest force of order 1 that is to remain.
+        design: Design of shafts that turn unevenly, one of `schemes.DESIGNS`.
+        criterion: Criterion by which these shafts are sized, one of `schemes.CRITERIA`.
     """
 
     order: int | None = None
     at: tuple[complex, ...] | None = None
-    position: float | None = None
+    position: float | tuple[float, ...] | None = None
     planes: str | tuple[float, ...] | None = None
     factor: tuple[float, ...] | None = None
     measured: float | None = None
@@ -57,6 +64,10 @@ class SchemeOptions(NamedTuple):
     small: float | None = None
     step: str | int | None = None
     radius: float | None = None
+    direction: float | None = None
+    ratio: float | None = None
+    design: str | None = None
+    criterion: str | None = None
 
     def read_small(self) -> float:
         """Return the share below which a part is small."""
@@ -95,8 +106,16 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(
                 f'--planes "{self.planes[:60]}": give ends, throws, or places along z'
             )
-        if self.roll not in (None, "zero"):
-            raise BalcliError(f'--roll "{self.roll}": only "zero" can be asked for')
+        self._check_choices()
+
+    def _check_choices(self) -> None:
+        """Raise BalcliError for a word that is no choice, and for a ratio that is no share."""
+        if self.ratio is not None and not 0 <= self.ratio <= 1:
+            raise BalcliError(f"--ratio {100 * self.ratio:g} %: give a share from 0 to 100 %")
+        for name, choices in _CHOICES.items():
+            if getattr(self, name) not in (None, *choices):
+                wrong = f"{getattr(self, name)}"[:60]
+                raise BalcliError(f'--{name} "{wrong}": choose from {", ".join(choices)}')
 
     def _check_numbers(self) -> None:
         """Raise TypeError for a value that is no number, BalcliError for a position too far from
@@ -106,7 +125,8 @@ class SchemeOptions(NamedTuple):
             given = getattr(self, name)
             if given is None or (name == "planes" and isinstance(given, str)):
                 continue
-            values = given if name in _SEVERAL else (given,)
+            several = name in _SEVERAL or (name == "position" and isinstance(given, tuple))
+            values = given if several else (given,)
             if not _are(values, kind, name not in ("factor", "radius")):
                 raise wrong_type(f"SchemeOptions: {name}", given, f"give {right}")
             if name in ("at", "position", "planes"):

@@ -82,8 +82,15 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
     in this sense acts.
     """
     if options.position is not None:
-        return options.position
+        return read_position(options)
     return find_single_plane(engine, residual, sense)[0]
+
+
+def read_position(options: SchemeOptions) -> float:
+    """Return the given z, m; BalcliError for several."""
+    if isinstance(options.position, tuple):
+        raise BalcliError("--position: this scheme has one place along z; give it once")
+    return options.position or 0.0
 
 
 def find_planes(engine: Engine, residual: Residual, sense: int) -> tuple[float, ...]:

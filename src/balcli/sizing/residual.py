@@ -304,7 +304,7 @@ def _tell_size(residual: Residual, part: ResidualPart) -> str:
 def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
     """Return the other parts of an order, and the schemes that cancel them."""
     if 1 in senses:
-        far = "couple-shaft, or two-shaft with --order and --position far from the engine"
+        far = "couple-shaft, or compensator with --order and --position far from the engine"
         takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
         others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
         return [f"it has a free {kind}: {takes[kind]}" for kind in others]

@@ -11,14 +11,20 @@ SCHEMES: dict[str, tuple[str, ...]] = {
     "counterweights": ("order", "planes"),
     "factor": ("factor", "measured", "planes"),
     "minimax": ("planes", "position", "orders"),
+    "ellipse": ("direction", "ratio", "planes", "position"),
     "single-shaft": ("order", "at", "position", "planes"),
     "two-shaft": ("order", "at", "position", "roll"),
     "four-shaft": ("at", "position"),
     "couple-shaft": ("order", "at", "planes"),
+    "compensator": ("order", "at", "position"),
     "slider": ("order", "at", "position"),
-    "eccentric-slider": ("radius",),
+    "eccentric-slider": ("design", "criterion", "radius"),
     "oldham": ("radius",),
 }
+
+
+DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")  # remaining force of shafts that turn unevenly
 
 
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
@@ -41,10 +47,12 @@ MEANINGS = {
     "counterweights": "rotating masses, and the part of order 1 that turns with the crank",
     "factor": "the shop's balance factor, with the bobweight card",
     "minimax": "the counterweight that leaves the smallest peak force",
+    "ellipse": "the counterweight that leaves order 1 a wanted direction and shape",
     "single-shaft": "one shaft against the crank, and counterweights for the rest",
     "two-shaft": "two shafts turning against each other: force of one order",
     "four-shaft": "two such pairs, for the forces of orders 1 and 2",
     "couple-shaft": "shafts with two opposite eccentrics: moment of one order",
+    "compensator": "pairs of masses far from the engine: vertical moment of one order",
     "slider": "reciprocating masses along the axes of one order's ellipse",
     "eccentric-slider": "a pair of shafts of variable speed, for one cylinder",
     "oldham": "an Oldham coupling for orders 1 and 2 of one cylinder",

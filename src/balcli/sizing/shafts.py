@@ -1,5 +1,6 @@
 """Balancer shafts for any order: the schemes `single-shaft` and `couple-shaft`, and the schemes
-`two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions.
+`two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions. The scheme
+`compensator` has such pairs far from the engine, where their force makes a moment.
 
 In a pair, A is the shaft that turns against the crank, B the one that turns with it. V- and V+ are
 the two rotating vectors of the force of their order, p_A and p_B the positions x + iy of the shafts
@@ -11,9 +12,10 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 
 from ..engine.engine import Engine
-from ..errors import BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from .fitting import (
     Fitting,
     Slot,
@@ -23,7 +25,7 @@ from .fitting import (
 )
 from .ladder import add_at_ends
 from .options import SchemeOptions
-from .planes import choose_plane, locate_force, read_two_planes
+from .planes import as_millimetres, choose_plane, locate_force, read_two_planes
 from .remedy import Remedy
 from .residual import (
     BACKWARD,
@@ -33,6 +35,7 @@ from .residual import (
     OnlySmallError,
     Residual,
     choose_residual,
+    find_residual,
     find_scales,
     find_share,
     is_small,
@@ -40,6 +43,10 @@ from .residual import (
 )
 
 _ROUNDING_M = 1e-9
+_COMPENSATES = (
+    "Order {} moment about y: a pair of masses that turn against each other makes a force along x, "
+    "and so the opposite moment; the force remains"
+)
 
 
 def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -108,9 +115,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     except NothingToBalanceError as reason:
         if options.roll:
             raise BalcliError(f"{reason}; leave out --roll") from None
-        if options.order is None or options.position is None:
-            raise
-        return _compensate_moment(engine, options, options.position)
+        raise
     fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
     if residual.order == 1:
         fitting = fitting.balance_rotating()
@@ -120,33 +125,68 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     return _add_pair(fitting, residual, options).remedy
 
 
-def _compensate_moment(engine: Engine, options: SchemeOptions, z: float) -> Remedy:
-    """Fit shafts at +N and -N far from the engine, as at one end of marine engines: their force
-    cancels the moment of order N, and remains as a free force.
+def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Fit compensators for the moment of order N about y, which is that of the forces along x: at
+    one place, or fore and aft. Each is a pair of equal masses at +N and -N; together they make a
+    force along x.
 
-    Raises:
-        NothingToBalanceError: The order has no moment.
-        BalcliError: A force at z has no arm.
+    With `m` the amplitude of this moment, the force at one place is `-m/(z - z_ref)`; at two places
+    it is `-m/(z1 - z2)` at the first and its opposite at the second.
     """
-    residual = choose_residual(engine, options, ("moment",))
-    if z == residual.reference.z:
-        raise BalcliError(
-            f"--position {1e3 * z:g}: a force there has no arm; give a place far away"
-        )
-    against, with_crank = (*(options.at or ()), 0j, 0j)[:2]
-    parts = [part for part in MOMENT if residual.parts[part]]
-    slots = [
-        Slot("shaft", residual.order, part.sense, z, with_crank if part.sense > 0 else against)
-        for part in parts
-    ]
-    fitting = Fitting.start(engine, "two-shaft", residual.order)
-    reason = (
-        f"Order {residual.order} moment: the engine has no force of this order, so that the shafts "
-        "work as a moment compensator; their force at this distance makes the opposite moment, and "
-        "stays (couple-shaft leaves no force)"
+    if options.position is None:
+        raise BalcliError("--scheme compensator: give --position Z, or Z,Z for fore and aft")
+    if not engine.places_known:
+        raise BalcliError(MOMENTS_UNKNOWN)
+    order, position = options.order or 2, options.position
+    places = position if isinstance(position, tuple) else (position,)
+    residual = find_residual(engine, order)
+    moment = _find_moment_about_y(residual)
+    if not moment:
+        raise NothingToBalanceError(f"Order {order} has no moment; nothing to compensate")
+    forces = _place_forces(-moment, places, residual.reference.z)
+    fitting = Fitting.start(engine, "compensator", order)
+    for z, force in forces.items():
+        slots = [
+            Slot("shaft", order, sense, z, options.read_place(), role="compensator")
+            for sense in (1, -1)
+        ]
+        pair = force / 2, force.conjugate() / 2
+        fitting = fitting.add(slots, pair, _COMPENSATES.format(order))
+    newtons, left = residual.newtons_per_kg_m, _find_moment_about_y(fitting.find_residual(order))
+    return fitting.remedy.add_details(
+        moment_before_Nm=abs(moment) * newtons,
+        moment_after_Nm=abs(left) * newtons,
+        moment_left_per_degree_Nm=2 * math.sin(math.radians(0.5)) * abs(moment) * newtons,
+        force_introduced_N=abs(sum(forces.values())) * newtons,
+        compensators=[
+            {"position_mm": as_millimetres(z), "force_N": abs(force) * newtons}
+            for z, force in forces.items()
+        ],
     )
-    fitting = fitting.cancel(slots, parts, reason)
-    return fitting.describe_left(residual.order, "force_left_N").describe_roll(residual).remedy
+
+
+def _find_moment_about_y(residual: Residual) -> complex:
+    """Return the complex amplitude of the moment about y over `n^2 omega^2`, kg m^2; 0 for rounding
+    errors.
+    """
+    moment = residual.moment(1) + residual.moment(-1).conjugate()
+    noise = sum(residual.noise[part] for part in MOMENT)
+    return moment if abs(moment) > noise else 0j
+
+
+def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict[float, complex]:
+    """Return the force (kg m) at each place (z, m) that together make a moment (kg m^2)."""
+    if len(places) > 2:
+        raise BalcliError("--position takes one z or two")
+    first, other = places[0], places[1] if len(places) > 1 else z_ref
+    if first == other:
+        raise BalcliError(
+            f"--position {1e3 * first:g}: no lever to the reference at z = {1e3 * z_ref:g}"
+            if len(places) == 1
+            else f"--position {1e3 * first:g},{1e3 * other:g}: no lever between the two places"
+        )
+    force = moment / (first - other)
+    return {first: force} if len(places) == 1 else {first: force, other: -force}
 
 
 def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:

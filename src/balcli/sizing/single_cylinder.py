@@ -32,9 +32,8 @@ from ..errors import BalcliError
 from .fitting import Fitting
 from .options import SchemeOptions
 from .remedy import Remedy
+from .schemes import CRITERIA, DESIGNS
 
-DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
-CRITERIA = ("largest", "mean")
 FORCES = ("orders 1+2", "all orders")  # first cos theta + lambda cos 2 theta, then the exact force
 _LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1 its series is too long
 _COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
@@ -271,9 +270,9 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit two shafts, symmetric to the cylinder axis, which a slider on an eccentric disc turns
     unevenly, and a counterweight for the rotating mass.
 
-    Masses and eccentricities are for the given radius, or else the crank radius. Design a with the
-    smallest peak for orders 1 and 2 (Wang's two terms) is fitted; the remedy lists the optima of
-    both designs.
+    Masses and eccentricities are for the given radius, or else the crank radius. By default, design
+    a with the smallest peak for orders 1 and 2 (Wang's two terms) is fitted; the remedy lists the
+    optima of both designs.
 
     Raises:
         BalcliError: There are several cylinders or a piston offset, or the rod is too short for an
@@ -288,18 +287,22 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
         raise BalcliError("eccentric-slider is for a rod of finite length, not harmonic motion")
     optima = find_optima(float(np.ravel(c.lam)[0]))
     designs = [_describe_shaft(engine, one, mass * throw, options.radius) for one in optima]
+    wanted = options.design or DESIGNS[0], options.criterion or CRITERIA[0]
+    chosen = [n for n, one in enumerate(optima) if (one.design, one.criterion) == wanted]
+    if not chosen:
+        raise BalcliError(f"eccentric-slider: no optimum of design {wanted[0]} by {wanted[1]}")
     fitting = (
         Fitting.start(engine, "eccentric-slider")
         .balance_rotating(keep_overbalance=False)
         .add_details(
             unit_force_N=mass * throw * float(engine.omega) ** 2,
-            fitted=designs[0],
+            fitted=designs[chosen[0]],
             optima=designs,
             speed_law=_SPEED_LAW,
             definition=_ECCENTRIC_SLIDER,
         )
     )
-    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[0], mass * throw))
+    return fitting.remedy._replace(beyond=_make_shafts(engine, optima[chosen[0]], mass * throw))
 
 
 def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:

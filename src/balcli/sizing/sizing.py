@@ -16,7 +16,7 @@ from .fitting import (
     size_unbalances,
 )
 from .ladder import add_at_throws, find_ladder, size_complete
-from .minimax import size_minimax
+from .minimax import size_ellipse, size_minimax
 from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
@@ -38,7 +38,13 @@ from .residual import (
     choose_residual,
     find_residual,
 )
-from .shafts import size_couple_shaft, size_four_shaft, size_single_shaft, size_two_shaft
+from .shafts import (
+    size_compensator,
+    size_couple_shaft,
+    size_four_shaft,
+    size_single_shaft,
+    size_two_shaft,
+)
 from .single_cylinder import size_eccentric_slider, size_oldham
 
 
@@ -161,10 +167,12 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
     "counterweights": size_counterweights,
     "factor": size_by_factor,
     "minimax": size_minimax,
+    "ellipse": size_ellipse,
     "single-shaft": size_single_shaft,
     "two-shaft": size_two_shaft,
     "four-shaft": size_four_shaft,
     "couple-shaft": size_couple_shaft,
+    "compensator": size_compensator,
     "slider": size_sliders,
     "eccentric-slider": size_eccentric_slider,
     "oldham": size_oldham,

@@ -5,7 +5,9 @@ steel, and holes to drill.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +17,9 @@ from ..core.records import Node
 from ..core.unbalance import STEEL, find_drill_depth, find_drilled_unbalance
 from ..engine.engine import Engine
 from ..errors import BalcliError, check_number
-from ..file.model import Counterweight, Slider
-from .planes import DeviceTable, find_order, find_unbalance
+from ..file.model import Counterweight, Sector, Shaft, Slider
+from ..file.read import T, TableReader
+from .planes import DeviceTable, as_millimetres, find_order, find_unbalance
 from .remedy import Remedy
 
 ROUNDING = 1e-12  # relative excess over the deepest hole that still counts as one hole
@@ -46,24 +49,37 @@ class Tools(NamedTuple):
     width: float | None = None
 
 
+class Shapes(NamedTuple):
+    """Shapes of new devices as parts; None: not given.
+
+    Attributes:
+        bearings: Places z of the two bearings of each new shaft, m.
+        sector: Inner radius, m, outer radius, m, and opening, deg, of new counterweights, which
+            then are sectors in place of half discs.
+    """
+
+    bearings: tuple[float, ...] | None = None
+    sector: tuple[float, ...] | None = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class Practical:
-    """Figures of a device for the workshop.
+    """The workshop's figures of a device.
 
     Attributes:
         unbalance_kg_m: Unbalance of the device.
         mass_kg: Mass at `radius_mm` that makes the unbalance (a slider: of this amplitude).
         radius_mm: Radius at which masses are stated.
         force_N: Centrifugal force (largest force of a slider) at the engine's speed.
-        speed_rpm: Speed of the shaft; for a slider, its oscillations per minute.
-        disc_radius_mm: Radius of a semicircular steel disc whose diameter passes through the axis
-            of rotation.
+        speed_rpm: Speed of the shaft; of a slider its strokes a minute.
+        disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
+            rotation; left out for a counterweight that is a sector.
         disc_thickness_mm: Thickness of this disc.
-        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards; null (as the
-            holes) without a drill, and for sliders.
-        holes: Number of equal holes side by side along the axis. Empty holes are opposite to the
-            unbalance; holes with slugs are on its side.
-        hole_angle_deg: Angle of the holes, counted like that of the device.
+        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. None, as below,
+            without a drill, and for sliders.
+        holes: Number of equal holes side by side along the axis: they remove an unbalance opposite
+            to it, or add it with slugs on its own side.
+        hole_angle_deg: Angle of the holes, counted as that of the device.
     """
 
     unbalance_kg_m: float
@@ -71,8 +87,8 @@ class Practical:
     radius_mm: float
     force_N: float
     speed_rpm: float
-    disc_radius_mm: float
-    disc_thickness_mm: float
+    disc_radius_mm: float | None = None
+    disc_thickness_mm: float | None = None
     drill_depth_mm: float | None = None
     holes: int | None = None
     hole_angle_deg: float | None = None
@@ -130,15 +146,15 @@ def _check_figure(name: str, figure: float | None) -> float | None:
 def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:
     unbalance, order = find_unbalance(device), find_order(device)
     radius = _find_rim(engine, device, tools)
-    disc_radius, disc_thickness = _find_disc(unbalance, tools)
+    is_sector = isinstance(device, Counterweight) and device.sector is not None
+    disc: Node = {} if is_sector else _find_disc(unbalance, tools)
     return Practical(
         unbalance_kg_m=unbalance,
         mass_kg=unbalance / radius,
         radius_mm=1e3 * radius,
         force_N=unbalance * (order * float(engine.omega)) ** 2,
         speed_rpm=order * float(engine.speed_rpm),
-        disc_radius_mm=1e3 * disc_radius,
-        disc_thickness_mm=1e3 * disc_thickness,
+        **disc,
         **_plan_holes(engine, device, unbalance, radius, tools),
     )
 
@@ -162,10 +178,11 @@ def _plan_holes(
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
+        most = 0.0 if math.isinf(count) else 1e6 * fitting * of_one
         raise HolesDoNotFitError(
             f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
-            f"fit: {fitting:g} holes side by side have room on {1e3 * room:g} mm (--width); use a "
-            "larger drill, --radius or --max-depth, or --slug"
+            f"fit: {fitting:g} holes side by side, {most:.6g} g mm, have room on {1e3 * room:g} mm "
+            "(--width); use a larger drill, --radius or --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
@@ -186,11 +203,69 @@ def _find_room(engine: Engine) -> float:
     return float(np.diff(places).min()) if len(places) > 1 else 2 * engine.find_radius(places[0])
 
 
-def _find_disc(unbalance: float, tools: Tools) -> tuple[float, float]:
+def _find_disc(unbalance: float, tools: Tools) -> Node:
     """Return radius and thickness of a half disc, m. Its centroid is 4R/(3 pi) from its diameter,
     so `m r = density t 2/3 R^3`.
     """
     if tools.disc is not None:
-        return tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
-    thickness = tools.thickness or THICKNESS
-    return (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3), thickness
+        radius, thickness = tools.disc, 1.5 * unbalance / (STEEL * tools.disc**3)
+    else:
+        thickness = tools.thickness or THICKNESS
+        radius = (1.5 * unbalance / (STEEL * thickness)) ** (1 / 3)
+    return {"disc_radius_mm": 1e3 * radius, "disc_thickness_mm": 1e3 * thickness}
+
+
+# ------------------------------------------------------------------ shapes of new devices
+def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
+    """Return the remedy with its counterweights as sectors, and its shafts with names and bearings,
+    as far as these shapes are given. What turns on one axis at one speed is one shaft.
+
+    Args:
+        engine: Engine without the new devices.
+        remedy: New devices.
+        shapes: Bearings and sector.
+
+    Raises:
+        BalcliError: Bearings or a sector that cannot be, or that no new device has.
+    """
+    for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
+        if getattr(shapes, option) is not None and not found:
+            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that has it")
+    of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
+    bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
+    used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
+    free = (name for name in map("balancer {}".format, count(1)) if name not in used)
+    axes = dict.fromkeys((shaft.ratio, shaft.at) for shaft in remedy.shafts)
+    of_axes: dict[object, Node] = {}
+    if bearings:
+        of_axes = {axis: {"name": name, **bearings} for axis, name in zip(axes, free, strict=False)}
+    devices = []
+    for device in remedy.devices:
+        shape: Node = of_weights if isinstance(device, Counterweight) else {}
+        if isinstance(device, Shaft):
+            shape = of_axes.get((device.ratio, device.at), {})
+        devices.append(device.model_copy(update=shape))
+        shape.pop("bearings", None)  # the first of a shaft has them
+    return remedy._replace(devices=tuple(devices))
+
+
+def _read_sector(values: Sequence[float]) -> Sector | None:
+    """Return a sector whose thickness follows from the unbalance."""
+    sector = dict(zip(("inner_radius", "outer_radius", "opening"), values, strict=False))
+    sector |= {key: as_millimetres(value) for key, value in sector.items() if key != "opening"}
+    return _read_table("--sector", {"unbalance": 1, "sector": sector}, Counterweight).sector
+
+
+def _read_bearings(values: Sequence[float]) -> Node:
+    """Return the key `bearings` of a shaft."""
+    places = [as_millimetres(z) for z in values]
+    shaft = _read_table("--bearings", {"ratio": 1, "inertia": 1, "bearings": places}, Shaft)
+    return {"bearings": shaft.bearings}
+
+
+def _read_table(option: str, values: Node, table: type[T]) -> T:
+    reader = TableReader("an option")
+    found = reader.read_table(option, values, table)
+    if found is None:
+        raise BalcliError(f"{option}: {'; '.join(one.message for one in reader.problems)}")
+    return found

@@ -41,7 +41,7 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
         ("name", "unit", "meaning"),
         tuple((q.name, q.unit, q.meaning) for q in result.quantities),
         words=(0, 1, 2),
-        note="N stands for an order, PART for one of the words after the colon.",
+        note="N stands for an order or a number, PART for one of the words after the colon.",
     )
     return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 

@@ -19,7 +19,7 @@ from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
 from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
 from ..file.messages import SYNONYMS
-from ..file.model import EngineFile, Override
+from ..file.model import EngineFile, Frame, Gear, Override, Piston, Shaft
 from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
@@ -63,6 +63,11 @@ class Place(NamedTuple):
     value: object
 
 
+# Keys without effect on any quantity: names of directions, and what `--only parts` shows.
+_SHOWN_ALONE = {(Frame, "up"), (Piston, "skirt"), (Shaft, "bearings"), (Shaft, "drag")}
+_SHOWN_ALONE |= {(Gear, key) for key in Gear.model_fields}
+
+
 def find_numbers(model: EngineFile) -> dict[str, Number]:
     """Return the reader of each number that the engine file has or might have, by dotted name."""
     return {path: place.reader for path, place in find_places(model).items()}
@@ -79,7 +84,9 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     numbers: dict[str, Place] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
-    for path in (*_list_idle_paths(model, numbers), "frame.up"):  # up only affects names
+    idle = _list_idle_paths(model, numbers)
+    idle += [path for path, place in numbers.items() if (place.table, place.key) in _SHOWN_ALONE]
+    for path in idle:
         del numbers[path]
     for k in range(len(model.layout.firing_intervals or ())):  # they add up to a cycle
         del numbers[f"layout.firing_intervals.{k + 1}"]
@@ -105,7 +112,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
         return [path for path in own if path.endswith((".gas", ".heat"))]
     cylinders = {*plan_cylinders(model).numbers}
     with_diagram = {n for n, table in model.cylinder.items() if table.indicator is not None}
-    if model.gas.indicator is not None:
+    if model.gas.has("indicator"):
         with_diagram = cylinders
     with_heat = {n for n, table in model.cylinder.items() if table.heat is not None}
     computed = model.gas.cycle is not None and not cylinders <= with_diagram

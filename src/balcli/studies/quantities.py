@@ -40,7 +40,16 @@ from ..forces.quantity import (
 from ..forces.spectrum import compute_gas_torque
 from ..names import QUANTITIES, import_name
 from .parameters import Place, find_places, tell_variant
-from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, TORSION, Form, join_patterns
+from .quantity_names import (
+    BEGINNINGS,
+    ENGINE,
+    FORMS,
+    MOUNTS,
+    PISTON,
+    TORSION,
+    Form,
+    join_patterns,
+)
 
 
 @dataclass(frozen=True)
@@ -149,11 +158,12 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 
 
 # Tables whose defaults matter for the quantities of a chapter, in addition to any engine's.
-_TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}}
-# Beginnings of names: quantities that do not depend on rod inertia, and quantities that depend on
-# throw mass at steady speed.
-_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean")
+_TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
+# Quantities without the inertia of rods, and those with the mass of throws at steady speed: about
+# a point off the axis, a couple and a roll have it, too.
+_WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
+_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
 
 
 def list_assumed(
@@ -176,7 +186,9 @@ def list_assumed(
             tables.add("gas")
     idle = set(varied)
     if not model.operation.speed_ripple:
-        if not any(name.startswith(_OF_THROWS) for name in names):
+        off_axis = any((model.frame.reference or (0.0,))[:2])
+        of_throws = (*_OF_THROWS, *(_OF_THROWS_OFF_AXIS * off_axis))
+        if not any(name.startswith(of_throws) for name in names):
             idle.add("crank.throw_mass")
         if not ("flywheel" in tables and model.flywheel):
             idle.add("crank.inertia")
@@ -204,7 +216,7 @@ class _VariedGas:
 
     def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
         self._model, self._engines = model, list[Engine]()
-        self._figures = {path: value for path, value in figures.items() if concerns_gas(path)}
+        self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
 
     def __call__(self, orders: Array) -> Phasors:
@@ -317,10 +329,10 @@ class FileNumber:
 
 @dataclass(frozen=True)
 class NamedQuantity:
-    """Quantities whose names match a pattern.
+    """Quantities by a pattern.
 
     Attributes:
-        name: Pattern, in which N stands for an order and PART for a word of the meaning.
+        name: N stands for an order or a number, PART for a word of the meaning.
         unit: SI unit.
         meaning: Meaning in words.
     """

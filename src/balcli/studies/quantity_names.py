@@ -12,10 +12,11 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import NamedTuple
 
-ENGINE, GUIDE, CYCLE, MOUNTS, TORSION = "engine", "guide", "cycle", "mounts", "torsion"
+ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
+JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
-# Chapter, pattern, unit, required table of the file, meaning.
+# Chapter, pattern, unit, table of the file that is needed, meaning.
 _TABLE = f"""
 engine   force.N.PART         N           free force: {_OF_VECTOR}
 engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
@@ -33,6 +34,20 @@ cycle    torque.mean          N·m gas     mean torque of the gas
 cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
 cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
 cycle    fluctuation              gas     highest less lowest speed, over the mean
+piston   piston.mean_speed         m/s         mean speed of piston 1; piston.N: of another
+piston   piston.max_speed          m/s         its largest speed, in either direction
+piston   piston.max_acceleration   m/s²         its largest acceleration towards the crank
+piston   piston.stroke             m           its true stroke
+piston   piston.N.mean_speed       m/s         mean speed of piston N
+piston   piston.N.max_speed        m/s         its largest speed, in either direction
+piston   piston.N.max_acceleration m/s²         its largest acceleration towards the crank
+piston   piston.N.stroke           m           its true stroke
+journals journal.N.range      N·m         highest less lowest torque in main journal N, gas included
+journals journal.N.max        N·m         highest torque in main journal N, gas included
+journals journal.N.min        N·m         lowest torque in main journal N, gas included
+journals pin.N.range          N·m         highest less lowest torque in the crank pin of throw N
+journals pin.N.max            N·m         highest torque in the crank pin of throw N
+journals pin.N.min            N·m         lowest torque in the crank pin of throw N
 mounts   mode.N.Hz            Hz  mount   natural frequency on the mounts
 mounts   mode.N.share         %   mount   largest share of its energy in one motion
 mounts   mode.N.damping       %   mount   its damping ratio
@@ -50,7 +65,7 @@ torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, 
 times the speed
 torsion  shaft.NAME.stress    Pa  torsion its largest vibratory stress there
 """
-_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3}) (.{7}) (.+)")
+_COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3,4}?) (.{7}) (.+)")
 _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "PART": ".+"}
 
 
@@ -84,8 +99,7 @@ class Form(NamedTuple):
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
-# Quantities that are largest values over a range of speeds: beginnings of their names, their name
-# in notes, ends of the range relative to the engine's speed, the range in words.
+# Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
 _RANGES = (
     (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
     (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),

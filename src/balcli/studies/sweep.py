@@ -22,8 +22,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import Array
+from ..engine.build import build
 from ..engine.engine import Engine, check_engine, take_model
-from ..engine.load import concerns_gas
+from ..engine.load import SPEED, concerns_gas
 from ..engine.numbering import doubt_firing
 from ..engine.parse import read
 from ..errors import BalcliError, InputError, check_type, naming_file
@@ -111,6 +112,9 @@ class Sweep:
         """Warnings of unlikely figures of the file, except varied ones."""
         with naming_file(self.name):
             all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
+            if self.file.gas is not None and self.file.gas.speeds:
+                speeds = self.figures.get(SPEED, self.file.operation.speed)
+                all_of_file += build(self.file).doubt_speeds(speeds)
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
         return [d for d in all_of_file if not any(one in d for one in varied)]
 
@@ -229,7 +233,7 @@ def count_at_once(sweep: Sweep) -> int:
     memory. It is estimated at the corners of the grid.
     """
     of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
-    gas_varies = of_gas and any(concerns_gas(p.path) for p in sweep.parameters)
+    gas_varies = of_gas and any(concerns_gas(p.path, sweep.file.gas) for p in sweep.parameters)
     most = ALONE if sweep.evaluator.one_by_one or gas_varies else CHUNK
     if not sweep.of_engine:
         return most

@@ -74,10 +74,10 @@ def analyze_torque_of_engine(
         refuse_too_many_forces(engine)
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
-    row = find_row(engine, cylinder, "--cylinder")
+    row = find_row(engine, cylinder)
     curves = find_torque_curves(steady)
     above, omega = surplus(curves.total), float(engine.omega)
-    imep = sum(c.share * c.torque.work for c in gas.cylinders) / float(engine.displacement_m3)
+    imep = gas.work / float(engine.displacement_m3)
     efficiency, silent = engine.mechanical_efficiency, engine.silent
     pressures = (t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any())
     tops = map(find_highest, filter(None, pressures))

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from functools import partial
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
@@ -175,7 +176,8 @@ def _list_flywheel(
     if (needed := wheel.needed_kg_m2) is not None:
         told, engine = f"{_size(needed, unit)} in all", result.engine
         crank = None if engine is None else 0.0 if engine.rotary else engine.crank_inertia
-        rest = needed - moving - float(crank or 0.0)
+        there = 0.0 if engine is None else find_constant_inertia(engine) or 0.0
+        rest = needed - moving - there + float((engine and engine.flywheel_inertia) or 0.0)
         if moving and rest <= 0:
             told += ", which is there without a flywheel"
         elif moving:

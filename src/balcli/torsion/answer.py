@@ -23,7 +23,7 @@ from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
 from ..show.result import Result
 from .build import NO_DAMPERS
-from .dampers import FIGURES, DamperAsked, SizedDamper, size_damper
+from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
 from .read import describes_chain, read_chain_tables
@@ -37,8 +37,6 @@ from .system import TorsionalSystem
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
 BREAKING = 1000e6  # vibratory stress, Pa, beyond the yield strength of the best steel
 ASTOUNDING = 45.0  # deg; usual are fractions of a degree, and a few degrees on soft couplings
-WIDE_SWING = 20.0  # deg; a circular pendulum's frequency is 0.8 % (swing^2/16) low there
-
 _ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
 
 
@@ -176,8 +174,12 @@ class TorsionAnalysis(Result):
         """Warnings of shafts without inertia, swings too large for the linear model, and a stress
         that breaks the shaft.
         """
-        found = () if self.response is None else _find_doubts(self.system, self.response)
-        return *self.system.doubts, *found
+        if self.response is None:
+            return self.system.doubts
+        excitation, found = self.system.excitation, _find_doubts(self.system, self.response)
+        law = excitation and excitation.gas and excitation.gas.law
+        of_gas = law.list_doubts(self.response.speeds_rpm) if law else ()
+        return *self.system.doubts, *of_gas, *found
 
     @property
     def summary(self) -> str:

@@ -41,7 +41,7 @@ from ..file.torsion_tables import (
     find_stiffness,
 )
 from ..forces.crankshaft import find_shear_stress
-from ..forces.spectrum import compute_spectra, list_gas_orders
+from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_TORSION_ORDER_UNASKED
 from .chain import (
     SAME_RATIO,
@@ -65,10 +65,19 @@ _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node: its table, in the units of the file, and its damping against ground (N m s/rad)."""
+    """A node, described by its table in the units of the file; its damping against ground,
+    N m s/rad; and further dampers that it carries.
+    """
 
     table: NodeKeys
     damping: float = 0.0
+    further: tuple[Damper, ...] = ()
+
+    @property
+    def dampers(self) -> tuple[Damper, ...]:
+        """All dampers of the node."""
+        own = self.table.damper
+        return self.further if own is None else (own, *self.further)
 
 
 class PlannedShaft(NamedTuple):
@@ -91,31 +100,29 @@ def assemble_system(
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
-    """Return the system of planned nodes and shafts. Rubber rings become additional nodes and
-    shafts at the end of the lists. Half of the inertia of a shaft is added to each of its nodes.
+    """Return the system; its rubber rings are nodes and shafts after all others. Half of the
+    inertia of a shaft counts at either end.
 
     Args:
         planned: Nodes, front to rear.
         joining: Shafts between them.
-        keys: Default loss factor of shafts, and limits of stress and angle.
+        keys: Loss of shafts without their own, and limits of stress and angle.
         clamped: Nodes that are held.
-        fitted: Dampers by the name of their node; they replace the node's own damper.
+        fitted: Dampers by the name of their node, each in place of the first that the node has.
         others: Further attributes of the system.
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
-    for k, node in enumerate(planned):
-        name, damper = node.table.name, fitted.get(node.table.name, node.table.damper)
-        if damper is None:
-            continue
+    for k, damper in _place_dampers(planned, fitted):
         if damper.kind == "rubber":
             rubber = ShaftKeys.model_construct(stiffness=damper.stiffness, loss=damper.loss)
-            ring = NodeKeys.model_construct(name=f"{name} ring", inertia=damper.inertia)
+            name = f"{planned[k].table.name} ring"
+            ring = NodeKeys.model_construct(name=name, inertia=damper.inertia)
             shafts.append(PlannedShaft(ring.name, k, len(nodes), rubber))
             nodes.append(PlannedNode(ring))
         elif damper.kind == "viscous":
             rings.append(ViscousRing(k, (damper.inertia or 0.0) / 1e6, damper.damping or 0.0))
         else:
-            radius, length = (damper.radius or 0.0) / 1e3, (damper.length or 0.0) / 1e3
+            radius, length = (damper.radius or 0.0) / 1e3, damper.swinging_length / 1e3
             pendulums.append(Pendulums(k, damper.mass or 0.0, radius, length))
     tables = [each.table for each in shafts]
     joints = [ChainShaft(s.start, s.end, find_stiffness(s.table), s.ratio) for s in shafts]
@@ -142,6 +149,19 @@ def assemble_system(
         doubts=tuple(_doubt_light_shafts(chain, shafts)),
         **others,
     )
+
+
+def _place_dampers(
+    planned: Sequence[PlannedNode], fitted: Mapping[str, Damper | None]
+) -> Iterator[tuple[int, Damper]]:
+    """Yield the number of a node and a damper that it carries, for all dampers."""
+    for k, node in enumerate(planned):
+        dampers: tuple[Damper | None, ...] = node.dampers
+        if node.table.name in fitted:
+            dampers = fitted[node.table.name], *dampers[1:]
+        for damper in dampers:
+            if damper is not None:
+                yield k, damper
 
 
 def _find_stress(table: ShaftKeys) -> float:
@@ -351,7 +371,7 @@ def build_engine_system(
         InputError: contradictions in [torsion], by their paths.
     """
     torsion = require_torsion(model, name)
-    throws = [f"throw {k}" for k, _ in enumerate(engine.joined_throws, 1)]
+    throws = list_throws(engine)
     joints, front = _join_parts(torsion, throws), len(torsion.front)
     if problems := list(_find_misfits(torsion, engine, throws, joints)):
         raise InputError(problems, name)
@@ -398,7 +418,22 @@ def _plan_throws(torsion: Torsion, engine: Engine, throws: Sequence[str]) -> Ite
         throws, inertias, np.bincount(on_throw, None, len(throws)), strict=True
     ):
         table = NodeKeys.model_construct(name=name, inertia=1e6 * float(inertia))
-        yield PlannedNode(table, torsion.damping * int(rods))
+        yield PlannedNode(table, torsion.damping * int(rods), list_dampers(torsion, name))
+
+
+def list_dampers(torsion: Torsion, throw: str) -> tuple[Damper, ...]:
+    """Return the dampers of [[torsion.throw]] on the throw of this name (`throw 1`)."""
+    return tuple(each.damper for each in torsion.throw if name_throw(each.throw) == throw)
+
+
+def list_throws(engine: Engine) -> list[str]:
+    """Return the names of the nodes of the throws, front to rear."""
+    return [name_throw(number) for number, _ in enumerate(engine.joined_throws, 1)]
+
+
+def name_throw(number: int) -> str:
+    """Return the name of a throw's node."""
+    return f"throw {number}"
 
 
 def _name_between(throws: Sequence[str]) -> list[str]:
@@ -495,8 +530,13 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     spectra = compute_spectra(engine, orders, parts, each=True)
     growing = spectra["torque"].x
     steady = np.zeros_like(growing) if engine.gas is None else spectra["gas"].x
-    moves = np.any((growing != 0) | (steady != 0), axis=1)
-    return Excitation(orders[moves], nodes, steady[moves], growing[moves])
+    moves, gas = np.any((growing != 0) | (steady != 0), axis=1), None
+    if engine.gas is not None and engine.gas.nodes_rpm:
+        gas = follow_gas(
+            engine, lambda own: compute_spectra(own, orders, ["gas"], each=True)["gas"].x
+        )
+        moves |= np.any(gas.torque(engine.gas.nodes_rpm) != 0, axis=(1, 2))
+    return Excitation(orders, nodes, steady, growing, gas).only(orders[moves])
 
 
 # ------------------------------------------------------------------ contradictions in [torsion]
@@ -537,6 +577,10 @@ def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Pro
         if len(values) not in (1, needed, also):
             text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
             yield Problem(f"torsion.{key}", f"{text}; give one for all, or a list of these")
+    for number, each in enumerate(torsion.throw, 1):
+        if each.throw > throws:
+            text = f"is {each.throw}, but the crankshaft has {counted(throws, 'throw')}"
+            yield Problem(f"torsion.throw.{number}.throw", text)
     if torsion.throw_inertia is None and engine.crank_inertia is None:
         hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
         yield Problem.of_missing("torsion.throw_inertia", hint)

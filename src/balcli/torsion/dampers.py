@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import count
 from typing import Annotated, Any, NamedTuple
@@ -24,11 +24,11 @@ from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Real
 from ..errors import BalcliError
-from ..file.edit import set_keys
+from ..file.edit import format_value, set_keys
 from ..file.fields import printable
 from ..file.torsion_tables import Damper
 from ..process import Tell, tell_nobody
-from .build import NO_DAMPERS
+from .build import NO_DAMPERS, name_throw
 from .chain import best_viscous_damping
 from .load import Source
 from .modes import NaturalMode, find_natural_modes
@@ -51,6 +51,11 @@ FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  #
 _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # search from start/width to start*width
 # default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
+WIDE_SWING = 20.0  # deg; on a circle the frequency is 0.8 % low there, by swing^2/16
+_MASSES = 8  # tried until pendulums swing by less than this
+_HEAVIER = 1.02  # times the mass that would do if the swing fell exactly as the mass grows
+_MOST_AT_ONCE = 3.0  # times the mass of the last try
+_MOST_PENDULUM = 0.5  # of the inertia of the node that carries the pendulums
 _PLACES = 13  # grid points of the search before the best is refined
 _RESPONSES = _PLACES + 2 + ROUNDS + 2  # expected; the last two are with and without the best damper
 _END = 0.99  # share of the (logarithmic) range beyond which an optimum counts as at its end
@@ -144,9 +149,8 @@ def size_damper(
     Raises:
         BalcliError: no node can carry the damper, or the system has no excitation.
     """
-    free_end = source.system(NO_DAMPERS).free_end
-    node, own = _find_carrier(source.dampers, asked.node, free_end)
-
+    node = _find_carrier(source, asked, speeds)
+    own = source.dampers[node]
     bare = source.system({node: None})
     place = bare.nodes.index(node)
     mode, order = _find_mode_to_damp(bare, speeds, place)
@@ -155,10 +159,17 @@ def size_damper(
     first = _propose(asked, own, bare, place, mode, order, radius)
     figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)
+    free = first.kind == "pendulum" and asked.inertia is None and own is None
+    if free:
+        first = _limit_swing(source, speeds, node, first)
 
     def judge(damper: Damper | None) -> float:
-        """Return the largest stress or torque with a damper; inf: no bound."""
+        """Return the largest stress or torque with a damper; inf: no bound, or pendulums of a free
+        mass that swing too far.
+        """
         tell(min(next(tried) / _RESPONSES, 1.0))
+        if free and damper and _find_pendulum_swing(source, node, damper, speeds) > WIDE_SWING:
+            return math.inf
         try:
             return _find_hardest(source.system({node: damper}), speeds)[2]
         except BalcliError:
@@ -168,6 +179,7 @@ def size_damper(
         lambda each: judge(first.model_copy(update={figure: start * math.exp(each)})), width
     )
     damper = first.model_copy(update={figure: float(f"{start * math.exp(farther):.6g}")})
+    damper = min(damper, first, key=judge) if free else damper
     measure, unit = ("stress", "Pa") if any(bare.stress_by_torque) else ("torque", "Nm")
     before, after = judge(None), judge(damper)
     figures: dict[str, Any] = {f"before_{unit}": before, f"after_{unit}": after}
@@ -190,20 +202,71 @@ def size_damper(
     return replace(found, doubts=tuple(doubts) or None)
 
 
-def _find_carrier(
-    carriers: Mapping[str, Damper | None], asked: str | None, free_end: str
-) -> tuple[str, Damper | None]:
-    """Return the name of the node for the damper, and the damper that the file gives it. By default
-    it is the free end, or the foremost node that can carry a damper.
+def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
+    """Return the name of the node that is to carry the damper.
+
+    Unless one is asked for, pendulums are placed where the file has pendulums, else on the throw
+    with the largest amplitude in the mode to be damped; other dampers at the free end or on the
+    foremost part.
     """
-    first = free_end if free_end in carriers else next(iter(carriers), free_end)
-    name, able = asked or first, ", ".join(map(printable, carriers))
-    if name not in carriers:
-        able = able or "nothing; give a part in [[torsion.front]]"
+    carriers = source.dampers
+    if asked.node is not None:
+        if asked.node not in carriers:
+            able = ", ".join(map(printable, carriers))
+            name = printable(asked.node)
+            raise BalcliError(f'--damper-at "{name}": cannot carry a damper; what can is {able}')
+        return asked.node
+    system = source.system(NO_DAMPERS)
+    if asked.kind == "pendulum" and source.throws:
+        for name, own in carriers.items():
+            if own is not None and own.kind == asked.kind:
+                return name
+        mode, _ = _find_mode_to_damp(system, speeds, system.ends[0])
+        return max(source.throws, key=lambda throw: abs(mode.shape[system.nodes.index(throw)]))
+    parts = [name for name in carriers if name not in source.throws]
+    return system.free_end if system.free_end in parts or not parts else parts[0]
+
+
+def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> Damper:
+    """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
+    searched range: there they are that long. The swing falls about as the mass grows.
+
+    Raises:
+        BalcliError: They would have more than half of the inertia of their node.
+    """
+    bare = source.system({node: None})
+    place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
+    start, mass = proposed.swinging_length, proposed.mass or 0.0
+    lengths = [start, *(start * np.exp(np.linspace(-width, width, _PLACES))).tolist()]
+    for _ in range(_MASSES):
+        changes = [{"mass": float(f"{mass:.4g}"), "length": length} for length in lengths]
+        tried = [proposed.model_copy(update=change) for change in changes]
+        swings = [_find_pendulum_swing(source, node, each, speeds) for each in tried]
+        least = min(swings)
+        proposed = tried[swings.index(least)]
+        if least <= WIDE_SWING:
+            break
+        mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
+    reach = ((proposed.radius or 0.0) + start) / 1e3
+    most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
+    if mass > most:
         raise BalcliError(
-            f'--damper-at "{printable(name)}": cannot carry a damper; what can is {able}'
+            f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
+            f"most {WIDE_SWING:g} deg, more than {most:.3g} kg, which is half of the inertia of "
+            "the node; choose another place (--damper-at) or give the inertia (--damper-inertia)"
         )
-    return name, carriers[name]
+    return proposed
+
+
+def _find_pendulum_swing(source: Source, node: str, damper: Damper, speeds: Real) -> float:
+    """Return the largest half swing, deg, of pendulums on a node; inf: no bound."""
+    system = source.system({node: damper})
+    number = [each.node for each in system.pendulums].index(system.nodes.index(node))
+    try:
+        _, largest = find_largest(system, speeds)
+    except BalcliError:
+        return math.inf
+    return math.degrees(largest[len(system.shafts) + 1 + number])
 
 
 def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, float]:
@@ -346,21 +409,22 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
 
 
 def insert_damper(text: bytes, name: str, damper: Damper) -> str:
-    """Return the text of a chain or engine file with this damper on the node or part `name`.
+    """Return the text of a chain or engine file with this damper on one of its nodes.
 
     Args:
         text: Text of the file, UTF-8.
-        name: Name of the node or part, which the file has.
+        name: Name of the node, part or throw.
         damper: New damper, in place of an older one.
     """
     old = text.decode("utf-8-sig")
     data = tomllib.loads(old)
-    torsion = data.get("torsion", {})
-    lists = {f"torsion.{end}": torsion.get(end, ()) for end in ("front", "rear")}
-    table = next(
-        f"{key}.{number}"
-        for key, tables in (lists | {"node": data.get("node", ())}).items()
-        for number, table in enumerate(tables, 1)
-        if table.get("name") == name
-    )
-    return set_keys(old, table, {"damper": damper.model_dump(exclude_none=True)}, "by balcli")
+    torsion, keys = data.get("torsion", {}), damper.model_dump(exclude_none=True)
+    lists = {f"torsion.{key}": torsion.get(key, ()) for key in ("front", "rear", "throw")}
+    for key, tables in (lists | {"node": data.get("node", ())}).items():
+        for number, table in enumerate(tables, 1):
+            own = name_throw(table["throw"]) if key == "torsion.throw" else table.get("name")
+            if own == name:
+                return set_keys(old, f"{key}.{number}", {"damper": keys}, "by balcli")
+    throw = {"throw": int(name.removeprefix(name_throw(0)[:-1])), "damper": keys}
+    lines = [f"{key} = {format_value(value)}" for key, value in throw.items()]
+    return "\n".join([old.rstrip("\n"), "", "[[torsion.throw]]    # by balcli", *lines, ""])

@@ -18,7 +18,14 @@ from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.curves import silence
-from .build import build_chain, build_engine_system, excite_engine, require_torsion
+from .build import (
+    build_chain,
+    build_engine_system,
+    excite_engine,
+    list_dampers,
+    list_throws,
+    require_torsion,
+)
 from .read import describes_chain, read_chain_tables
 from .system import TorsionalSystem
 from .tables import ChainFile
@@ -31,12 +38,13 @@ class Source(NamedTuple):
 
     Attributes:
         text: Text of the file; empty if nothing can be written into it.
-        doubts: Warnings of figures that are allowed but unlikely.
-        system: Function that returns the system that the file describes. Its argument, dampers by
-            node name, replaces dampers of the file. It raises InputError if the file contradicts
-            itself.
-        dampers: Names of the nodes that may carry a damper, with the damper that each has.
-        engine: Engine of the file; None for a chain.
+        doubts: Warnings of figures that are allowed and yet unlikely.
+        system: Function of dampers by the names of their nodes to the system that the file
+            describes, with these in place of its own; it raises InputError where the file
+            contradicts itself.
+        dampers: Nodes that may carry a damper, by name, each with the first damper it has.
+        engine: Engine of the file; None: it describes a chain.
+        throws: Names of the nodes of its throws.
     """
 
     text: bytes
@@ -44,6 +52,7 @@ class Source(NamedTuple):
     system: Callable[[Mapping[str, Damper | None]], TorsionalSystem]
     dampers: Mapping[str, Damper | None]
     engine: Engine | None = None
+    throws: tuple[str, ...] = ()
 
 
 def make_chain_source(
@@ -108,5 +117,10 @@ def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | Non
     doubts, torsion = engine.unlikely, require_torsion(model, name)
     excitation = excite_engine(model, engine, orders)
     system = partial(build_engine_system, model, engine, excitation, name)
-    parts = (*reversed(torsion.front), *torsion.rear)
-    return Source(b"", doubts, system, {part.name: part.damper for part in parts}, engine)
+    dampers: dict[str, Damper | None] = {
+        part.name: part.damper for part in (*reversed(torsion.front), *torsion.rear)
+    }
+    throws = tuple(list_throws(engine))
+    for throw in throws:
+        dampers[throw] = next(iter(list_dampers(torsion, throw)), None)
+    return Source(b"", doubts, system, dampers, engine, throws)

@@ -257,7 +257,9 @@ def find_criticals(
     moved = np.array([mode.shape[excitation.nodes] for mode in modes])
     moved = moved.reshape(len(modes), 1, len(excitation.nodes))
     speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
-    torque = excitation.steady + excitation.growing * speeds[..., None] ** 2
+    within = np.clip(speeds, low * RPM, high * RPM).ravel()  # others do not count
+    shape = len(orders), len(modes), len(orders), len(excitation.nodes)
+    torque = np.einsum("kmks->mks", excitation.at(within).reshape(shape))
     phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
     counted = (rpm >= low * (1 - 1e-12)) & (rpm <= high * (1 + 1e-12))
     counted &= phasors > _UNDRIVEN * np.sum(np.abs(torque * moved), axis=-1)

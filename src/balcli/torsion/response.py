@@ -157,6 +157,20 @@ class WorstSwing(NamedTuple):
     half_swing_deg: float
 
 
+class WorstPendulum(NamedTuple):
+    """Largest swing of pendulums over the range of speeds, between the speeds as well.
+
+    Attributes:
+        speed_rpm: Speed at which it occurs.
+        half_swing_deg: Half of peak to peak.
+        order: Order with the largest amplitude there.
+    """
+
+    speed_rpm: float
+    half_swing_deg: float
+    order: float
+
+
 class WorstHeat(NamedTuple):
     """Largest power that a damper dissipates over the range of speeds.
 
@@ -194,7 +208,7 @@ class PendulumSwing(NamedTuple):
 
     node: str
     half_swing_deg: Real
-    worst: WorstSwing
+    worst: WorstPendulum
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -203,6 +217,7 @@ class TorsionResponse:
 
     Attributes:
         speeds_rpm: Speeds.
+        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all.
         shafts: Torque of each shaft.
         free_end_deg: Half of the swing of the free end, by speed.
         free_end_worst: Largest swing of the free end.
@@ -211,6 +226,7 @@ class TorsionResponse:
     """
 
     speeds_rpm: Real
+    imep_Pa: Real | None = None
     shafts: tuple[ShaftResponse, ...]
     free_end_deg: Real
     free_end_worst: WorstSwing
@@ -232,15 +248,16 @@ def find_response(
         BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
-    orders, end = system.require_excitation().orders, len(system.shafts)
-    found = []
+    excitation, end, found = system.require_excitation(), len(system.shafts), []
+    orders = excitation.orders
     for phasors, lost in compute_in_parts(system, speeds_rpm):
         found.append((find_swing(orders, phasors).half, sum_amplitudes(phasors), lost))
         tell(sum(len(each) for each, *_ in found) / len(speeds_rpm))
     swings, sums, heat = (np.concatenate(each) for each in zip(*found, strict=True))
     at, value = find_largest(system, speeds_rpm)
-    there, _ = compute_curves(system, at[:end])
-    by_order = np.abs(there[:, range(end), range(end)])  # torque of each shaft at its worst speed
+    curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
+    there, _ = compute_curves(system, at[: len(curves)])
+    by_order = np.abs(there[:, curves, curves])  # of each curve where it is largest
     named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
     shafts = []
     for k, name in enumerate(system.shafts):
@@ -258,22 +275,23 @@ def find_response(
             worst=worst,
         )
         shafts.append(shaft)
-    degrees = np.degrees(swings)
-    worst_swings = list(map(WorstSwing, at.tolist(), np.degrees(value).tolist()))
-    pendulums = tuple(
-        PendulumSwing(system.nodes[each.node], degrees[:, k], worst_swings[k])
-        for k, each in enumerate(system.pendulums, end + 1)
-    )
+    degrees, worst_deg = np.degrees(swings), np.degrees(value).tolist()
+    pendulums = []
+    for k, each in enumerate(system.pendulums, end + 1):
+        largest = named_orders[by_order[:, k].argmax()]
+        swing = WorstPendulum(float(at[k]), worst_deg[k], largest)
+        pendulums.append(PendulumSwing(system.nodes[each.node], degrees[:, k], swing))
     worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
     names = (name.removesuffix(" ring") for name in system.dampers)
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
+        imep_Pa=None if excitation.gas is None else excitation.gas.imep(speeds_rpm),
         shafts=tuple(shafts),
         free_end_deg=degrees[:, end],
-        free_end_worst=worst_swings[end],
+        free_end_worst=WorstSwing(float(at[end]), worst_deg[end]),
         dampers=dampers or None,
-        pendulums=pendulums or None,
+        pendulums=tuple(pendulums) or None,
     )
 
 

@@ -119,6 +119,8 @@ def _list_response(response: Node) -> Iterator[Line]:
     pendulums = response.get("pendulums", ())
     for s, speed in enumerate(response.get("speeds_rpm", ())):
         head = Line("response", speed_rpm=speed)
+        if "imep_Pa" in response:
+            yield from _put(head, [Figure("imep", response["imep_Pa"][s], "Pa")])
         for shaft in shafts:
             yield from _put(head._replace(name=shaft["name"]), list_series(shaft, s))
         yield from _put(head, [Figure("free_end", response["free_end_deg"][s], "deg")])
@@ -136,7 +138,7 @@ def _list_response(response: Node) -> Iterator[Line]:
     swings = [("pendulums", each["node"], each["worst"]) for each in pendulums]
     swings += [("free_end", "", response["free_end_worst"])] if response else []
     for key, name, worst in swings:
-        head = Line("worst", None, worst["speed_rpm"], name=name)
+        head = Line("worst", None, worst["speed_rpm"], worst.get("order"), name=name)
         yield from _put(head, [Figure(key, worst["half_swing_deg"], "deg")])
 
 
@@ -345,6 +347,8 @@ def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
     excitation = result.system.excitation
     if excitation is None or not excitation.growing.any():
         return ""
+    if excitation.gas is not None:
+        return where_counted.replace("at every", "for each")
     alone = " Inertia only; gas torque is not included."
     return where_counted if excitation.steady.any() else alone
 
@@ -353,9 +357,12 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
     """Return sentences on the largest swing of free end and pendulums, and the largest heat of
     dampers.
     """
-    swings = [(f"{result.system.free_end} swings", response.free_end_worst)]
-    swings += [(f"The pendulums of {p.node} swing", p.worst) for p in response.pendulums or ()]
-    parts = [(f"{what} by ±{number(w.half_swing_deg)} deg", w.speed_rpm) for what, w in swings]
+    free_end, speed = response.free_end_worst.half_swing_deg, response.free_end_worst.speed_rpm
+    parts = [(f"{result.system.free_end} swings by ±{number(free_end)} deg", speed)]
+    for pendulums in response.pendulums or ():
+        largest = pendulums.worst
+        swing = f"swing by ±{number(largest.half_swing_deg)} deg, most in order {largest.order:g},"
+        parts.append((f"The pendulums of {pendulums.node} {swing}", largest.speed_rpm))
     for each in response.dampers or ():
         heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
         parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))

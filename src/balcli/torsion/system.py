@@ -10,9 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..core.phases import RPM
 from ..core.vibration import Complex, Indices, Real
 from ..engine.engine import NONE_SILENT, SilentCylinders
 from ..errors import BalcliError
+from ..forces.spectrum import GasAtSpeeds
 from .chain import Chain, Damping, find_pieces, pendulum_inertia, pendulum_swing, viscous_inertia
 
 
@@ -34,31 +36,33 @@ class Pendulums(NamedTuple):
 
 
 class Excitation(NamedTuple):
-    """Torques by order as phasors c: the torque of order n is `Re(c e^{i n t})`, where t is the
-    angle of the reference node.
+    """Torques by order, complex, their values `Re(c e^{i n t})`, t the angle of the reference.
 
     Attributes:
-        orders: Rising orders above 0, shape (orders,).
-        nodes: Node on which each source (a cylinder, or a torque of a chain) acts, shape
-            (sources,).
-        steady: Part that is independent of the speed, N m, shape (orders, sources).
-        growing: Part that grows with the square of the speed, kg m2, shape (orders, sources).
+        orders: (orders,) rising, above 0.
+        nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
+        steady: (orders, sources) N m, at the engine's own speed if the gas depends on the speed.
+        growing: (orders, sources) kg m2, the part that grows with the square of the speed.
+        gas: Gas that depends on the speed, by cylinder, in place of `steady`; None: it does not.
     """
 
     orders: Real
     nodes: Indices
     steady: Complex
     growing: Complex
+    gas: GasAtSpeeds | None = None
 
     def at(self, speeds: Real) -> Complex:
         """Return the torques (orders, speeds, sources), N m, at speeds (speeds,), rad/s."""
         grown = self.growing[:, None, :] * speeds[:, None] ** 2
-        return np.asarray(self.steady[:, None, :] + grown, complex)
+        steady = self.steady[:, None, :] if self.gas is None else self.gas.torque(speeds / RPM)
+        return np.asarray(steady + grown, complex)
 
     def only(self, orders: Real) -> Excitation:
         """Return the excitation restricted to some orders."""
         kept = np.isin(self.orders, orders)
-        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept])
+        gas = None if self.gas is None else self.gas.select_orders(kept)
+        return Excitation(self.orders[kept], self.nodes, self.steady[kept], self.growing[kept], gas)
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@
 const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15;
   const WORTH_A_SHAFT = 0.3;
+  const UPRIGHT = { force: ["vertical", "horizontal"], moment: ["yawing", "pitching"] };
   const rad = (deg) => deg * TURN / 360, deg = (angle) => angle * 360 / TURN;
   const polar = (size, angle) => [size * Math.cos(angle), size * Math.sin(angle)];
   const add = (a, b) => [a[0] + b[0], a[1] + b[1]];
@@ -251,14 +252,16 @@ const Kernel = (() => {
 
   // ------------------------------------------------------------------ the document
   const first = (c, n) => { const at = (deg(-Math.atan2(c[1], c[0])) % 360 + 360) % 360 / n; return at < 360 / n ? at : 0; };
-  function describeVector([a, b], n) {
+  function describeVector([a, b], n, words = [], up = 0) {
     const major = size(a) + size(b), axis = deg(Math.atan2(a[1], a[0]) + Math.atan2(b[1], b[0])) / 2;
     const component = (c) => ({ amplitude: size(c), phase_deg: n && size(c) ? deg(-Math.atan2(c[1], c[0])) : null });
+    const along = ([p, q]) => [component(add(p, [q[0], -q[1]])), component([p[1] + q[1], q[0] - p[0]])];
+    const [x, y] = along([a, b]), turned = along([a, b].map((v) => times(v, polar(1, rad(-up)))));
     const line = n && size(a) && size(b);                     // order 0 is a constant vector
     return {
       forward: a, backward: b, major, minor: Math.abs(size(a) - size(b)) * (n ? 1 : 0),
       axis_deg: line ? 90 - ((90 - axis) % 180 + 180 + 1e-6) % 180 + 1e-6 : !n && size(a) ? deg(Math.atan2(a[1], a[0])) : null,
-      x: component(add(a, [b[0], -b[1]])), y: component([a[1] + b[1], b[0] - a[0]]), balanced: !major,
+      x, y, balanced: !major, ...Object.fromEntries(words.map((word, k) => [word, turned[k]])),
     };
   }
   function describeScalar([a], n) {
@@ -273,8 +276,9 @@ const Kernel = (() => {
   // What `balcli analyze -f json` has of orders 0 to 12, peaks and ladder.
   function describe(engine, ladder) {
     const { kinds, peak } = ladder.steps[0], known = engine.known;
+    const vector = (kind, n) => describeVector(kinds[kind][n], n, engine.up === null ? [] : UPRIGHT[kind], engine.up);
     const orders = Array.from({ length: ORDERS + 1 }, (_, n) => ({
-      order: n, force_N: describeVector(kinds.force[n], n), moment_Nm: describeVector(kinds.moment[n], n),
+      order: n, force_N: vector("force", n), moment_Nm: vector("moment", n),
       couple_Nm: describeScalar(kinds.couple[n], n), inertia_torque_Nm: describeScalar(kinds.torque[n], n),
       roll_Nm: describeScalar(kinds.roll[n], n),
     }));
@@ -290,5 +294,5 @@ const Kernel = (() => {
       orders, peak: describePeak(peak), ladder: { scale, auto: ladder.auto, steps },
     };
   }
-  return { assemble, compute, findLadder, describe, load };
+  return { assemble, compute, findLadder, describe, describeVector, load, UPRIGHT };
 })();

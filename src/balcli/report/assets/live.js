@@ -21,9 +21,11 @@
   };
   const own = (object, key) => Object.hasOwn(object, key) ? object[key] : undefined;
   const tableOf = (name) => name.match(/^(?:counterweight|shaft|slider|cylinder)\.\d+/)?.[0] ?? name.split(".")[0];
+  // A figure as the command prints it: with an exponent below 0.0001 and from a million on.
   const shown = (value, digits = 4) => {
-    const text = Number(value.toPrecision(digits));
-    return Math.abs(value) >= 1000 && Math.abs(value) < 1e9 ? text.toFixed(0) : String(text);
+    const exact = Number(value.toPrecision(12)), rounded = Number(exact.toPrecision(digits)), size = Math.abs(rounded);
+    if (size >= 10 ** digits && Math.abs(exact) < 1e6) return exact.toFixed(0);
+    return size && (size < 1e-4 || size >= 1e6) ? rounded.toExponential().replace("+", "") : String(rounded);
   };
 
   // ------------------------------------------------------------------ numbers and their values
@@ -33,18 +35,26 @@
     return data.numbers.find((each) => each.name === name) || (key && own(own(book.devices, kind) || {}, key));
   }
 
+  // A unit in one spelling: "kg·mm²" and "kg mm^2" are "kgmm^2", and 3.5" are in.
+  function spell(unit) {
+    const word = unit.normalize("NFKC").replace(/["″“”]|''/, "in").replace("°", "deg").replace("μ", "u");
+    const joined = word.replace(/([a-z])(?:\*\*)?([23])/gi, "$1^$2").replace(/[\s·⋅*]+|\.$/g, "");
+    return joined.length < 2 || /^M[a-zG]/.test(joined) ? joined : joined.toLowerCase();   // Mg: a megagram
+  }
   // A number in the unit of the file, as people write it; an Error says what would be right.
   function readValue(name, text) {
     const { unit, above, least, most, whole } = find(name), wanted = `give a number${unit ? ` in ${unit}` : ""}`;
-    const plain = text.trim().replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
+    const plain = text.replace(/(\d?)\s*([¼-¾⅐-⅞])/, "$1 $2").normalize("NFKC").trim().replace("⁄", "/")
+      .replace(/^[−–]/, "-").replace(/^(\d+)[- ](\d+\/\d+)/, "$1+$2");
     if (/^[-+]?\d{1,3},\d{3}(?!\d)/.test(plain)) throw new Error(`${name}: "${text}" can mean two numbers; write it without a comma`);
     const [, sign, figure, top, bottom, word] =
-      plain.replace(",", ".").match(/^([-+]?)(\d*\.?\d*(?:e[-+]?\d+)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
+      plain.replace(",", ".").match(/^([-+]?)((?:(?!\d+\/\d)\d*\.?\d*(?:e[-+]?\d+)?)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
     const value = (sign === "-" ? -1 : 1) * (Number(figure || 0) + (top ? top / bottom : 0));
     if (!/\d/.test(figure + (top || "")) || !Number.isFinite(value)) {
       throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
     }
-    const factors = own(book.units, unit) || {}, factor = word === "" || word === unit ? 1 : own(factors, word);
+    const factors = own(book.units, unit) || {}, same = (name) => spell(name) === spell(word);
+    const factor = word === "" || same(unit) ? 1 : factors[Object.keys(factors).find(same)];
     if (factor === undefined) {
       const known = Object.keys(factors).join(", ");
       throw new Error(`${name}: the unit "${word.slice(0, 20)}" is not known here; ${wanted}${known && `, or in ${known}`}`);
@@ -108,6 +118,14 @@
         Kernel.assemble(data, changed);
         next = changed;
       } catch (error) { wrong.push(error.message); }
+    }
+    const sizes = ["unbalance", "mass", "radius"];
+    for (const table of new Set(Object.keys(next).map(tableOf).filter((each) => DEVICE.test(each)))) {
+      const [unbalance, mass, radius] = sizes.map((key) => `${table}.${key}` in next);
+      if (unbalance || (mass && radius)) continue;
+      const lack = mass ? "mass without radius" : radius ? "radius without mass" : "neither unbalance nor mass and radius";
+      wrong.push(`${table}: has ${lack}; give either unbalance or mass and radius`);
+      for (const key of sizes.map((each) => `${table}.${each}`)) if (key in original) next = { ...next, [key]: original[key] };
     }
     return { next, wrong };
   }
@@ -206,30 +224,101 @@
     }
     return [...shownOrders].sort((a, b) => a - b);
   }
-  // The verdict of `balcli analyze`, without directions and cures: a force or moment is large if its part
-  // that turns with the crank, or the one that turns against it, is not small compared with one cylinder's.
-  function writeVerdict() {
-    const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
-    const sentences = [], balanced = [], most = {};
-    for (const n of listShownOrders(kinds)) {
-      const vectors = types.map((type) => {
-        const parts = (kinds[type][n] || []).map((v) => Math.hypot(...v)), size = parts.reduce((a, b) => a + b, 0);
-        return { type, size, large: parts.some((part) => part && part >= book.small * scale[type] * (1 - 1e-9)) };
-      });
-      const couple = n <= 2 && !vectors.some(({ type, size }) => type === "moment" && size) ? 2 * Math.hypot(...kinds.couple[n][0]) : 0;
-      const turns = couple > book.negligible * scale.force * engine.r ? [`roll couple of ${sizeText("moment", couple)}`] : [];
-      const large = vectors.filter((each) => each.large).map(({ type, size }) => `${type} of ${sizeText(type, size)}`);
-      const none = vectors.every(({ size }) => !size);
-      if (large.length) sentences.push(`${nameOrder(n)} order: ${[large.join(" and "), ...turns].join(", ")}.`);
-      else if (turns.length) sentences.push(`${nameOrder(n)} order: ${turns[0]}; ${types.join(" and ")} ${none ? "balanced" : "small"}.`);
-      else if (none && n <= 2) balanced.push(n);
-      for (const { type, size } of vectors.filter((each) => !each.large)) if (size > (most[type]?.size || 0)) most[type] = { size, n, type };
+  // The verdict of `balcli analyze`, in its words but for the causes of the couple: a force or moment is large if its part that turns with the
+  // crank, or the one that turns against it, is not small compared with one cylinder's.
+  const MOST_WORDS = 25, MOST_NAMED = 5, SENSES = ["with the crank", "against the crank"];
+  const NAMED = { force: "force", moment: "longitudinal moment" };
+  const joinWords = (words) => words.length > 1 ? `${words.slice(0, -1).join(", ")} and ${words.at(-1)}` : words[0];
+  const lineDegrees = (value) => {
+    const tenths = (Number(Number(value.toFixed(6)).toFixed(1)) + 0).toFixed(1);
+    return tenths === "-90.0" ? "90.0" : tenths;
+  };
+  function nameOrders(orders) {
+    if (orders.length > MOST_NAMED) return `${orders.length} orders up to ${Math.max(...orders)}`;
+    return `order${orders.length > 1 ? "s" : ""} ${joinWords(orders.map(String))}`;
+  }
+  // Size and direction of a force or moment of an order: "force of 4 N along x".
+  function describeVector({ type, size, parts, axis }, directed) {
+    const told = `${NAMED[type]} of ${sizeText(type, size)}`, turning = parts.findIndex((_, k) => !parts[1 - k]);
+    if (!directed) return told;
+    if (turning >= 0) return `${told} turning ${SENSES[turning]}`;
+    const names = { "0.0": "x", "90.0": "y" }, angle = lineDegrees(axis);
+    const line = `${type === "force" ? "along" : "about"} ${names[angle] || `an axis at ${angle} deg`}`;
+    const fromUp = data.up === null ? "" : lineDegrees(90 - ((90 - axis + data.up) % 180 + 180) % 180);
+    const upright = Kernel.UPRIGHT[type][Object.keys(names).indexOf(fromUp)];
+    return `${told} ${upright ? `${upright} (${line})` : line}`;
+  }
+  // What would cancel the parts of an order that are not small, by sense of rotation.
+  function findCures(n, large) {
+    const turns = engine.devices.filter((d) => d.order === n && d.kind !== "slider");
+    return [1, -1].flatMap((sense, k) => {
+      if (!large.some(({ due }) => due[k])) return [];
+      const further = turns.some((d) => Math.hypot(...(k ? d.backward : d.forward))) ? "further " : "";
+      return [{ k, device: sense * n === 1 ? `${further}counterweights` : `a ${further}shaft at ${sense > 0 ? "+" : "-"}${n}` }];
+    });
+  }
+  function tellCure({ n, large }, withSizes) {
+    const cures = findCures(n, large), one = large.length === 1 ? large[0] : null;
+    if (!cures.length) return "";
+    if (n > 2) return `usually left: its shafts would turn at ${n} times crank speed`;
+    const everything = one ? "it" : "both", devices = cures.map(({ device }) => device);
+    const sizes = one ? one.parts.map((part) => sizeText(one.type, part)) : [];
+    if (cures.length === 1) {
+      const [{ k, device }] = cures, cancel = `${device} cancel${device.startsWith("a ") ? "s" : ""}`;
+      if (!large.some(({ parts }) => parts[1 - k])) return `${cancel} ${everything}`;
+      return one ? `${cancel} ${sizes[k]} of it` : `${cancel} what turns ${SENSES[k]}`;
     }
-    const small = Object.values(most).map(({ type, size, n }) => `${type} of ${sizeText(type, size)} (order ${n})`).join(", ");
-    const which = `${types.join(" and ")} of order${balanced.length > 1 ? "s" : ""} ${balanced.join(" and ")}`;
-    const rest = [...(balanced.length ? [`${which} ${types.length > 1 ? "are" : "is"} balanced`] : []), ...(small ? [`small: ${small}`] : [])];
-    if (rest.length) sentences.push(`${capital(rest.join("; "))}.`);
-    return [...sentences, ...(data.known ? [] : [book.unknown])].join(" ");
+    if (n === 2) return `${devices.some((each) => each.includes("further")) ? "further " : ""}shafts at +2 and -2 cancel ${everything}`;
+    if (one && withSizes) return `${devices[0]} cancel ${sizes[0]} of it, ${devices[1]} the other ${sizes[1]}`;
+    return `${devices.join(" and ")} cancel ${everything}`;
+  }
+  // The longest sentence on an order that is not too long.
+  function tellOrder(order) {
+    const name = `${nameOrder(order.n)} order`;
+    let told = "";
+    for (const [directed, withSizes] of [[true, true], [true, false], [false, false]]) {
+      const there = order.large.map((each) => describeVector(each, directed)).join(" and ");
+      told = `${name}: ${[there, tellCure(order, withSizes)].filter(Boolean).join("; ")}.`;
+      if (told.split(" ").length <= MOST_WORDS) break;
+    }
+    return told;
+  }
+  function tellLargest(vectors) {
+    const most = {};
+    for (const each of vectors) if (each.size > (most[each.type]?.size || 0)) most[each.type] = each;
+    return Object.values(most).map(({ type, size, n }) => `${NAMED[type]} of ${sizeText(type, size)} (order ${n})`).join(", ");
+  }
+  function judgeOrder(n) {
+    const { scale, steps: [{ kinds }] } = ladder, types = data.known ? ["force", "moment"] : ["force"];
+    const vectors = types.map((type) => {
+      const pair = kinds[type][n] || [[0, 0], [0, 0]], parts = pair.map((v) => Math.hypot(...v));
+      const due = parts.map((part) => part > 0 && part >= book.small * scale[type] * (1 - 1e-9));
+      return { type, n, parts, due, size: parts[0] + parts[1], axis: Kernel.describeVector(pair, n).axis_deg };
+    });
+    return {
+      n, vectors, large: vectors.filter(({ due }) => due.some(Boolean)), balanced: vectors.every(({ size }) => !size),
+      couple: 2 * Math.hypot(...(kinds.couple[n] || [[0, 0]])[0]),
+    };
+  }
+  function writeVerdict() {
+    const every = listShownOrders(ladder.steps[0].kinds).map(judgeOrder), names = every[0].vectors.map(({ type }) => type);
+    const matter = every.filter(({ large }) => large.length), high = matter.filter(({ n }) => n > 2);
+    const told = matter.filter(({ n }) => n <= 2 || high.length < 2).map(tellOrder);
+    if (high.length > 1) {
+      const largest = tellLargest(high.flatMap(({ large }) => large));
+      told.push(`${capital(nameOrders(high.map(({ n }) => n)))}: ${largest}; usually left.`);
+    }
+    const still = every.filter((each) => each.n <= 2 && each.balanced), balanced = still.map(({ n }) => n);
+    if (still.every(({ couple }) => !couple)) names.push("couple");
+    const most = every.reduce((a, b) => b.couple > a.couple ? b : a);
+    const small = tellLargest(every.flatMap(({ vectors, large }) => vectors.filter((each) => !large.includes(each))));
+    const rest = [
+      balanced.length ? `${nameOrders(balanced)}: ${joinWords(names)} balanced` : "",
+      small ? `small: ${small}` : "",
+    ].filter(Boolean).join("; ");
+    const couple = `Transverse couple: up to ${sizeText("moment", most.couple)} (order ${most.n}).`;
+    const turning = most.couple > book.negligible * ladder.scale.moment ? [couple] : [];
+    return [...told, ...(rest ? [`${capital(rest)}.`] : []), ...turning, ...(data.known ? [] : [book.unknown])].join(" ");
   }
   function fill(id, heads, rows) {
     const head = make("tr", {}, ...heads.map((text) => make("th", { scope: "col" }, text)));
@@ -416,7 +505,7 @@
   function copyCommand() {
     const there = !listChanges().length && book.source;       // the file of an unchanged engine
     const hint = there ? "" : "Download TOML saves this engine under that name; do that first.";
-    return copy(`balcli analyze ${quote(there || fileName())}`, hint);
+    return copy(`balcli analyze ${quote(there || fileName())}${book.options}`, hint);
   }
   async function copy(text, hint = "") {
     try { await navigator.clipboard.writeText(text); } catch {

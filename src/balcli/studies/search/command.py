@@ -181,7 +181,8 @@ def search(
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
     with naming_file(name):
-        unlikely = build.build(model).unlikely
+        engine = build.build(model)
+        unlikely = *engine.unlikely, *engine.doubt_speeds(engine.speed_rpm)
     varied = [text.partition("=")[0] for text in over]
     warn_each((doubt for doubt in unlikely if not any(one in doubt for one in varied)), name)
     if write is not None:

@@ -154,7 +154,7 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
 
 
 BROKEN = 1e200  # above all costs of candidates that satisfy the limits
-_SIGNED = ("torque.mean", "torque.min")
+_SIGNED = ("mean", "min")  # parts of quantities of chapters
 
 
 @dataclass(frozen=True)
@@ -260,8 +260,9 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
                 f"{q.name} has a sign or a direction; name a size such as "
                 f"{q.kind}.{q.order:g}.major"
             )
-        if q.name in _SIGNED:
-            raise BalcliError(f"{q.name} may be negative; name a size such as torque.max")
+        if q.part in _SIGNED:
+            size = f"{q.name.rpartition('.')[0]}.max"
+            raise BalcliError(f"{q.name} may be negative; name a size such as {size}")
     return found
 
 

@@ -1,0 +1,265 @@
+"""Balancer shafts in their bearings, and counterweights as sectors (`analyze --only parts`).
+
+The load `F_i = U_i k^2 omega^2 e^{i angle_i}` of an eccentric at z_i turns with its shaft, which
+turns k times as fast as the crank. Of its two bearings A takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
+B the rest. The bending moment at a section is the sum of all loads and bearing forces before it,
+each times its arm; it is largest at a load or bearing.
+
+A gear that drives the shaft against a drag T presses on it, at the mesh in direction d, with `T/R
+e^{i d} (i sign(k) - tan alpha)`, R the pitch radius, alpha the pressure angle. This force stands
+still; the lever rule shares it, too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ..core.cylinders import find_innermost
+from ..core.loads import find_arms
+from ..core.phasors import Array, Complex, unit, wrap_degrees
+from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..engine.devices import build_device, find_given_unbalance, find_sector
+from ..engine.engine import Engine
+from ..file.model import Counterweight, Shaft, group_eccentrics
+from ..show.figures import FigureRow
+from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
+from ..show.units import ShownUnit, System, name_with_unit
+from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
+
+_ROUNDING = 1e-12  # of the sum of all loads: less is no load
+
+
+def find_parts(
+    engine: Engine, shafts: Sequence[Shaft], counterweights: Sequence[Counterweight]
+) -> BalanceParts:
+    """Return balancer shafts and counterweights of an engine as parts, at the mean speed.
+
+    Args:
+        engine: Engine without trailing axes.
+        shafts: Entries of its balancer shafts.
+        counterweights: Its counterweights.
+    """
+    skirt = None if engine.model is None else engine.model.piston.skirt
+    lowest = None
+    if skirt is not None and not engine.rotary:  # counterweights there turn with the cylinders
+        innermost = float(find_innermost(engine.cylinders).min())
+        lowest = innermost - skirt / 1e3 if math.isfinite(innermost) else None
+    omega, groups = float(engine.omega), group_eccentrics(shafts)
+    return BalanceParts(
+        tuple(_describe_shaft(name, [*entries.values()], omega) for name, entries in groups),
+        tuple(_describe_counterweight(one, lowest) for one in counterweights),
+    )
+
+
+# ------------------------------------------------------------------ shafts
+def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> BalancerShaft:
+    """Return a shaft in its bearings.
+
+    Args:
+        name: Name of the shaft.
+        entries: Its tables.
+        omega: Crank speed, rad/s.
+    """
+    devices = [build_device(entry, 0.0) for entry in entries]
+    order = devices[0].order
+    inertia = order * sum(abs(float(device.spin)) for device in devices)
+    shaft = BalancerShaft(name, entries[0].ratio, inertia)
+    bearings = next((entry.bearings for entry in entries if entry.bearings), None)
+    if bearings is None:
+        return shaft
+    places, planes = np.array([float(d.z) for d in devices]), np.array(bearings) / 1e3
+    vectors: Complex = np.array([d.forward + d.backward for d in devices], complex)
+    loads: Complex = (order * omega) ** 2 * vectors
+    turning = _share(loads, places, planes)
+    gear, fixed = _describe_gear(entries, order * omega, planes)
+    pairs = zip(bearings, turning.tolist(), fixed.tolist(), strict=True)
+    bending, place = _find_bending(loads, places, turning, planes)
+    return shaft._replace(
+        bearings=tuple(_describe_bearing(*pair) for pair in pairs),
+        bending_Nm=bending,
+        bending_position_mm=place,
+        gear=gear,
+    )
+
+
+def _describe_gear(
+    entries: Sequence[Shaft], omega: float, planes: Array
+) -> tuple[ShaftGear | None, Complex]:
+    """Return the gear of a shaft, None without one, and its loads of the bearings, N, shape (2,).
+
+    Args:
+        entries: Tables of the shaft.
+        omega: Speed of the shaft, rad/s.
+        planes: Places of the bearings, m, shape (2,).
+    """
+    gear = next((entry.gear for entry in entries if entry.gear), None)
+    if gear is None:
+        return None, np.zeros(2, complex)
+    drag, sense = max(entry.drag for entry in entries), np.sign(entries[0].ratio)
+    tangential, slope = 1e3 * drag / gear.radius, math.tan(math.radians(gear.pressure_angle))
+    force: Complex = np.array([tangential * unit(gear.direction) * (1j * sense - slope)])
+    loads = _share(force, np.array([gear.position / 1e3]), planes)
+    return ShaftGear(tangential, tangential * slope, drag * omega), loads
+
+
+def _share(loads: Complex, places: Array, planes: Array) -> Complex:
+    """Return the loads of two bearings, N, shape (2,).
+
+    Args:
+        loads: Forces on the shaft, N, shape (loads,).
+        places: Their places, m, shape (loads,).
+        planes: Places of the bearings, m, shape (2,).
+    """
+    other = planes[::-1]
+    found: Complex = ((other[:, None] - places) / (other - planes)[:, None]) @ loads
+    return np.where(np.abs(found) <= _ROUNDING * np.abs(loads).sum(), 0, found)
+
+
+def _describe_bearing(position_mm: float, turning: complex, fixed: complex) -> ShaftBearing:
+    sizes = abs(turning), abs(fixed), abs(turning) + abs(fixed)
+    return ShaftBearing(position_mm, *sizes, _find_direction(turning), _find_direction(fixed))
+
+
+def _find_direction(vector: complex) -> float | None:
+    """Return the direction of a vector from x, deg, in (-180, 180]; None if it is 0."""
+    angle = math.degrees(math.atan2(vector.imag, vector.real))
+    return float(wrap_degrees(angle, 360)) if vector else None
+
+
+def _find_bending(
+    loads: Complex, places: Array, reactions: Complex, planes: Array
+) -> tuple[float, float | None]:
+    """Return the largest bending moment, N m, and its place, mm; None where nothing bends.
+
+    Args:
+        loads: Forces on the shaft, N, shape (loads,).
+        places: Their places, m, shape (loads,).
+        reactions: Loads of the bearings, N, shape (2,).
+        planes: Places of the bearings, m, shape (2,).
+    """
+    z = np.sort(np.concatenate([places, planes]))
+    moments = np.abs(find_arms(places, z) @ loads - find_arms(planes, z) @ reactions)
+    largest = float(moments.max())
+    if largest <= _ROUNDING * float(np.abs(loads).sum() * np.ptp(z)):
+        return 0.0, None
+    first = np.flatnonzero(moments >= largest * (1 - _ROUNDING))[0]
+    return largest, 1e3 * float(z[first])
+
+
+# ------------------------------------------------------------------ counterweights
+def _describe_counterweight(table: Counterweight, lowest: float | None) -> CounterweightPart:
+    """Return a counterweight as a part.
+
+    Args:
+        table: The counterweight.
+        lowest: Least distance of a piston's lowest edge from the crank axis, m; None: not known.
+    """
+    place = table.position, float(wrap_degrees(table.angle, 360))
+    if table.sector is None:
+        return CounterweightPart(*place, float(find_given_unbalance(table) or 0.0))
+    unbalance, mass, radius, thickness, inertia = map(float, find_sector(table, table.sector))
+    clearance = None if lowest is None else lowest - table.sector.outer_radius / 1e3
+    return CounterweightPart(*place, unbalance, mass, radius, thickness, inertia, clearance)
+
+
+# ------------------------------------------------------------------ how it is shown
+_BEARINGS_NOTE = (
+    "Bearing loads depend on the resultant force and moment and on the bearing places only; "
+    "moving weights without changing both changes bending only."
+)
+_RADIUS_NOTE = "Radius: of the centre of mass."
+_CLEARANCE_NOTE = "Clearance: to the lowest piston, as if it stood over the counterweight."
+
+
+_BEARING = {
+    "position_mm": "bearing",
+    "rotating_N": "turning",
+    "rotating_deg": "at",
+    "fixed_N": "fixed",
+    "largest_N": "largest",
+}
+_SHORT = {"position_mm": "z", "angle_deg": "at", "center_of_mass_m": "radius"}
+_WEIGHT = {key: remove_unit(key) for key in CounterweightPart._fields} | _SHORT
+
+
+def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts | Text]:
+    """Yield a table of the shafts in their bearings, lines on each shaft, and a table of the
+    counterweights.
+
+    Args:
+        parts: Shafts and counterweights.
+        system: System of units.
+    """
+    if any(shaft.bearings for shaft in parts.shafts):
+        yield _lay_out_bearings(parts.shafts, system)
+    if parts.shafts:
+        pairs = tuple((shaft.name, _tell_shaft(shaft, system)) for shaft in parts.shafts)
+        yield Facts(pairs, "Bending, inertia and drag of shafts")
+    if parts.counterweights:
+        yield _lay_out_counterweights(parts.counterweights, system)
+    if not (parts.shafts or parts.counterweights):
+        yield Text("Parts", ("The file has no balancer shafts and no counterweights.",))
+
+
+def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
+    pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
+    names, bearings = zip(*pairs, strict=True)
+    unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
+    columns = [("shaft", names), *_list_columns(bearings, _BEARING, {"N": unit}, system)]
+    return Grid.of_columns("Balancer shafts", columns, _BEARINGS_NOTE)
+
+
+def _list_columns(
+    records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
+) -> Iterator[tuple[str, list[str]]]:
+    """Yield heading and cells of each figure that some records have.
+
+    Args:
+        records: One a row.
+        labels: Labels of the figures, by their keys.
+        units: Units of unbalance and force.
+        system: System of units.
+    """
+    length, angle = system.length, ShownUnit("deg", 1)
+    units = units | system.of_parts | {"deg": angle, "mm": length._replace(size=1e3 * length.size)}
+    for key, label in labels.items():
+        values, unit_ = [getattr(record, key) for record in records], units[find_unit(key)]
+        cells = [UNKNOWN if value is None else number(unit_.of(value)) for value in values]
+        if set(cells) != {UNKNOWN}:
+            yield name_with_unit(label, unit_.name), cells
+
+
+def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
+    """Return in words ratio, bending, inertia and drag of a shaft."""
+    told = [f"ratio {shaft.ratio:+d}"]
+    if shaft.bending_Nm is not None:
+        told.append(f"bending {size_text(shaft.bending_Nm, system.moment)}")
+    if shaft.bending_position_mm is not None:
+        told[-1] += f" at z = {size_text(shaft.bending_position_mm / 1e3, system.length)}"
+    if inertia := shaft.inertia_at_crank_kg_m2:
+        told.append(f"inertia at the crank {size_text(inertia, system.of_parts['kg·m²'])}")
+    if shaft.gear is not None:
+        told.append(f"drag {size_text(shaft.gear.power_W, system.heat)}")
+    return ", ".join(told)
+
+
+def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
+    unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
+    numbers = [str(k) for k in range(1, len(parts) + 1)]
+    columns = list(_list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
+    notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
+    notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
+    columns.insert(0, ("no.", numbers))
+    return Grid.of_columns("Counterweights", columns, " ".join(notes))
+
+
+def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
+    """Yield every figure of shafts and counterweights, SI."""
+    shafts = ((f"shaft {one.name.removeprefix('shaft ')}", one) for one in parts.shafts)
+    weights = ((f"counterweight {k}", one) for k, one in enumerate(parts.counterweights, 1))
+    for label, record in (*shafts, *weights):
+        for name, value, unit_ in list_figures(to_document(record), ("name",)):
+            yield FigureRow(0, label, None, name, value, unit_)
