@@ -270,7 +270,7 @@ def _list_columns(engine: Engine) -> tuple[float, float, Array, Array, Array]:
     crank angle (rad) and arm (m) of each cylinder.
     """
     c = engine.cylinders
-    scale = c.radius * engine.omega**2
+    scale = c.radius[0] * engine.omega**2
     return (
         float(c.reciprocating[0] * scale),
         float(c.rotating[0] * scale),

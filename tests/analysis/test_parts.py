@@ -125,7 +125,7 @@ def test_a_sector_is_the_sum_of_its_pieces(inner, outer, opening):
 def test_the_clearance_to_the_lowest_of_all_pistons(text):
     engine = build_text(text + "[[counterweight]]\nunbalance = 900\n" + SECTOR)
     motion = EngineMotion(engine, np.arange(0, 360, 0.05))
-    lowest = float(engine.cylinders.radius) * float(motion.moved.place.min())
+    lowest = float(engine.cylinders.radius[0]) * float(motion.moved.place.min())
     (part,) = find_parts(engine).counterweights
     assert part.clearance_m == pytest.approx(lowest - 0.038 - 0.075, abs=1e-8)
 
