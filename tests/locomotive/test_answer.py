@@ -281,6 +281,7 @@ def test_what_the_command_refuses_and_doubts(tmp_path):
     text = template("locomotive")
     for old, new, message in (
         ("[locomotive]", "[loco]", "locomotive: is missing; write [locomotive] with planes and factor"),
+        ("wheel_diameter =", "#", "locomotive.wheel_diameter: is missing; a speed in km/h needs it"),
         ("speed  ", "# speed", "locomotive.speed: is missing; give km/h (with wheel_diameter), or operation.speed"),
         ("positions  =", "# ", "crank.spacing: moments are not known, because crank.spacing is missing"),
     ):

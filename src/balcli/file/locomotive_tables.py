@@ -7,11 +7,11 @@ They are imported for files that have them (`names.CHAPTERS`).
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import Field, WrapValidator
 
 from ..core.records import Node
 from ..errors import InputError, Problem
@@ -57,16 +57,19 @@ class _OnEachSide(OneOrEach):
     count = 2
 
 
-def _check_rise(places: tuple[float, ...]) -> tuple[float, ...]:
-    """Return two places along the axle; ValueError unless they rise."""
-    if places[0] >= places[1]:
-        raise ValueError(f"{shorten(places)} does not rise; give two z in mm, such as [-750, 750]")
-    return places
+def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> tuple[float, ...]:
+    """Return two places along the axle; ValueError unless they are two and rise."""
+    if isinstance(value, (list, tuple)) and len(value) == 2:
+        first, second = read(value)
+        if first < second:
+            return first, second
+    told = f"{shorten(value)} is no pair that rises"
+    raise ValueError(f"{told}; give two z in mm, such as [-750, 750]")
 
 
 FACTOR = _Factor(PLAIN, least=0, most=1)
 _two = Field(min_length=2, max_length=2)
-Planes = Annotated[tuple[Length, ...], _two, AfterValidator(_check_rise)]
+Planes = Annotated[tuple[Length, ...], _two, WrapValidator(_read_planes)]
 CouplingAngles = Annotated[tuple[Angle, ...], _two]
 CouplingMasses = Annotated[float | tuple[float, ...], _OnEachSide(Number(MASS, least=0, most=1e12))]
 WheelLoad = Annotated[float, _Load(FORCE, above=0, most=1e12)]
@@ -82,7 +85,7 @@ class Locomotive(FileTable):
     """Share of the reciprocating mass that the wheels balance, also "2/3" or "67%"; left out: no
     balance masses are sized. Example: 0.67"""
     planes: Planes
-    """z of the two planes of the balance masses, such as [-750, 750], ascending. Example: [-750,
+    """z of the two planes of the balance masses, ascending. Example: [-750,
     750]"""
     radius: Size | None = None
     """Radius of the balance masses; left out: unbalance alone, no mass. Example: 800"""
@@ -96,7 +99,7 @@ class Locomotive(FileTable):
     coupling_radius: Distance | None = None
     """Throw of the coupling-rod pins; left out: crank radius of cylinder 1. Example: 300"""
     coupling_planes: Planes | None = None
-    """z of the two coupling rods, such as [-900, 900], ascending. Example: [-900, 900]"""
+    """z of the two coupling rods, ascending. Example: [-900, 900]"""
     coupling_angles: CouplingAngles | None = None
     """Angles of the two coupling pins from cylinder 1's crank pin. Example: [180, 270]"""
 
@@ -134,9 +137,11 @@ class Locomotive(FileTable):
             rpm: Crank speed that the file gives; None: none.
         """
         axles = self.list_axles(given)
-        if self.speed is not None:
+        if self.speed is not None and rpm is not None:
             told = f"operation.speed gives {rpm:g} rpm as well; keep one"
-            yield NO_DIAMETER if rpm is None else Problem("locomotive.speed", told)
+            yield Problem("locomotive.speed", told)
+        elif self.speed is not None:
+            yield NO_DIAMETER
         if any(axle.coupling_mass not in (0, (0, 0)) for axle in axles):
             needed = {"coupling_angles": "angles of its pins", "coupling_planes": "z of the rods"}
             for key in (key for key in needed if getattr(self, key) is None):
