@@ -1,6 +1,7 @@
 """Balance of a locomotive against particles on a grid of crank angles, and against textbooks."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -239,6 +240,11 @@ def test_the_speed_on_the_track_is_the_speed_of_the_file():
     assert load(changed(locomotive={"wheel_load": weight})).model.locomotive.wheel_load == pytest.approx(
         89_676.15, rel=1e-6
     )
+
+
+def test_every_optional_key_of_the_starting_file_can_be_switched_on():
+    text = re.sub(r"(?m)^# *(\[+[a-z.0-9]+\]+|[a-z_]+ *= .*)", r"\1", template("locomotive"))
+    assert [axle.name for axle in analyze_locomotive(load(text)).axles] == ["leading", "driving"]
 
 
 def test_every_format_and_unit(tmp_path):
