@@ -19,7 +19,8 @@ from balcli.names import RENDERERS
 from balcli.show import result as exchange
 from balcli.show.result import Result
 
-FILES = {name: str(ENGINES / f"{name}.toml") for name in ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts")}
+NAMES = ("i3", "i4", "i4_wiebe", "i6_diesel", "i4_mounts", "historic/locomotive4")
+FILES = {name: str(ENGINES / f"{name}.toml") for name in NAMES}
 SPREAD = "force.2.major"
 ROUND = ["force.2.major", "force.1.axis"]  # the second is of a circle, and has no value
 SPEEDS = np.array([1500.0, 2000.0])
@@ -43,6 +44,10 @@ ANSWERS: dict[str, tuple[Callable[[], Result], tuple[str, ...]]] = {
     "Comparison": (lambda: balcli.compare(load("i3"), load("i4")), ("compare", FILES["i3"], FILES["i4"])),
     "Curves": (lambda: balcli.curves(load("i3"), 30), ("curves", FILES["i3"], "--step", "30")),
     "FieldBalance": (lambda: balcli.balance_rotor(three_runs()), ("field", "-")),
+    "LocomotiveBalance": (
+        lambda: balcli.analyze_locomotive(load("historic/locomotive4"), "1/2", speed="60 mph"),
+        ("locomotive", FILES["historic/locomotive4"], "--factor", "1/2", "--speed", "60 mph"),
+    ),
     "MountReport": (
         lambda: balcli.analyze_mounts(load("i4_mounts"), SPEEDS, orders=[2]),
         ("mounts", FILES["i4_mounts"], "--speeds", "1500,2000", "--orders", "2"),

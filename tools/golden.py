@@ -213,6 +213,9 @@ torsion engines/i6_diesel.toml --damper pendulum --speeds 600:2400:100
 torsion engines/i6_diesel.toml --misfire 2 --speeds 1000,2000 -f json
 torsion engines/i6_diesel.toml --speeds 600:2400:100 --plot x.svg
 torsion engines/marine/marine6.toml -f json
+locomotive engines/historic/locomotive2.toml
+locomotive engines/historic/locomotive4.toml -f json
+locomotive engines/historic/locomotive4.toml --factor 0:1:0.25 --units imperial
 torque engines/v8_wiebe.toml
 torque engines/v8_wiebe.toml -f json
 torque engines/v8_wiebe.toml --fluctuation 1/200 -f json

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .engine.load import load, load_example
     from .errors import BalcliError, InputError
     from .field.answer import FieldBalance, balance_rotor
+    from .locomotive.answer import LocomotiveBalance, analyze_locomotive
     from .mounts.answer import analyze_mounts
     from .mounts.records import MountReport
     from .report.plot import plot
@@ -48,6 +49,7 @@ __all__ = [
     "Engine",
     "FieldBalance",
     "InputError",
+    "LocomotiveBalance",
     "MountReport",
     "Result",
     "Scatter",
@@ -60,6 +62,7 @@ __all__ = [
     "TorsionAnalysis",
     "__version__",
     "analyze",
+    "analyze_locomotive",
     "analyze_mounts",
     "analyze_torque",
     "analyze_torsion",

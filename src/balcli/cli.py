@@ -54,6 +54,8 @@ GROUPS = {
     "Balance": {
         "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
         "with them.",
+        "locomotive": "Hammer blow of a steam locomotive: balance masses in the wheels, rail "
+        "loads, wheel lift, variation of tractive effort and swaying couple.",
         "field": "Balance a rotor on its machine: compute correction weights, places or drill "
         "holes, and the remaining readings, from readings with trial weights.",
     },
@@ -95,6 +97,7 @@ _COMMANDS_OF = {
     "books.command": ("layouts", "tables"),
     "commands": ("new", "engines", "schema", "check", "bench"),
     "field.command": ("field",),
+    "locomotive.command": ("locomotive",),
     "mounts.command": ("mounts",),
     "report.command": ("plot", "report"),
     "studies.numbers": ("numbers",),

@@ -40,7 +40,8 @@ def new(
         typer.Argument(
             metavar="KIND",
             help="single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its "
-            "mounts; field: runs of a rotor on a machine; torsion: a chain of inertias and shafts.",
+            "mounts; locomotive: balance of its wheels; field: runs of a rotor on a machine; "
+            "torsion: a chain of inertias and shafts.",
             show_default=False,
         ),
     ],

@@ -24,6 +24,7 @@ _ROOMS = {
     "engine.load": "load load_example",
     "errors": "BalcliError InputError",
     "field.answer": "FieldBalance balance_rotor",
+    "locomotive.answer": "LocomotiveBalance analyze_locomotive",
     "mounts.answer": "analyze_mounts",
     "mounts.records": "MountReport",
     "report.plot": "plot",
@@ -47,6 +48,7 @@ RENDERERS = {
     "Comparison": "analysis.comparison",
     "Curves": "analysis.curves",
     "FieldBalance": "field.show",
+    "LocomotiveBalance": "locomotive.show",
     "MountReport": "mounts.show",
     "Pistons": "analysis.piston",
     "Scatter": "studies.scatter_command",
@@ -66,6 +68,7 @@ DOCUMENTS = {
     "compare": "analysis.comparison:Comparison",
     "curves": "analysis.curves:Curves",
     "field": "field.answer:FieldBalance",
+    "locomotive": "locomotive.answer:LocomotiveBalance",
     "marine": "analysis.speeds:MarineSheet",
     "mounts": "mounts.records:MountReport",
     "numbers": "studies.quantities:NamedNumbers",
@@ -88,9 +91,14 @@ CHAPTERS = {
     "bearing": "file.gas_tables",
     "torsion": "file.torsion_tables",
     "body": "file.mount_tables",
+    "locomotive": "file.locomotive_tables",
 }
 # Tables that a file may have several times.
-CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}
+CHAPTER_LISTS = {
+    "mount": "file.mount_tables",
+    "point": "file.mount_tables",
+    "axle": "file.locomotive_tables",
+}
 # The module that computes the quantities of a chapter for sweep, search and scatter.
 QUANTITIES = {
     "guide": "forces.guide",

@@ -186,6 +186,12 @@ def test_what_cannot_be_an_engine(parts, message):
     assert refused(**parts) == f"engine: {message}"
 
 
+@cases("engine/build", "what_cannot_be_a_locomotive")
+def test_what_cannot_be_a_locomotive(parts, message):
+    crank = {"stroke": 60, "throws": [0, 90], "positions": [-300, 300]}
+    assert refused(crank=crank, **parts) == f"engine: {message}"
+
+
 def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     """J = m (g h T^2 / 4 pi^2 - h^2) would be negative below T = 2 pi sqrt(h / g)."""
     text = refused(

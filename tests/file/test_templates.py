@@ -94,7 +94,7 @@ def test_unknown_kinds():
         template("boxxer")
     assert str(caught.value) == (
         '"boxxer" is no kind of file; there are single, inline, vee, boxer, radial, '
-        "radial14, w, mounts, field, torsion. Did you mean boxer?"
+        "radial14, w, mounts, locomotive, field, torsion. Did you mean boxer?"
     )
-    with pytest.raises(BalcliError, match=r"w, mounts, field, torsion\.$"):
+    with pytest.raises(BalcliError, match=r"w, mounts, locomotive, field, torsion\.$"):
         template("q" * 10_000)

@@ -36,6 +36,10 @@ UNITS = {
     "kg mm^2": 1,
     "g mm": 1,
     "kg m": 1e6,
+    "km/h": 1,
+    "mph": 1.609344,
+    "kN": 1e3,
+    "t": 1e3 * GRAVITY,  # a load of wheels
 }
 
 
@@ -103,8 +107,20 @@ class Engine:
             self._move(cell)
         for kind in ("counterweight", "shaft", "slider"):
             self.devices += [self._device(kind, table) for table in data.get(kind, [])]
+        self._couple(data.get("locomotive", {}))
         reference = data.get("frame", {}).get("reference") or [0, 0, (min(self.throws) + max(self.throws)) * 500]
         self.at, self.z = complex(reference[0], reference[1]) / 1e3, reference[2] / 1e3
+
+    def _couple(self, table: dict[str, Any]) -> None:
+        """Speed of a locomotive, and the coupling masses of its axles."""
+        if "speed" in table:
+            self.speed = table["speed"] / 3.6 / (table["wheel_diameter"] / 2e3)
+        radius = table.get("coupling_radius", self.first["radius"] * 1e3)
+        places = list(zip(table.get("coupling_planes", []), table.get("coupling_angles", []), strict=True))
+        for axle in self.data.get("axle", []):
+            for mass, (z, angle) in zip(_of_each(axle.get("coupling_mass", 0), 2), places, strict=True):
+                pin = {"mass": mass, "radius": radius, "angle": angle, "position": z}
+                self.devices.append(self._device("counterweight", pin))
 
     # -------------------------------------------------------------- where everything stands
     def _arrange(self) -> None:
@@ -187,7 +203,7 @@ class Engine:
             if mine and not (whole and "small_end" not in rod) and not (ends and "small_end" in rod):
                 rod = {k: v for k, v in rod.items() if k not in group}
             rod |= mine
-        length = rod["length"] / 1e3 if "length" in rod else cell["radius"] / rod["ratio"]
+        length = rod["length"] / 1e3 if "length" in rod else cell["radius"] / rod.get("ratio", 1)
         if "small_end" in rod:
             mass = rod["small_end"] + rod["big_end"]
             cg = length * rod["small_end"] / mass if mass else 0.0
@@ -228,6 +244,8 @@ class Engine:
         axis = self._axis(cell)
         local = foot * np.conj(axis)
         offset = side * piston["offset"]
+        if self.data["rod"].get("motion") == "harmonic":
+            return axis * (local.real + rod["length"] + 1j * offset)
         return axis * (local.real + np.sqrt(rod["length"] ** 2 - (local.imag - offset) ** 2) + 1j * offset)
 
     def _move(self, cell: dict[str, Any]) -> None:
@@ -318,9 +336,9 @@ def _bare(value: Any) -> Any:
     """Numbers in the file's units; text that is a number with a unit is converted."""
     if isinstance(value, dict):
         return {
-            k: v if k in ("name", "source", "rods", "pivot") else _bare(v)
+            k: v if k in ("name", "source", "rods", "pivot", "motion") else _bare(v)
             for k, v in value.items()
-            if k not in ("gas", "torsion")  # which make no free force
+            if k not in ("gas", "torsion", "factor")  # which make no free force
         }
     if isinstance(value, list):
         return [_bare(v) for v in value]

@@ -35,6 +35,7 @@ SHOWN = {  # by renderer
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
     "scatter": ("scatter", V8, "--samples", "100", "--seed", "1"),
+    "locomotive": ("locomotive", ENGINES / "historic/locomotive4.toml"),
     "torque": ("torque", ENGINES / "v8_wiebe.toml"),
     "torsion": ("torsion", ENGINES / "i6_diesel.toml"),
     "two_engines": ("sum", V6, SINGLE),
@@ -43,7 +44,9 @@ SHOWN = {  # by renderer
 
 def test_every_renderer_is_shown_here():
     texts = [file.read_text("utf-8") for file in PACKAGE.rglob("*.py")]
-    assert sum(text.count("Renderer(sheet=") for text in texts) == len(SHOWN) + 1  # one analysis, in "analyses"
+    assert (
+        sum(text.count("Renderer(sheet=") for text in texts) == len(SHOWN) + 2
+    )  # one analysis, in "analyses"; factors of a locomotive
 
 
 @pytest.mark.parametrize("name", SHOWN)

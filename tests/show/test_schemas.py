@@ -97,6 +97,8 @@ RESULTS = {
     "torsion": f"torsion {DIESEL} --holzer 1 --holzer 12Hz {SPEEDS} --damper viscous",
     "rubber": f"torsion {DIESEL} {SPEEDS} --damper rubber",
     "pendulum": f"torsion {DIESEL} {SPEEDS} --damper pendulum",
+    "locomotive": f"locomotive {ENGINES / 'historic/locomotive4.toml'}",
+    "locomotive, several factors": f"locomotive {ENGINES / 'historic/locomotive2.toml'} --factor 0:1:0.5",
     "torque": f"torque {V8} --loads pin,main",
     "misfire": f"torque {V8} --misfire 1 --fluctuation 2%",
     "stall": f"torque {ENGINES / 'i4_wiebe.toml'} --speed 100 --fluctuation 2%",

@@ -460,7 +460,8 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 def _list_entries(device: DeviceTable) -> Node:
     """Return the keys and values of a device for TOML."""
-    entries = {key: _write(getattr(device, key)) for key in FIELDS[type(device)]}
+    given = {key: getattr(device, key) for key in FIELDS[type(device)]}
+    entries = {key: _write(value) for key, value in given.items() if value is not None}
     shapes = {key: _write(getattr(device, key)) for key in SHAPES if device.has(key)}
     if isinstance(device, Shaft) and device.role != "balancer":
         shapes["role"] = device.role

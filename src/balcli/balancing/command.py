@@ -14,7 +14,7 @@ import typer
 
 from ..core.unbalance import SLUGS
 from ..errors import BalcliError, note
-from ..file.edit import set_keys
+from ..file.edit import set_speed
 from ..file.toml import name_file
 from ..shell import scheme_options
 from ..shell.file_names import format_of, format_option, require_ending, text_format
@@ -364,7 +364,7 @@ def balance(
         refuse_leaving_files(text, path, write)
         new = answer.insert_remedy(text, result.remedy, name_file(path))
         if rpm is not None:
-            new = set_keys(new, "operation", {"speed": rpm}, "as balanced by balcli")
+            new = set_speed(new, rpm, "as balanced by balcli")
         write_file(new, write)
     show_balance(result, form, output, units)
     if misfit is not None:

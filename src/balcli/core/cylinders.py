@@ -145,6 +145,7 @@ class Device(NamedTuple):
         compensates: Whether it is there for its moment, and its force is meant to remain.
         spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
             kg m2.
+        axle: Axle of a locomotive that carries it; empty: the driving axle.
     """
 
     order: int
@@ -155,6 +156,7 @@ class Device(NamedTuple):
     kind: DeviceKind = DeviceKind.OTHER
     compensates: bool = False
     spin: Figure = 0.0
+    axle: str = ""
 
 
 _STEPS = 720

@@ -62,6 +62,7 @@ UNITS = {
     "kg_m": "kg·m",
     "g_mm": "g·mm",
     "percent": "%",
+    "km_h": "km/h",
     "Nm": "N·m",
     "m3": "m³",
     **{unit: unit for unit in ("rpm", "deg", "mm", "Hz", "Pa", "kg", "N", "J", "W", "m")},

@@ -102,7 +102,7 @@ def build(
         ripple=parts.find_ripple(),
         reference_m=places.reference,
         up_deg=model.frame.up,
-        devices=tuple(build_devices(model, figures, parts.pins.axes_deg[1])),
+        devices=tuple(build_devices(parts)),
         weighed=tuple(parts.weighed[number] for number in parts.numbers),
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
@@ -142,7 +142,12 @@ def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
 
 # ------------------------------------------------------------------ rules between the stages
 # Tables needed to find contradictions between tables.
-_NEEDED = frozenset({"crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"})
+_NEEDED = frozenset(
+    {
+        *("crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"),
+        *("locomotive", "axle", "counterweight"),
+    }
+)
 
 
 def list_contradictions(draft: Draft) -> list[Problem]:
@@ -338,6 +343,17 @@ def check_samples(parts: Parts) -> Iterator[Problem]:
         yield Problem("cylinder", told)
 
 
+def check_locomotive(parts: Parts) -> Iterator[Problem]:
+    """Check that cranks and counterweights of a locomotive stand on its axles."""
+    model = parts.model
+    if model.locomotive is not None:
+        weights = [weight.axle for weight in model.counterweight]
+        rpm = model.operation.speed if model.operation.has("speed") else None
+        yield from model.locomotive.find_faults(model.axle, parts.plan.numbers, weights, rpm)
+    elif model.axle or any(weight.axle for weight in model.counterweight):
+        yield Problem.of_missing("locomotive", "axles belong to one; write [locomotive]")
+
+
 def check_gas(parts: Parts) -> Iterator[Problem]:
     """Build the gas of all cylinders. Without [gas], check that no cylinder has gas keys.
 
@@ -366,5 +382,5 @@ RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders
-    (check_gas,),
+    (check_gas, check_locomotive),
 )

@@ -13,26 +13,50 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
 from ..errors import InputError, Problem
 from ..file.fields import shorten
-from ..file.model import Counterweight, EngineFile, Sector, Shaft, Slider, group_eccentrics
-from .figures import AS_GIVEN, FileFigures, or_zero, place_in_plane
+from ..file.model import (
+    Counterweight,
+    Sector,
+    Shaft,
+    Slider,
+    group_eccentrics,
+    label_table,
+)
+from .figures import AS_GIVEN, FileFigures, divide, or_zero, place_in_plane, value_or
 
 if TYPE_CHECKING:
     from .parts import Parts
 
 
-def build_devices(
-    model: EngineFile, figures: FileFigures, first_axis_deg: Figure
-) -> Iterator[Device]:
-    """Yield the counterweights, shafts and sliders of a file, in this order.
+def build_devices(parts: Parts) -> Iterator[Device]:
+    """Yield the coupling masses of a locomotive, and the counterweights, shafts and sliders of a
+    file, in this order, as `build_device` does.
 
     Args:
-        model: Engine file.
-        figures: Its figures, which may vary.
-        first_axis_deg: Angle of the first cylinder's axis, deg.
+        parts: Parts of the engine, whose figures may vary.
     """
-    for path, table in model.tables():
+    first_axis_deg = parts.pins.axes_deg[1]
+    yield from _build_coupling_pins(parts, first_axis_deg)
+    for path, table in parts.model.tables():
         if isinstance(table, (Counterweight, Shaft, Slider)):
-            yield build_device(table, first_axis_deg, figures, path)
+            yield build_device(table, first_axis_deg, parts.figures, path)
+
+
+def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Device]:
+    """Yield the coupling masses of a locomotive, which turn with its axles, as counterweights."""
+    table, figures = parts.model.locomotive, parts.figures
+    if table is None or table.coupling_planes is None or table.coupling_angles is None:
+        return
+    given = figures.take_optional("locomotive.coupling_radius", table.coupling_radius)
+    radius = value_or(divide(given, 1e3), parts.find_radius(1))
+    planes = figures.take_each("locomotive.coupling_planes", table.coupling_planes)
+    angles = figures.take_each("locomotive.coupling_angles", table.coupling_angles)
+    for k, axle in enumerate(parts.model.axle, 1):
+        path = f"axle.{label_table(axle, k)}.coupling_mass"
+        masses = figures.take_for_each(path, axle.coupling_mass, 2)
+        for mass, z, angle in zip(masses, planes, angles, strict=True):
+            turning, kind = mass * radius * unit(angle + first_axis_deg), DeviceKind.COUNTERWEIGHT
+            if np.any(mass):
+                yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
 
 
 def build_device(
@@ -58,7 +82,9 @@ def build_device(
         spin = take(f"{path}.inertia", table.inertia) / 1e6
         if table.sector is not None:
             spin = find_sector(table, table.sector, figures, path).inertia
-        return Device(1, turning, 0j, 0j, z, DeviceKind.COUNTERWEIGHT, spin=spin)
+        return Device(
+            1, turning, 0j, 0j, z, DeviceKind.COUNTERWEIGHT, spin=spin, axle=table.axle or ""
+        )
     x, y = figures.take_each(f"{path}.at", table.at)
     place = place_in_plane(x / 1e3, y / 1e3)
     if isinstance(table, Shaft):

@@ -155,7 +155,7 @@ class Candidate:
         c, (x, y, z) = parts.cylinders, parts.places.reference
         needed = find_needed_series(c, {"force", "moment"}, uneven=False)
         few, which = c.find_distinct_harmonics(orders, needed)
-        devices = tuple(build_devices(model, parts.figures, parts.pins.axes_deg[1]))
+        devices = tuple(build_devices(parts))
         square = (model.operation.speed * RPM) ** 2
         place, own = place_in_plane(x, y), select_cylinders(few, which)
         loads = Loads(c, devices, place, z, Phases(c, orders), own, square)

@@ -271,6 +271,7 @@ def arrange_cylinders(parts: Parts) -> Cylinders:
     (axes, pins), numbers, rank = _turn(parts), parts.numbers, parts.rank
     gears, weighed, masters, radius = parts.gears, parts.weighed, parts.masters, parts.find_radius
     one = all(gears[n] is gears[numbers[0]] for n in numbers)  # no cylinder differs from the others
+    one = one and not isinstance(parts.model.crank.throw_mass, tuple)
 
     def of_each(find: Callable[[int], Figure]) -> Array:
         """Return a figure of all cylinders, as a single row if they are equal."""

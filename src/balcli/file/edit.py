@@ -53,6 +53,12 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
     return rewrite(wanted, f"its [{table}] is written in an unusual way")
 
 
+def set_speed(text: str, rpm: float, note: str) -> str:
+    """Return the text with this crank speed, in place of a locomotive's speed on the track."""
+    text = set_keys(text, "locomotive", {"speed": None}, note)
+    return set_keys(text, "operation", {"speed": rpm}, note)
+
+
 def remove_tables(text: str, name: str) -> str:
     """Return the text without the tables of a list.
 

@@ -127,8 +127,11 @@ def _read(path: Path) -> Example:
 
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
-KINDS = (*ENGINE_KINDS, "field", "torsion")
-OTHER_WORDS = dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14")
+KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
+OTHER_WORDS = {
+    **dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14"),
+    **dict.fromkeys(("steam", "hammer-blow", "coupled-wheels", "side-rods"), "locomotive"),
+}
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# Editors that know TOML check and complete what you type, with that file here: "
@@ -152,7 +155,7 @@ def template(kind: str) -> str:
         raise BalcliError(f'"{kind[:60]}" is no kind of file; there are {", ".join(KINDS)}.{hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
-    return _read_template(kind)
+    return SCHEMA * (kind == "locomotive") + _read_template(kind)
 
 
 def _read_template(name: str) -> str:

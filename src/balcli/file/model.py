@@ -59,6 +59,7 @@ from .table import (
 
 if TYPE_CHECKING:
     from .gas_tables import Bearing, Flywheel, Gas
+    from .locomotive_tables import Axle, Locomotive
     from .mount_tables import Body, Mount, Point
     from .torsion_tables import Torsion
 
@@ -422,6 +423,8 @@ class Counterweight(Device):
 
     angle: Angle = 0.0
     """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    axle: Name | None = None
+    """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
     inertia: Inertia = 0.0
     """Polar moment of inertia about the crank axis, for an uneven speed; with crank.inertia, which
     has it, it counts nowhere. Example: 2600"""
@@ -549,6 +552,7 @@ class EngineFile(FileTable):
     flywheel: "Flywheel | None" = None
     bearing: "Bearing | None" = None
     torsion: "Torsion | None" = None
+    locomotive: "Locomotive | None" = None
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
     """Figures of cylinders that differ from the others, by cylinder number."""
     counterweight: tuple[Counterweight, ...] = ()
@@ -562,6 +566,8 @@ class EngineFile(FileTable):
     """Mounts of the body."""
     point: "tuple[Point, ...]" = ()
     """Points whose motion is wanted."""
+    axle: "tuple[Axle, ...]" = ()
+    """Coupled axles of a locomotive."""
 
     _folder: Path = PrivateAttr(Path())
 

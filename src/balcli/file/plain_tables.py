@@ -111,6 +111,8 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
     tables = list_tables(model)
     for path, value in changes.items():
         *parents, last = path.split(".")
+        if path == "locomotive.speed":
+            tables.get("operation", {}).pop("speed", None)
         place, given = _descend(tables, model, parents, path)
         if isinstance(place, list):
             place[_find_member(place, given, last, path)] = value

@@ -261,7 +261,19 @@ def check_tables(
     read = {key: part for key, part in parts.items() if key not in broken}
     model = EngineFile.model_construct(set(read), **read)
     model._folder = folder
+    model = _settle_speed(model)
     return Draft(model, frozenset(KNOWN) - broken, tuple(reader.problems))
+
+
+def _settle_speed(model: EngineFile) -> EngineFile:
+    """Return the file of a locomotive with its speed on the track as `operation.speed`; as it is
+    where that cannot be.
+    """
+    table = model.locomotive
+    if table is None or None in (table.speed, table.wheel_diameter) or model.operation.has("speed"):
+        return model
+    rpm = table.find_rpm(table.speed or 0.0)
+    return model.with_table("locomotive", speed=None).with_table("operation", speed=rpm)
 
 
 def _read_part(reader: TableReader, key: str, value: object) -> object:

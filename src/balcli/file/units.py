@@ -11,6 +11,7 @@ appendix B, for the rest.
 
 from __future__ import annotations
 
+import math
 import re
 from collections import defaultdict
 from collections.abc import Callable
@@ -26,9 +27,9 @@ from ..limits import LONGEST_FIGURE
 # Units of volume, temperature and current fit no key, but are named in messages.
 _DEFINED = """
 metre meter = 1 m; micron = 1 um; inch inches = 1 in; mil thou = 0.001 in; ft foot feet = 12 in
-yd yard = 3 ft
+yd yard = 3 ft; mile = 5280 ft; mph = 1 mile/h
 gram gramme = 1 g; t tonne = 1000 kg; pound lbm = 1 lb; oz ozm ounce = 1/16 lb; stone = 14 lb
-grain = 1/7000 lb; slug = 1 lbf s^2/ft; slinch blob = 1 lbf s^2/in
+long_ton = 2240 lb; grain = 1/7000 lb; slug = 1 lbf s^2/ft; slinch blob = 1 lbf s^2/in
 sec second = 1 s; min minute = 60 s; h hr hour = 3600 s; d day = 24 h
 rev revolution r U tr = 1 turn; radian = 1 rad; pi = 1/2 turn; deg degree ° = 1/360 turn
 arcmin arcminute = 1/60 deg; arcsec arcsecond = 1/3600 deg; gon gradian = 1/400 turn
@@ -164,6 +165,8 @@ TORSIONAL_DAMPING = Dimension(
 )
 DENSITY = Dimension("g/cm^3", "a density", ("7.85 g/cm^3", "7850 kg/m^3"))
 SHEAR_MODULUS = Dimension("GPa", "a modulus of elasticity", ("79.3 GPa", "11.5e6 psi"))
+FORCE = Dimension("N", "a force", ("98 kN", "22000 lbf"))
+VELOCITY = Dimension("km/h", "a velocity", ("80 km/h", "50 mph"))
 STRESS = Dimension("N/mm^2", "a stress", ("40 N/mm^2", "5800 psi"))
 POWER = Dimension("kW", "a power", ("3820 kW", "5200 hp"))
 PLAIN = Dimension("", "a plain number")
@@ -173,12 +176,12 @@ _KINDS = (  # names of kinds of figures; the first with the same powers is used
     Dimension("J", "a torque or an energy"),
     *(LENGTH, MASS, ANGLE, INERTIA, UNBALANCE, SPEED, TIME, PRESSURE, STIFFNESS, DAMPING),
     *(TORSIONAL_STIFFNESS, TORSIONAL_DAMPING, PLAIN),
-    Dimension("N", "a force"),
+    FORCE,
     Dimension("W", "a power"),
     Dimension("Hz", "a frequency"),
     Dimension("m^2", "an area"),
     Dimension("m^3", "a volume"),
-    Dimension("m/s", "a velocity"),
+    VELOCITY,
 )
 
 # Replacements for spellings that can mean only one thing
@@ -200,6 +203,7 @@ _RESPELT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS)),
     (r".+", lambda m: m[0].translate(_SIGNS)),
     (r"(?i)\br\.p\.m\.?", "rpm"),
+    (r"(?i)\blong tons?\b", "long_ton"),
     (r"M(?:PA|pa)\b", "MPa"),
     (r"(?<=[^\W\d_])\.(?=\s*$|/)", ""),  # "3.5 in.", "об./мин"
     (r"[а-яёА-ЯЁ]+", lambda m: _CYRILLIC.get(m[0]) or _CYRILLIC.get(m[0].lower(), m[0])),
@@ -272,6 +276,23 @@ def convert_exactly(text: str, dimension: Dimension) -> Fraction:
         raise ValueError("is too large a number") from None
     refuse_thousands(text, exact, dimension)
     return exact
+
+
+def read_fraction(text: str) -> float:
+    """Return a plain number that is written as `0.51`, `51%` or `2/3`.
+
+    Raises:
+        ValueError: It is no such number.
+    """
+    figure, percent, rest = text.strip().partition("%")
+    above, slash, below = re.sub(FORTRAN, r"e\1", figure).partition("/")
+    try:
+        number = float(above) / (float(below) if slash else 1.0)
+    except (ValueError, ZeroDivisionError):
+        number = math.nan
+    if rest or not math.isfinite(number):
+        raise ValueError('is no number, fraction or percentage, such as 0.67, "2/3" or "67%"')
+    return number / 100 if percent else number
 
 
 def refuse_thousands(text: str, value: float | Fraction, dimension: Dimension) -> None:

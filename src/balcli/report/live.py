@@ -86,6 +86,8 @@ def explain_still(engine: Engine) -> str:
         return "it has articulated rods"
     if engine.cylinders.harmonic:
         return "its pistons move as a cosine"
+    if engine.model is not None and engine.model.locomotive is not None:
+        return "it is a locomotive"
     crank = None if engine.model is None else engine.model.crank
     lists = crank is not None and isinstance(crank.stroke, tuple) | isinstance(
         crank.throw_mass, tuple

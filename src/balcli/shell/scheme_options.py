@@ -87,7 +87,7 @@ def parse_scheme_options(
         at=tuple(complex(*read_lengths("--at", text, pair, 2, units)) for text in at or ()) or None,
         position=along[0] if len(along) == 1 else along or None,
         planes=None if planes is None else _parse_planes(planes, units),
-        factor=None if factor is None else _parse_factors(factor),
+        factor=None if factor is None else parse_factors(factor),
         measured=None if measured is None else read_mass_on_scales("--measured", measured, units),
         roll=roll,
         small=None if small is None else parse_small(small),
@@ -130,8 +130,8 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
     return places
 
 
-def _parse_factors(text: str) -> tuple[float, ...]:
-    """Return the factors in a text such as `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+def parse_factors(text: str) -> tuple[float, ...]:
+    """Return the factors of `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
     if ":" not in text:

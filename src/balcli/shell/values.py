@@ -26,6 +26,7 @@ from ..file.units import (
     SPEED,
     Dimension,
     convert,
+    read_fraction,
     refuse_thousands,
     wanted,
 )
@@ -145,10 +146,11 @@ def read_number(option: str, text: str, needed: str) -> float:
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """Return a share, given as a number or in per cent; raises as `read_number` does."""
-    number, percent, rest = text.strip().partition("%")
-    value = read_number(option, text if rest else number, needed)
-    return value / 100 if percent else value
+    """Return a share, given as a number, a fraction or in per cent; errors as of `read_number`."""
+    try:
+        return read_fraction(text)
+    except ValueError:
+        raise BalcliError(f"{_shown(option, text)}: give {needed}") from None
 
 
 def _read(option: str, text: str, dimension: Dimension, units: Units) -> float:

@@ -54,6 +54,7 @@ class System(NamedTuple):
     inertia: ShownUnit
     heat: ShownUnit
     scales: ShownUnit
+    velocity: ShownUnit
 
     @property
     def torsional_stiffness(self) -> ShownUnit:
@@ -99,6 +100,7 @@ SI = System(
     inertia=ShownUnit("kg·m²", 1),
     heat=ShownUnit("W", 1, ShownUnit("kW", 1e3, ShownUnit("MW", 1e6), 5000), 5000),
     scales=ShownUnit("g", 1e-3),
+    velocity=ShownUnit("km/h", 1 / 3.6),
 )
 _LBF_FT = units.POUND_FORCE * 12 * INCH
 _PSI = ShownUnit("psi", units.POUND_FORCE / INCH**2)
@@ -117,6 +119,7 @@ IMPERIAL = System(
     inertia=ShownUnit("lb·in²", POUND * INCH**2),
     heat=_HP,
     scales=ShownUnit("oz", POUND / 16),
+    velocity=ShownUnit("mph", 5280 * 12 * INCH / 3600),
 )
 SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 

@@ -136,7 +136,7 @@ DeviceTable: TypeAlias = Counterweight | Shaft | Slider
 
 # kinds of devices in the order of the file, and the keys that describe a new one
 FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
-    Counterweight: ("unbalance", "angle", "position"),
+    Counterweight: ("unbalance", "angle", "position", "axle"),
     Shaft: ("ratio", "unbalance", "angle", "at", "position"),
     Slider: ("order", "unbalance", "direction", "angle", "at", "position"),
 }

@@ -94,7 +94,13 @@ def find_places(model: EngineFile) -> dict[str, Place]:
         numbers.pop("layout.bank_angle", None)
     if not plan.in_rows:  # it would number the cylinders anew
         numbers.pop("layout.row_angle")
+    for path in [path for path in numbers if re.match(_OF_WHEELS, path)]:
+        del numbers[path]
     return numbers
+
+
+# Numbers that `locomotive` alone reads
+_OF_WHEELS = r"locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import BalcliError, warn
-from ..file.edit import set_keys
+from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
+from ..file.units import read_fraction
 from ..limits import FLUCTUATION
 from ..shell.file_names import require_ending, text_format
 from ..shell.inputs import (
@@ -148,10 +149,9 @@ def parse_fluctuation(text: str | None) -> float | None:
     """
     if text is None:
         return None
-    above, _, below = text.strip().removesuffix("%").partition("/")
     try:
-        return float(above) / float(below or 1) / (100 if text.strip().endswith("%") else 1)
-    except (ValueError, ZeroDivisionError):
+        return read_fraction(text)
+    except ValueError:
         raise BalcliError(f'--fluctuation "{text[:60]}": {FLUCTUATION}') from None
 
 
@@ -174,8 +174,8 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
         {"order": line.order, "amplitude": line.amplitude, "angle": line.angle_deg}
         for line in flywheel.lines
     ]
-    keys = {"speed": result.speed_rpm, "speed_ripple": lines}
-    text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
+    text = set_speed(source.decode("utf-8-sig"), result.speed_rpm or 0.0, _NOTE)
+    text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

@@ -1,0 +1,218 @@
+"""Tables of an engine file about a locomotive: [locomotive] and [[axle]]; which axle carries which
+cranks, and the speed in km/h.
+
+They are imported for files that have them (`names.CHAPTERS`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from contextlib import suppress
+from typing import Annotated
+
+from pydantic import Field, WrapValidator
+
+from ..core.records import Node
+from ..errors import InputError, Problem
+from .fields import Number, OneOrEach, join_words, shorten
+from .table import Angle, Distance, FileTable, Length, Name, Numbers, Size, Switch
+from .units import (
+    FORCE,
+    MASS,
+    PLAIN,
+    STANDARD_GRAVITY,
+    VELOCITY,
+    convert,
+    read_fraction,
+)
+
+
+class _Factor(Number):
+    """A share from 0 to 1: a number, or in quotes a fraction or percentage."""
+
+    def _measure(self, value: object) -> float:
+        number = read_fraction(value) if isinstance(value, str) else value
+        if isinstance(number, (int, float)) and 1 < number <= 100:
+            raise ValueError(f'is above 1; did you mean "{number:g}%" or {number / 100:g}?')
+        return super()._measure(number)
+
+    def json(self) -> Node:
+        return {"anyOf": [super().json(), {"type": "string"}]}
+
+
+class _Load(Number):
+    """A force, or the weight of a mass."""
+
+    def _measure(self, value: object) -> float:
+        if isinstance(value, str):
+            with suppress(ValueError):
+                value = convert(value, MASS) * STANDARD_GRAVITY
+        return super()._measure(value)
+
+
+class _OnEachSide(OneOrEach):
+    """A figure that holds for both sides, or one for each."""
+
+    count = 2
+
+
+def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> tuple[float, ...]:
+    """Return two places along the axle; ValueError unless they are two and rise."""
+    if isinstance(value, (list, tuple)) and len(value) == 2:
+        first, second = read(value)
+        if first < second:
+            return first, second
+    told = f"{shorten(value)} is no pair that rises"
+    raise ValueError(f"{told}; give two z in mm, such as [-750, 750]")
+
+
+FACTOR = _Factor(PLAIN, least=0, most=1)
+_two = Field(min_length=2, max_length=2)
+Planes = Annotated[tuple[Length, ...], _two, WrapValidator(_read_planes)]
+CouplingAngles = Annotated[tuple[Angle, ...], _two]
+CouplingMasses = Annotated[float | tuple[float, ...], _OnEachSide(Number(MASS, least=0, most=1e12))]
+WheelLoad = Annotated[float, _Load(FORCE, above=0, most=1e12)]
+NO_DIAMETER = Problem.of_missing("locomotive.wheel_diameter", "a speed in km/h needs it")
+
+
+class Locomotive(FileTable):
+    """A steam locomotive: x points along the track, z along the axles, and wheels carry the balance
+    masses.
+    """
+
+    factor: Annotated[float | None, FACTOR] = None
+    """Share of the reciprocating mass that the wheels balance, also "2/3" or "67%"; left out: no
+    balance masses are sized. Example: 0.67"""
+    planes: Planes
+    """z of the two planes of the balance masses, ascending. Example: [-750,
+    750]"""
+    radius: Size | None = None
+    """Radius of the balance masses; left out: unbalance alone, no mass. Example: 800"""
+    wheel_diameter: Size | None = None
+    """On the tread; needed for speeds in km/h. Example: 2000"""
+    wheel_load: WheelLoad | None = None
+    """Static load of one wheel on its rail, also as a mass ("9.5 t"); needed for the speeds at
+    which wheels lift. Example: 40000"""
+    speed: Annotated[float | None, Number(VELOCITY, above=0, most=1e9)] = None
+    """Speed on the track, in place of operation.speed. Example: 80"""
+    coupling_radius: Distance | None = None
+    """Throw of the coupling-rod pins; left out: crank radius of cylinder 1. Example: 300"""
+    coupling_planes: Planes | None = None
+    """z of the two coupling rods, ascending. Example: [-900, 900]"""
+    coupling_angles: CouplingAngles | None = None
+    """Angles of the two coupling pins from cylinder 1's crank pin. Example: [180, 270]"""
+
+    def find_rpm(self, km_h: float) -> float:
+        """Return the crank speed, rpm, at a speed on the track.
+
+        Raises:
+            InputError: The wheel diameter is missing.
+        """
+        if self.wheel_diameter is None:
+            raise InputError([NO_DIAMETER])
+        return km_h / (60e-6 * math.pi * self.wheel_diameter)
+
+    def find_km_h(self, rpm: float) -> float | None:
+        """Return the speed on the track at a crank speed; None without a wheel diameter."""
+        return self.wheel_diameter and rpm * 60e-6 * math.pi * self.wheel_diameter
+
+    def list_axles(self, given: tuple[Axle, ...]) -> tuple[Axle, ...]:
+        """Return the coupled axles of the locomotive, front to rear: those of the file, or one."""
+        return given or (Axle.model_construct(name="driving", driving=True),)
+
+    def find_faults(
+        self,
+        given: tuple[Axle, ...],
+        numbers: Collection[int],
+        weights: Iterable[str | None],
+        rpm: float | None,
+    ) -> Iterator[Problem]:
+        """Yield contradictions between this table, [[axle]] and the rest of the file.
+
+        Args:
+            given: Axles of the file.
+            numbers: Numbers of its cylinders.
+            weights: Axle of each counterweight; None: it names none.
+            rpm: Crank speed that the file gives; None: none.
+        """
+        axles = self.list_axles(given)
+        if self.speed is not None and rpm is not None:
+            told = f"operation.speed gives {rpm:g} rpm as well; keep one"
+            yield Problem("locomotive.speed", told)
+        elif self.speed is not None:
+            yield NO_DIAMETER
+        if any(axle.coupling_mass not in (0, (0, 0)) for axle in axles):
+            needed = {"coupling_angles": "angles of its pins", "coupling_planes": "z of the rods"}
+            for key in (key for key in needed if getattr(self, key) is None):
+                told = f"coupling_mass needs the {needed[key]}"
+                yield Problem.of_missing(f"locomotive.{key}", told)
+        yield from list(_check_axles(axles)) or _check_load(axles, numbers, weights)
+
+
+class Axle(FileTable):
+    """A coupled axle of a locomotive, front to rear."""
+
+    name: Name
+    """What it is called. Example: 'leading'"""
+    driving: Switch = False
+    """It has the cranks; true for one axle. Example: true"""
+    cylinders: Numbers | None = None
+    """Numbers of the cylinders whose cranks this axle carries (divided drive); left out: all, on
+    the driving axle. Example: [2, 3]"""
+    part: Annotated[float, Number(PLAIN, least=0, most=1e9)] = 1.0
+    """Its part of the balance for reciprocating masses, relative to the other axles. Example: 1"""
+    coupling_mass: CouplingMasses = 0.0
+    """Revolving mass at each coupling pin: its part of rod, pin and boss; a list has one for each
+    side. Example: 110"""
+    wheel_load: WheelLoad | None = None
+    """As locomotive.wheel_load, where it differs. Example: 38000"""
+
+    @property
+    def has_cranks(self) -> bool:
+        """Whether cranks stand on this axle."""
+        return self.driving or self.cylinders is not None
+
+
+def _check_axles(axles: Sequence[Axle]) -> Iterator[Problem]:
+    """Check the axles by themselves: one is driving, and each has its own name."""
+    names = [axle.name for axle in axles]
+    driving = [k for k, axle in enumerate(axles, 1) if axle.driving]
+    if not any(axle.has_cranks for axle in axles):
+        told = "no axle is driving; write driving = true for the one with the cranks"
+        yield Problem("axle.driving", told)
+    for k in driving[1:]:
+        told = f'"{names[driving[0] - 1]}" is driving as well; mark one axle'
+        yield Problem(f"axle.{k}.driving", told)
+    for k, name in enumerate(names, 1):
+        if (first := names.index(name) + 1) < k:
+            told = f'"{name}" is the name of axle.{first} as well; give another'
+            yield Problem(f"axle.{k}.name", told)
+    if not any(axle.part for axle in axles):
+        yield Problem("axle.1.part", "0 for every axle; give one of them a part above 0")
+
+
+def _check_load(
+    axles: Sequence[Axle], numbers: Collection[int], weights: Iterable[str | None]
+) -> Iterator[Problem]:
+    """Check that each cylinder and each counterweight stands on one axle."""
+    place: dict[int, str] = {}
+    cranked = {k: axle for k, axle in enumerate(axles, 1) if axle.has_cranks}
+    for k, axle in cranked.items():
+        for number in axle.cylinders or numbers:
+            if number not in numbers:
+                yield Problem(f"axle.{k}.cylinders", f"there is no cylinder {number}")
+            elif number in place:
+                told = f'cylinder {number} stands on "{place[number]}" as well'
+                yield Problem(f"axle.{k}.cylinders", told)
+            place[number] = axle.name
+    if left := [str(number) for number in numbers if number not in place]:
+        yield Problem("axle.cylinders", f"no axle carries cylinder {join_words(left)}")
+    names = [axle.name for axle in axles]
+    for k, weight in enumerate(weights, 1):
+        if weight is None and len(cranked) > 1:
+            told = f"several axles have cranks; name one of {join_words(names)}"
+            yield Problem.of_missing(f"counterweight.{k}.axle", told)
+        elif weight not in (None, *names):
+            told = f'there is no axle "{weight}"; there are {join_words(names)}'
+            yield Problem(f"counterweight.{k}.axle", told)

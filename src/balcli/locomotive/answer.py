@@ -1,0 +1,350 @@
+"""Engine of a locomotive -> balance masses in its wheels, hammer blow and the forces along the
+track: `analyze_locomotive`.
+
+Everything that revolves is an unbalance (place z along the axle, complex mass x radius from
+cylinder 1's crank pin, axle): the pins with what turns on them, coupling masses, and the
+counterweights of the file. The lever rule divides each between the two planes of its axle's
+balance masses. The reciprocating masses of all cylinders enter as if a share c of them turned with
+the crank, divided between the axles by their parts f. With S the unbalance that revolves and Q that
+of the reciprocating masses in a plane, a wheel gets `B = -(S + c f Q)`. What it leaves, `S + B`,
+presses on the rail and lifts off it once a turn: the hammer blow `|S + B| w^2`, never `|B| w^2`. An
+inclined cylinder enters Q with its crank angle less its bank angle: its weight points straight back
+along the track when its piston is at the outer dead centre.
+
+Sources: Sarkar, Theory of Machines, ch. 12; Khurmi and Gupta, Theory of Machines, ch. 22; Bridge
+Stress Committee 1928 (blow of a rail and of the engine).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Literal, NamedTuple
+
+import numpy as np
+
+from ..core.cylinders import DeviceKind
+from ..core.peaks import find_longest
+from ..core.phasors import Array, Complex, unit, wrap_degrees
+from ..core.records import HIDDEN, INLINE, Polar, angle_deg
+from ..engine.engine import Engine, check_engine, take_model
+from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, Problem
+from ..file.fields import Number
+from ..file.locomotive_tables import FACTOR, Axle, Locomotive
+from ..file.model import Counterweight, EngineFile
+from ..file.units import FORCE, SPEED, VELOCITY, convert
+from ..forces.spectrum import compute_spectra, find_relevant_orders
+from ..shell.arguments import tell_arguments
+from ..show.result import Result
+from ..sizing.remedy import Remedy, fit_devices
+
+_ROUNDING = 1e-12  # share of the terms of a sum: less is nothing
+_WHY = "In the wheels, opposite all that revolves"
+NO_TABLE = "write [locomotive] with planes and factor, or start from `balcli new locomotive`"
+NO_SPEED = "give km/h (with wheel_diameter), or operation.speed in rpm"
+NO_CRANKS = "the cylinders of a locomotive stand still, each with a rod on a crank pin"
+
+
+class WheelLoads(NamedTuple):
+    """A wheel: its balance mass, and its load on the rail.
+
+    Attributes:
+        plane_mm: z of its balance mass.
+        unbalance: Unbalance of the balance mass, angle from cylinder 1's crank pin.
+        mass_kg: Balance mass; null without a radius.
+        hammer_blow_N: Amplitude of the load that revolving unbalance adds.
+        least_rail_load_N: Static load less the hammer blow; below 0 the wheel lifts.
+        most_rail_load_N: Static load and hammer blow.
+        lift_rpm: Crank speed at which the wheel lifts; null without a hammer blow.
+        lift_km_h: Speed at which the wheel lifts.
+    """
+
+    plane_mm: float
+    unbalance: Annotated[complex, Polar("unbalance_kg_m", "angle_deg"), INLINE]
+    mass_kg: float | None
+    hammer_blow_N: float
+    least_rail_load_N: float | None
+    most_rail_load_N: float | None
+    lift_rpm: float | None
+    lift_km_h: float | None
+
+
+class AxleLoads(NamedTuple):
+    """A coupled axle.
+
+    Attributes:
+        name: Name of the axle.
+        driving: Whether it has cranks.
+        hammer_blow_N: Amplitude of the load of both wheels together.
+        wheels: Its wheels, by ascending z.
+    """
+
+    name: str
+    driving: bool
+    hammer_blow_N: float
+    wheels: tuple[WheelLoads, ...]
+
+
+class RailLoad(NamedTuple):
+    """A rail.
+
+    Attributes:
+        hammer_blow_N: Amplitude of the load of all wheels on this rail together.
+    """
+
+    hammer_blow_N: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LocomotiveBalance(Result):
+    """Balance masses in the wheels of a locomotive, their hammer blow, and what they leave along
+    the track.
+
+    Attributes:
+        speed_rpm: Crank speed, taken as steady.
+        speed_km_h: Speed on the track; null without a wheel diameter.
+        factor: Share of the reciprocating mass that the wheels balance; null: nothing is sized.
+        axles: Coupled axles, front to rear.
+        rails: Rails, by ascending z.
+        hammer_blow_N: Amplitude of the load of all wheels together.
+        tractive_variation_N: Amplitude of order 1 of the free force along the track.
+        tractive_variation_peak_N: Its largest absolute value, all orders together.
+        swaying_couple_Nm: Amplitude of order 1 of the free moment about y.
+        swaying_couple_peak_Nm: Its largest absolute value, all orders together.
+        engine: The engine, without the balance masses that are sized.
+        remedy: Balance masses that are sized, as tables of the engine file.
+    """
+
+    format: Literal["balcli.locomotive/1"] = "balcli.locomotive/1"
+    speed_rpm: float
+    speed_km_h: float | None
+    factor: float | None
+    axles: tuple[AxleLoads, ...]
+    rails: tuple[RailLoad, ...]
+    hammer_blow_N: float
+    tractive_variation_N: float
+    tractive_variation_peak_N: float
+    swaying_couple_Nm: float
+    swaying_couple_peak_Nm: float
+    engine: Annotated[Engine, HIDDEN]
+    remedy: Annotated[Remedy, HIDDEN]
+
+    @property
+    def summary(self) -> str:
+        """Name of the engine and the largest hammer blow of a wheel, in words."""
+        blow = max(wheel.hammer_blow_N for wheel in self.wheels)
+        return f"of {self.engine.summary}; hammer blow {blow:.4g} N"
+
+    @property
+    def wheels(self) -> tuple[WheelLoads, ...]:
+        """Wheels of all axles."""
+        return tuple(wheel for axle in self.axles for wheel in axle.wheels)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Warnings: cylinders that do not lie along the track."""
+        aside = np.abs(wrap_degrees(self.engine.cylinders.axis_of_each_deg, 180))
+        each = sorted(zip(self.engine.numbers, aside.tolist(), strict=True))
+        far = (f"cylinder {n} is {deg:.4g} deg from the track" for n, deg in each if deg > 45)
+        return tuple(f"{told}; in a locomotive file x points along the track" for told in far)
+
+
+# ------------------------------------------------------------------ unbalances in the wheels
+class Unbalances(NamedTuple):
+    """Unbalances in the planes of the balance masses, from cylinder 1's crank pin, kg m.
+
+    Attributes:
+        revolving: What revolves with each axle, shape (axles, 2).
+        reciprocating: Share of each axle in the reciprocating masses, shape (axles, 2).
+        size: Sum of the sizes of all terms, of which rounding is a share.
+    """
+
+    revolving: Complex
+    reciprocating: Complex
+    size: float
+
+    def drop_noise(self, sums: Complex) -> Complex:
+        """Return sums of unbalances, 0 where they are rounding errors."""
+        return np.where(np.abs(sums) <= _ROUNDING * self.size, 0, sums)
+
+
+def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> Unbalances:
+    """Return the unbalances in the wheels of a locomotive, without balance masses to size.
+
+    Args:
+        engine: Engine.
+        axles: Its axles.
+        planes_m: Planes of the balance masses, m, shape (2,).
+    """
+    c = engine.cylinders
+    place = {
+        n: k for k, a in enumerate(axles) if a.has_cranks for n in a.cylinders or engine.numbers
+    }
+    names = {"": min(place.values())} | {axle.name: k for k, axle in enumerate(axles)}
+    weights = [d for d in engine.devices if d.kind is DeviceKind.COUNTERWEIGHT]
+    turned = [complex(d.forward) / complex(unit(engine.first_axis_deg)) for d in weights]
+    pins = unit(c.pin_deg) * c.radius_of_each
+    revolving = np.array([*(c.rotating * pins), *turned])
+    on_axle = np.array([*(place[n] for n in engine.numbers), *(names[d.axle] for d in weights)])
+    reciprocating = c.reciprocating * pins / unit(c.axis_of_each_deg)
+    share = (np.array([*c.z, *(d.z for d in weights)]) - planes_m[0]) / np.ptp(planes_m)
+    levers = np.stack([1 - share, share], axis=1)
+    parts = np.array([axle.part for axle in axles])
+    each = (on_axle == np.arange(len(axles))[:, None]) * revolving
+    return Unbalances(
+        each @ levers,
+        np.outer(parts / parts.sum(), reciprocating @ levers[: c.count]),
+        float(np.abs(revolving) @ np.abs(levers).sum(axis=1) + np.abs(reciprocating).sum()),
+    )
+
+
+def analyze_locomotive_of_engine(
+    engine: Engine,
+    factor: float | str | None = None,
+    *,
+    hammer_blow: float | str | None = None,
+    speed: float | str | None = None,
+) -> LocomotiveBalance:
+    """Return the balance masses in the wheels of a locomotive, rail loads, and the variation of
+    tractive effort and the swaying couple that are left.
+
+    Args:
+        engine: Engine of a file with [locomotive]. An uneven speed does not count here.
+        factor: Share of the reciprocating mass to balance instead of the file's, 0 to 1 or "2/3".
+        hammer_blow: Largest hammer blow of a wheel, which gives the factor, N or "40 kN".
+        speed: Speed instead of the file's: crank speed in rpm, or "80 km/h".
+
+    Raises:
+        InputError: The file has no [locomotive], or no speed.
+        BalcliError: An argument is out of its range.
+        TypeError: `engine` is not an Engine.
+
+    Example:
+        >>> analyze_locomotive(load_example("locomotive2"), 2 / 3).axles[0].wheels[0].hammer_blow_N
+    """
+    model = take_model(check_engine("analyze_locomotive", engine))
+    table = _take_table(engine, model, speed_given=speed is not None)
+    axles = table.list_axles(model.axle)
+    rpm = float(engine.speed_rpm) if speed is None else _read_speed(table, speed)
+    engine = replace(engine, speed_rpm=rpm, ripple=())
+    square = float(engine.omega) ** 2
+    unbalances = find_unbalances(engine, axles, np.array(table.planes) / 1e3)
+    if hammer_blow is not None and factor is not None:
+        raise BalcliError("--hammer-blow gives the factor; leave --factor out")
+    if hammer_blow is not None:
+        limit = _read(Number(FORCE, above=0), "--hammer-blow", hammer_blow) / square
+        largest = float(np.abs(unbalances.reciprocating).max())
+        c: float | None = min(limit / largest, 1.0) if largest else 1.0
+    else:
+        c = table.factor if factor is None else _read(FACTOR, "--factor", factor)
+    left = unbalances.revolving if c is None else -c * unbalances.reciprocating
+    left = unbalances.drop_noise(left)
+    added = unbalances.drop_noise(left - unbalances.revolving)
+    names = [axle.name if model.axle else None for axle in axles]
+    weights = _list_weights(table, names, added)
+    share = f" and {c:.4g} of what reciprocates" if c else ""
+    remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
+    fitted = fit_devices(engine, remedy)
+    found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
+    along, about_y = found["force"].x, found["moment"].y
+
+    def blow(some: Complex) -> float:
+        """Return the hammer blow of several wheels together, N."""
+        return float(abs(unbalances.drop_noise(some.sum()))) * square
+
+    return LocomotiveBalance(
+        speed_rpm=rpm,
+        speed_km_h=table.find_km_h(rpm),
+        factor=c,
+        axles=tuple(
+            AxleLoads(a.name, a.has_cranks, blow(rest), _list_wheels(engine, table, a, new, rest))
+            for a, new, rest in zip(axles, added, left, strict=True)
+        ),
+        rails=tuple(RailLoad(blow(side)) for side in left.T),
+        hammer_blow_N=blow(left),
+        tractive_variation_N=float(abs(along[0])),
+        tractive_variation_peak_N=float(find_longest(found.orders, along[:, None]).value),
+        swaying_couple_Nm=float(abs(about_y[0])),
+        swaying_couple_peak_Nm=float(find_longest(found.orders, about_y[:, None]).value),
+        engine=engine,
+        remedy=remedy,
+    )
+
+
+analyze_locomotive = tell_arguments()(analyze_locomotive_of_engine)
+analyze_locomotive.__name__ = analyze_locomotive.__qualname__ = "analyze_locomotive"
+analyze_locomotive.__module__ = __name__  # where pickle finds it
+
+
+def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Locomotive:
+    """Return [locomotive] of a file; InputError if something is missing that everything needs."""
+    if (table := model.locomotive) is None:
+        raise InputError([Problem.of_missing("locomotive", NO_TABLE)])
+    problems = {
+        Problem.of_missing("locomotive.speed", NO_SPEED): engine.speed_assumed and not speed_given,
+        Problem("crank.spacing", MOMENTS_UNKNOWN): not engine.places_known,
+        Problem("layout", NO_CRANKS): engine.cylinders.linkage is not None,
+    }
+    if found := [problem for problem, there in problems.items() if there]:
+        raise InputError(found)
+    return table
+
+
+def _read(number: Number, option: str, value: object) -> float:
+    """Return an argument as a key of a file is read; BalcliError with the name of its option."""
+    try:
+        return number.read(value)
+    except ValueError as error:
+        raise BalcliError(f"{option}: {error}") from None
+
+
+def _read_speed(table: Locomotive, speed: float | str) -> float:
+    """Return a crank speed, rpm, which may be given as a speed on the track."""
+    try:
+        rpm: object = table.find_rpm(convert(str(speed), VELOCITY))
+    except ValueError:
+        rpm = speed
+    return _read(Number(SPEED, above=0, most=1e9), "--speed", rpm)
+
+
+def _list_wheels(
+    engine: Engine, table: Locomotive, axle: Axle, added: Complex, left: Complex
+) -> tuple[WheelLoads, ...]:
+    """Return both wheels of an axle; unbalances of balance mass and remainder in kg m."""
+    load = table.wheel_load if axle.wheel_load is None else axle.wheel_load
+    rpm, square, wheels = float(engine.speed_rpm), float(engine.omega) ** 2, []
+    for z, new, rest in zip(table.planes, added.tolist(), left.tolist(), strict=True):
+        blow = abs(rest) * square
+        lift = rpm * math.sqrt(load / blow) if load is not None and blow else None
+        wheel = WheelLoads(
+            plane_mm=z,
+            unbalance=new,
+            mass_kg=None if table.radius is None else abs(new) / table.radius * 1e3,
+            hammer_blow_N=blow,
+            least_rail_load_N=None if load is None else load - blow,
+            most_rail_load_N=None if load is None else load + blow,
+            lift_rpm=lift,
+            lift_km_h=None if lift is None else table.find_km_h(lift),
+        )
+        wheels.append(wheel)
+    return tuple(wheels)
+
+
+def _list_weights(
+    table: Locomotive, names: Sequence[str | None], added: Complex
+) -> Iterator[Counterweight]:
+    """Yield balance masses of these unbalances (kg m) as tables of the engine file.
+
+    Args:
+        table: [locomotive] of the file.
+        names: Names of the axles in the file; None: it has no [[axle]].
+        added: Unbalances, shape (axles, 2).
+    """
+    for name, row in zip(names, added.tolist(), strict=True):
+        for z, new in zip(table.planes, row, strict=True):
+            size, angle = abs(new) * 1e6, angle_deg(new)
+            if size:
+                yield Counterweight.model_construct(
+                    unbalance=size, angle=angle, position=float(z), axle=name
+                )

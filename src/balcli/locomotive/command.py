@@ -1,0 +1,106 @@
+"""`balcli locomotive`"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from ..errors import BalcliError, naming_file
+from ..file.edit import set_keys, set_speed
+from ..file.toml import name_file
+from ..shell.file_names import require_ending, text_format
+from ..shell.inputs import named_by_file, read_engine, warn_each
+from ..shell.options import EnginePath, FormatOption, Output, UnitsOption
+from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
+from ..shell.scheme_options import parse_factors
+from ..shell.values import optional
+from ..show.formats import Format, Units
+
+if TYPE_CHECKING:
+    from .answer import LocomotiveBalance
+
+_NOTE = "by balcli locomotive"
+Factor = Annotated[
+    str | None,
+    optional("K|K:K:STEP", "Balance factor instead of the file's, such as 2/3 or 0:100%:10%."),
+]
+HammerBlow = Annotated[
+    str | None,
+    optional("N", "The factor that this hammer blow of a wheel allows, such as '40 kN'."),
+]
+Speed = Annotated[str | None, optional("KM_H|RPM", "As '80 km/h', '50 mph', or crank speed, rpm.")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
+
+
+def locomotive(
+    path: EnginePath,
+    factor: Factor = None,
+    hammer_blow: HammerBlow = None,
+    speed: Speed = None,
+    write: Write = None,
+    form: FormatOption = None,
+    units: UnitsOption = Units.SI,
+    output: Output = None,
+) -> None:
+    """Hammer blow of a steam locomotive: balance masses in the wheels, rail loads, wheel lift,
+    variation of tractive effort and swaying couple.
+
+    The file has [locomotive] and, for coupled wheels, [[axle]] with the masses of the coupling rods
+    (side rods); `balcli new locomotive` writes one to start from. Several factors make a table with
+    a row for each: more overbalance means less nosing and a larger dynamic augment.
+
+    \b
+    Examples:
+      balcli locomotive locomotive2.toml --factor 0:100%:20%
+      balcli locomotive locomotive2.toml --hammer-blow "15 kN" --speed "60 mph"
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
+    form = text_format(output, form)
+    require_ending(write, ".toml", "--write")
+    factors = (None,) if factor is None else parse_factors(factor)
+    if len(factors) > 1 and write is not None:
+        raise BalcliError(f'--write takes one factor, not --factor "{factor}"')
+    from . import answer, show as pages
+
+    source = read_engine(path, asked=())
+    engine, asked = named_by_file(source.engine, path), [_read_bare(hammer_blow), _read_bare(speed)]
+    with naming_file(name_file(path)):
+        results = [
+            answer.analyze_locomotive_of_engine(engine, one, hammer_blow=asked[0], speed=asked[1])
+            for one in factors
+        ]
+    warn_each(results[0].doubts, name_file(path))
+    if write is not None:
+        refuse_leaving_files(source.text, path, write)
+        rpm = None if speed is None else results[0].speed_rpm
+        write_file(insert_weights(source.text, results[0], name_file(path), rpm), write)
+    if len(results) > 1 and form is not Format.JSON:
+        show([results], pages.OF_FACTORS, form, output, units)
+    else:
+        show(results, pages.RENDERER, form, output, units)
+
+
+def _read_bare(text: str | None) -> float | str | None:
+    """Return a number without a unit as a number, anything else as it is."""
+    try:
+        return None if text is None else float(text)
+    except ValueError:
+        return text
+
+
+def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float | None) -> str:
+    """Return the text of an engine file with the balance masses as counterweights and without
+    its factor.
+
+    Args:
+        text: Text of the file, UTF-8.
+        result: Its balance.
+        file: Its name in messages.
+        rpm: Crank speed that is not the file's; None: it is.
+    """
+    from ..balancing.answer import insert_remedy
+
+    new = set_keys(text.decode("utf-8-sig"), "locomotive", {"factor": None}, _NOTE)
+    if rpm is not None:
+        new = set_speed(new, rpm, _NOTE)
+    return insert_remedy(new.encode(), result.remedy, file)

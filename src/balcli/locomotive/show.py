@@ -1,0 +1,177 @@
+"""Balance of a locomotive: for people, as JSON and as CSV; and several factors in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from ..core.records import Node, angle_deg, find_unit, list_figures, remove_unit, to_document
+from ..show.csv import Rows, name_cell
+from ..show.formats import Renderer
+from ..show.sheet import (
+    NAMELESS,
+    NOTHING,
+    UNKNOWN,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    degrees,
+    given,
+    number,
+    size_text,
+)
+from ..show.units import SI, ShownUnit, System, name_with_unit
+from .answer import LocomotiveBalance
+
+Results = Sequence[LocomotiveBalance]
+Values = list[float | None]  # in SI units; None: unknown
+_LEFT_OUT = ("format", "axles", "rails", "name", "wheels", "plane_mm")
+
+
+# ------------------------------------------------------------------ CSV
+def rows(result: LocomotiveBalance, system: System) -> Rows:
+    """Return a figure a line: of a wheel, of an axle (without a plane), of a rail (without an axle)
+    or of the whole locomotive (without both).
+    """
+    document = to_document(result)
+    planes = [system.length.of(wheel.plane_mm / 1e3) for wheel in result.axles[0].wheels]
+    places: list[tuple[str, float | None, Node]] = [("", None, document)]
+    places += zip(("", ""), planes, document["rails"], strict=True)
+    for axle in document["axles"]:
+        name = name_cell(axle["name"])
+        places.append((name, None, axle))
+        places += zip((name, name), planes, axle["wheels"], strict=True)
+    lines = [
+        (name, z, *_convert(figure, value, system))
+        for name, z, part in places
+        for figure, value, _ in list_figures(part, _LEFT_OUT)
+    ]
+    return Rows(("axle", "plane", "figure", "value", "unit"), lines)
+
+
+def _convert(name: str, value: object, system: System) -> tuple[str, object, str]:
+    """Return name, value and unit of a figure in the units of the system."""
+    written = find_unit(name)
+    unit = system.unbalance if written == "kg·m" else system.instead_of(written)
+    if isinstance(value, float):
+        value = unit.of(value * SI.instead_of(written).size)
+    return (name if unit.name in ("deg", "rpm") else remove_unit(name)), value, unit.name
+
+
+# ------------------------------------------------------------------ for people
+def sheet(result: LocomotiveBalance, system: System) -> Sheet:
+    """Return the verdict, a table of the wheels, and what is left in all."""
+    force, moment = system.force, system.moment
+    variation = _tell_amplitude(result.tractive_variation_N, force)
+    swaying = _tell_amplitude(result.swaying_couple_Nm, moment)
+    tractive_peak = size_text(result.tractive_variation_peak_N, force)
+    swaying_peak = size_text(result.swaying_couple_peak_Nm, moment)
+    blows = [size_text(rail.hammer_blow_N, force) for rail in result.rails]
+    pairs = (
+        ("balance factor", UNKNOWN if result.factor is None else given(result.factor, 4)),
+        ("hammer blow per rail", " and ".join(blows)),
+        ("of the engine", size_text(result.hammer_blow_N, force)),
+        ("tractive effort", f"order 1 {variation}, all orders up to {tractive_peak}"),
+        ("swaying couple", f"order 1 {swaying}, all orders up to {swaying_peak}"),
+    )
+    blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), force)
+    speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
+    lifts = [(w.lift_rpm, w.lift_km_h) for w in result.wheels if w.lift_rpm is not None]
+    verdict = (
+        f"Hammer blow up to {blow} per wheel at {speed}.",
+        *(f"The first wheel lifts at {_tell_speed(*at, system)}." for at in sorted(lifts)[:1]),
+        f"Variation of tractive effort {variation}; swaying couple {swaying}.",
+    )
+    title = f"{result.engine.name or NAMELESS}: balance of the wheels"
+    wheels = _make_wheel_table(result, system)
+    return Sheet(title, (Text("", verdict), wheels, Facts(pairs, "In all")))
+
+
+def _tell_amplitude(size: float, unit: ShownUnit) -> str:
+    return f"±{size_text(size, unit)}" if size else NOTHING
+
+
+def _tell_speed(rpm: float, km_h: float | None, system: System) -> str:
+    unit = system.velocity
+    on_track = "" if km_h is None else f"{number(unit.of(km_h / 3.6))} {unit.name}, "
+    return f"{on_track}{number(rpm)} rpm"
+
+
+def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
+    wheels = result.wheels
+    blow, least, most = (
+        _list_values(wheels, f"{key}_N")
+        for key in ("hammer_blow", "least_rail_load", "most_rail_load")
+    )
+    force = system.force.fit(max(value or 0.0 for value in (*blow, *most)))
+    loads = zip(_write(least, force), _write(most, force), strict=True)
+    angles = [degrees(angle_deg(w.unbalance)) if w.unbalance else "" for w in wheels]
+    columns = [
+        ("axle", [axle.name for axle in result.axles for _ in axle.wheels]),
+        _write_column("wheel z", _list_values(wheels, "plane_mm"), system.length),
+        _write_column("mass", _list_values(wheels, "mass_kg"), system.mass),
+        _write_column("unbalance", [abs(wheel.unbalance) for wheel in wheels], system.unbalance),
+        ("angle, deg", angles),
+        _write_column("hammer blow", blow, force),
+        (f"rail load, {force.name}", ["…".join(pair) for pair in loads]),
+        _write_column("lifts at", _list_values(wheels, "lift_km_h"), system.velocity),
+    ]
+    note = "Angles count from cylinder 1's crank pin, in the sense of rotation."
+    if result.factor is None:
+        note = "No factor is given: the figures are those of the weights in the file."
+    return Grid.of_columns("Wheels", columns, note)
+
+
+def _list_values(parts: Iterable[object], key: str) -> Values:
+    """Return a figure of every part, in SI units."""
+    size = SI.instead_of(find_unit(key)).size
+    values = (getattr(part, key) for part in parts)
+    return [None if value is None else value * size for value in values]
+
+
+def _write_column(name: str, values: Values, unit: ShownUnit) -> tuple[str, list[str]]:
+    """Return heading and cells of a column in the unit that fits its figures."""
+    unit = unit.fit(max((value for value in values if value is not None), default=0.0))
+    return name_with_unit(name, unit.name), _write(values, unit)
+
+
+def _write(values: Values, unit: ShownUnit) -> list[str]:
+    return [UNKNOWN if value is None else number(unit.of(value)) for value in values]
+
+
+# ------------------------------------------------------------------ several factors
+def sheet_of_factors(results: Results, system: System) -> Sheet:
+    """Return a table with a row for each factor."""
+    columns = [_write_column(*column) for column in _list_columns(results, system)]
+    speed = _tell_speed(results[0].speed_rpm, results[0].speed_km_h, system)
+    title = f"{results[0].engine.name or NAMELESS}: balance factors"
+    note = "The largest of all wheels and rails, and the speed at which the first wheel lifts."
+    return Sheet(title, (Facts((("speed", speed),)), Grid.of_columns("", columns, note)))
+
+
+def rows_of_factors(results: Results, system: System) -> Rows:
+    """Return a line for each factor."""
+    columns = list(_list_columns(results, system))
+    cells = ([value and unit.of(value) for value in values] for _, values, unit in columns)
+    heads = [name_with_unit(name, unit.name) for name, _, unit in columns]
+    return Rows(heads, zip(*cells, strict=True))
+
+
+def _list_columns(results: Results, system: System) -> Iterator[tuple[str, Values, ShownUnit]]:
+    """Yield name, figures and unit of every column."""
+    yield "factor", _list_values(results, "factor"), ShownUnit("", 1)
+    for name, choose, of_which, key, unit in (
+        ("largest mass", max, "wheels", "mass_kg", system.mass),
+        ("wheel blow", max, "wheels", "hammer_blow_N", system.force),
+        ("rail blow", max, "rails", "hammer_blow_N", system.force),
+        ("tractive effort", max, "", "tractive_variation_N", system.force),
+        ("swaying couple", max, "", "swaying_couple_Nm", system.moment),
+        ("lifts at", min, "wheels", "lift_km_h", system.velocity),
+    ):
+        each = [getattr(result, of_which) if of_which else [result] for result in results]
+        known = ([v for v in _list_values(parts, key) if v is not None] for parts in each)
+        yield name, [choose(values) if values else None for values in known], unit
+
+
+RENDERER = Renderer(sheet=sheet, rows=rows)
+OF_FACTORS = Renderer(sheet=sheet_of_factors, rows=rows_of_factors)
