@@ -401,9 +401,12 @@ class Engine:
     @property
     def splay_for_even_firing(self) -> float | None:
         """Value of `crank.splay` (deg) with which the cylinders fire evenly in the order of the
-        file; None if there is none, for a single throw, or if the file gives firing intervals.
+        file; None if there is none, for a single throw or articulated rods, or if the file gives
+        firing intervals.
         """
         if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
+            return None
+        if self.model.articulation is not None:
             return None
         return find_fitting_splay(self.model)
 

@@ -58,6 +58,7 @@ UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
 TURNING = 0.01
 LOSS = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
 
+WHEEL_LOAD = 1000  # N, smallest load of a wheel on its rail: those of toys are smaller
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
     'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers '
@@ -96,6 +97,9 @@ def find_suspicious(model: EngineFile) -> list[str]:
     """
     figures = [*_list_pistons(model), *_list_rods(model), *_list_cranks(model)]
     question = ask_unit("bar", "130 psi", "0.9 MPa")
+    if model.locomotive is not None and model.locomotive.wheel_load is not None:
+        load, hint = model.locomotive.wheel_load, ask_unit("N", "40 kN", "9.5 t")
+        figures.append(Figure("locomotive.wheel_load is", load, WHEEL_LOAD, math.inf, " N", hint))
     points = () if model.gas is None else model.gas.at
     tables = {"gas": model.gas} | {f"gas.at.{k}": point for k, point in enumerate(points, 1)}
     for path, table in tables.items():

@@ -181,7 +181,7 @@ conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles 
 crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
 bank vee_angle = bank_angle; angle = bank_angle throws; diameter = bore; piston = piston_mass
 weight = mass piston_mass; order = firing_order; lambda = ratio; j = inertia throw_inertia
-k = stiffness throw_stiffness; file = indicator
+k = stiffness throw_stiffness; file = indicator; radius = knuckle_radius
 """
 SYNONYMS = {word: tuple(keys.split()) for word, keys in read_rows(_SYNONYMS).items()}
 _COUNT = (
@@ -218,9 +218,9 @@ def suggest(key: str, own: Collection[str], *, is_engine: bool = True) -> tuple[
         is_engine: Whether the table is one of an engine file, for which there are more hints.
     """
     word = key.lower().replace("-", "_")
-    if is_engine and word in INSTEAD:
-        return INSTEAD[word], ""
     synonyms = SYNONYMS.get(word, ())
+    if is_engine and word in INSTEAD and "knuckle_radius" not in own:
+        return INSTEAD[word], ""
     if meant := next((each for each in synonyms if each in own), ""):
         return f"did you mean {meant}?", meant
     if is_engine and (place := suggest_place(key)):

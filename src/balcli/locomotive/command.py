@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from ..errors import BalcliError, naming_file
+from ..errors import BalcliError, naming_file, warn
 from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
 from ..shell.file_names import require_ending, text_format
@@ -28,6 +28,7 @@ HammerBlow = Annotated[
     str | None,
     optional("N", "The factor that this hammer blow of a wheel allows, such as '40 kN'."),
 ]
+_LITTLE = 0.01  # balance factor below which a hammer blow was probably meant in kN
 Speed = Annotated[str | None, optional("KM_H|RPM", "As '80 km/h', '50 mph', or crank speed, rpm.")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
 
@@ -70,6 +71,11 @@ def locomotive(
             for one in factors
         ]
     warn_each(results[0].doubts, name_file(path))
+    if hammer_blow is not None and results[0].factor == 1:
+        blow = max(wheel.hammer_blow_N for wheel in results[0].wheels)
+        warn(f"--hammer-blow: is not reached; the factor 1 makes at most {blow:.4g} N")
+    elif hammer_blow is not None and (results[0].factor or 0.0) < _LITTLE:
+        warn(f"--hammer-blow: leaves a factor of {results[0].factor:.3g}; bare numbers are N")
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         rpm = None if speed is None else results[0].speed_rpm

@@ -25,7 +25,13 @@ from .fitting import (
 )
 from .ladder import add_at_ends
 from .options import SchemeOptions
-from .planes import as_millimetres, choose_plane, locate_force, read_two_planes
+from .planes import (
+    as_millimetres,
+    choose_plane,
+    find_length,
+    locate_force,
+    read_two_planes,
+)
 from .remedy import Remedy
 from .residual import (
     BACKWARD,
@@ -144,7 +150,10 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     if not moment:
         raise NothingToBalanceError(f"Order {order} has no moment; nothing to compensate")
     forces = _place_forces(-moment, places, residual.reference.z)
-    fitting = Fitting.start(engine, "compensator", order)
+    low, high = find_length(engine)
+    inside = [f"z = {1e3 * z:g} mm" for z in places if low <= z <= high]
+    note = f"{' and '.join(inside)}: within the engine; compensators are usually far from it. "
+    fitting = Fitting.start(engine, "compensator", order, note * (len(inside) == len(places)))
     for z, force in forces.items():
         slots = [
             Slot("shaft", order, sense, z, options.read_place(), role="compensator")

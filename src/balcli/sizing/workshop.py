@@ -114,7 +114,8 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
         raise BalcliError(
             f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of {1e3 * rim:g} mm"
         )
-    return tuple(_find_figures(engine, device, tools) for device in remedy.devices)
+    room = tools.width or _find_room(engine, remedy)
+    return tuple(_find_figures(engine, device, tools, room) for device in remedy.devices)
 
 
 def _refuse_impossible(tools: Tools) -> None:
@@ -143,7 +144,7 @@ def _check_figure(name: str, figure: float | None) -> float | None:
     return None if figure is None else check_number(f"Tools: {name}", figure, f"give {wanted}")
 
 
-def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practical:
+def _find_figures(engine: Engine, device: DeviceTable, tools: Tools, room: float) -> Practical:
     unbalance, order = find_unbalance(device), find_order(device)
     radius = _find_rim(engine, device, tools)
     is_sector = isinstance(device, Counterweight) and device.sector is not None
@@ -155,12 +156,12 @@ def _find_figures(engine: Engine, device: DeviceTable, tools: Tools) -> Practica
         force_N=unbalance * (order * float(engine.omega)) ** 2,
         speed_rpm=order * float(engine.speed_rpm),
         **disc,
-        **_plan_holes(engine, device, unbalance, radius, tools),
+        **_plan_holes(device, unbalance, radius, tools, room),
     )
 
 
 def _plan_holes(
-    engine: Engine, device: DeviceTable, unbalance: float, rim: float, tools: Tools
+    device: DeviceTable, unbalance: float, rim: float, tools: Tools, room: float
 ) -> Node:
     """Return the smallest number of holes that the depth allows, with depth and angle.
 
@@ -174,7 +175,8 @@ def _plan_holes(
     of_one = find_drilled_unbalance(deepest, rim, tools.drill, density)
     needed = unbalance / of_one * (1 - ROUNDING) if of_one else math.inf
     count = max(float(np.ceil(needed)), 1.0)
-    room = tools.width or (_find_room(engine) if isinstance(device, Counterweight) else math.inf)
+    if tools.width is None and not isinstance(device, Counterweight):
+        room = math.inf
     if count * tools.drill > room * (1 + ROUNDING) or math.isinf(count):
         fitting = float(np.floor(room / tools.drill * (1 + ROUNDING)))
         needed_holes = "" if math.isinf(count) else f"{count:g} holes for "
@@ -195,12 +197,15 @@ def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
     return tools.radius or engine.find_radius(device.position / 1e3)
 
 
-def _find_room(engine: Engine) -> float:
-    """Return the smallest distance of neighboring throws, m; the stroke if there is one throw or
-    positions are not known.
+def _find_room(engine: Engine, remedy: Remedy) -> float:
+    """Return the room for holes along the crank, m: the smallest distance of neighbouring throws
+    (the stroke if there is one throw or positions are not known), or of neighbouring planes of new
+    counterweights if that is less.
     """
     places = engine.joined_throws_m
-    return float(np.diff(places).min()) if len(places) > 1 else 2 * engine.find_radius(places[0])
+    room = float(np.diff(places).min()) if len(places) > 1 else 2 * engine.find_radius(places[0])
+    planes = np.unique([weight.position / 1e3 for weight in remedy.counterweights])
+    return min([room, *np.diff(planes).tolist()])
 
 
 def _find_disc(unbalance: float, tools: Tools) -> Node:

@@ -195,7 +195,7 @@ def _find_doubts(system: TorsionalSystem, response: TorsionResponse) -> Iterator
         if wide > WIDE_SWING:
             yield (
                 f"the pendulums of {printable(each.node)} swing by {wide:.3g} deg at "
-                f"{each.worst.speed_rpm:.4g} rpm, {small}; {wide / WIDE_SWING:.2g} times their "
+                f"{each.worst.speed_rpm:.4g} rpm, {small}; {wide / WIDE_SWING:.3g} times their "
                 f"mass would limit the swing to about {WIDE_SWING:.0f} deg"
             )
     question = "check the damping (loss, damping) of all shafts and nodes"

@@ -52,8 +52,8 @@ _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # search from start/
 # default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 WIDE_SWING = 20.0  # deg; on a circle the frequency is 0.8 % low there, by swing^2/16
-_MASSES = 8  # tried until pendulums swing by less than this
-_HEAVIER = 1.02  # times the mass that would do if the swing fell exactly as the mass grows
+_MASSES = 16  # tried until pendulums swing by less than this
+_HEAVIER = 1.1  # times the mass that would do if the swing fell exactly as the mass grows
 _MOST_AT_ONCE = 3.0  # times the mass of the last try
 _MOST_PENDULUM = 0.5  # of the inertia of the node that carries the pendulums
 _PLACES = 13  # grid points of the search before the best is refined
@@ -238,6 +238,8 @@ def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> D
     place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
     start, mass = proposed.swinging_length, proposed.mass or 0.0
     lengths = [start, *(start * np.exp(np.linspace(-width, width, _PLACES))).tolist()]
+    reach = ((proposed.radius or 0.0) + start) / 1e3
+    most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
     for _ in range(_MASSES):
         changes = [{"mass": float(f"{mass:.4g}"), "length": length} for length in lengths]
         tried = [proposed.model_copy(update=change) for change in changes]
@@ -247,9 +249,7 @@ def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> D
         if least <= WIDE_SWING:
             break
         mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
-    reach = ((proposed.radius or 0.0) + start) / 1e3
-    most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
-    if mass > most:
+    if mass > most or least > WIDE_SWING:
         raise BalcliError(
             f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
             f"most {WIDE_SWING:g} deg, more than {most:.3g} kg, which is half of the inertia of "
