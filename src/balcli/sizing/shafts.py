@@ -152,7 +152,7 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     forces = _place_forces(-moment, places, residual.reference.z)
     low, high = find_length(engine)
     inside = [f"z = {1e3 * z:g} mm" for z in places if low <= z <= high]
-    note = f"{' and '.join(inside)}: within the engine; compensators are usually far from it. "
+    note = f"Compensators are usually far from the engine; {' and '.join(inside)} is within it"
     fitting = Fitting.start(engine, "compensator", order, note * (len(inside) == len(places)))
     for z, force in forces.items():
         slots = [
