@@ -208,10 +208,9 @@ def analyze_pistons(engine: Engine) -> Pistons:
                 two_term=_use_two_terms(lam, radius, omega) if centred else None,
             )
         )
-    volumes = [len(each.cylinders) * (each.swept_volume_m3 or 0.0) for each in mechanisms]
     return Pistons(
         speed_rpm=float(engine.speed_rpm),
-        swept_volume_m3=sum(volumes) if bore > 0 else None,
+        swept_volume_m3=float(engine.displacement_m3) if bore > 0 else None,
         assumed=engine.list_assumed(),
         mechanisms=tuple(mechanisms),
         engine=engine,

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.cylinders import Device
+from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
@@ -207,7 +207,9 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     """Return the forces of each cylinder and counterweight, phasors of shape (orders, loads), and
     their positions, m, shape (loads,).
     """
-    counterweights = [device for device in engine.devices if is_counterweight(device)]
+    counterweights = [
+        device for device in engine.devices if device.kind is DeviceKind.COUNTERWEIGHT
+    ]
     refuse_too_many_loads(engine, len(orders), engine.cylinders.count + len(counterweights))
     each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
@@ -223,11 +225,6 @@ def join_loads(loads: Sequence[Phasors]) -> Phasors:
     vectors = [force.vectors.reshape(2, len(orders), -1) for force in loads]
     noises = [np.broadcast_to(force.noise, force.forward.shape) for force in loads]
     return Phasors(orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
-
-
-def is_counterweight(device: Device) -> bool:
-    """Return whether a device turns with the crank about the crank's axis."""
-    return device.order == 1 and not device.backward and not device.place
 
 
 def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
@@ -419,7 +416,7 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
     pins_deg = float(engine.first_axis_deg) + np.ravel(c.pin_deg)[:, None]
     turning = throws * (speed**2 - 1j * rate) * unit(crank_deg + pins_deg)
     devices = compute_device_forces(engine, crank_deg)
-    on_crank = np.array([is_counterweight(device) for device in engine.devices], bool)
+    on_crank = np.array([d.kind is DeviceKind.COUNTERWEIGHT for d in engine.devices], bool)
     on_walls = found.axis * (found.gas + 1j * found.thrust)
     on_shaft = np.concatenate([pressed + turning, devices[on_crank]])
     return on_shaft, np.concatenate([on_walls, devices[~on_crank]])
@@ -428,8 +425,8 @@ def compute_forces_along(engine: Engine, crank_deg: Array) -> tuple[Complex, Com
 def _place_forces(engine: Engine) -> tuple[Array, Array]:
     """Return the axial positions of the forces on shaft and on block, m."""
     cylinders = np.ravel(engine.cylinders.z).tolist()
-    turning = [float(d.z) for d in engine.devices if is_counterweight(d)]
-    others = [float(d.z) for d in engine.devices if not is_counterweight(d)]
+    turning = [float(d.z) for d in engine.devices if d.kind is DeviceKind.COUNTERWEIGHT]
+    others = [float(d.z) for d in engine.devices if d.kind is not DeviceKind.COUNTERWEIGHT]
     return np.array([*cylinders, *turning]), np.array([*cylinders, *others])
 
 

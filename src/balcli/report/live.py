@@ -98,6 +98,8 @@ def explain_still(engine: Engine) -> str:
         devices = (*engine.model.counterweight, *engine.model.shaft)
         if any(one.unbalance is None and one.mass is None for one in devices):
             return "a counterweight or shaft has no unbalance in the file"
+        if any(device.compensates for device in engine.devices):
+            return "it has moment compensators"
     return "its speed is uneven" if engine.ripple else ""
 
 

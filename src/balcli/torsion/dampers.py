@@ -159,7 +159,7 @@ def size_damper(
     first = _propose(asked, own, bare, place, mode, order, radius)
     figure, width = FIGURES[first.kind], math.log(_WIDTH[first.kind])
     start, tried = float(getattr(first, figure)), count(1)
-    free = first.kind == "pendulum" and asked.inertia is None and own is None
+    free = first.kind == "pendulum" and asked.inertia is None
     if free:
         first = _limit_swing(source, speeds, node, first)
 
