@@ -22,6 +22,7 @@ MOST_MISTAKES_SHOWN = 20  # of one file: they stay on the screen
 
 # What an engine may have ---------------------------------------------------------------------
 MOST_PARTS = 1000  # cylinders, devices of a kind: still quick to analyse
+MOST_ENGINES = 12  # geared together; the largest built have three or four cranks
 MOST_LIST_VALUES = 10_000  # of a list, and the largest number of a bank, a cylinder, an order
 MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # inner lists included: millions would be refused one by one
 HIGHEST_RIPPLE_ORDER = 256  # every order of the engine reaches that much further

@@ -90,7 +90,11 @@ CHAPTERS = {
     "body": "file.mount_tables",
 }
 # Those that may stand several times in a file.
-CHAPTER_LISTS = {"mount": "file.mount_tables", "point": "file.mount_tables"}
+CHAPTER_LISTS = {
+    "engine": "file.engine_tables",
+    "mount": "file.mount_tables",
+    "point": "file.mount_tables",
+}
 # What computes the quantities of a chapter for sweep, search and scatter.
 QUANTITIES = {
     "guide": "forces.guide",
@@ -100,6 +104,8 @@ QUANTITIES = {
 }
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
+GEARED = "engine.placed:build_geared"
+CRANKS = "engine.placed:share_state"
 EXPLORE = "report.page:explore"
 
 

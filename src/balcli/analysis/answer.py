@@ -226,6 +226,7 @@ def analyze(
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
     peak = find_peaks(everything) if peaked else None
+    has_linkage = engine.cylinders.linkage is not None and not engine.placed
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -238,7 +239,7 @@ def analyze(
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=_list_strokes(engine) if engine.cylinders.linkage is not None else None,
+        travel=_list_strokes(engine) if has_linkage else None,
         why=_explain(engine, visible.orders, shown) if reasons else None,
         small=small,
         **_find_seldom(engine, wanted),

@@ -130,6 +130,7 @@ class Device(NamedTuple):
         z: Position along the crank, m.
         kind: Kind of the device.
         compensates: Whether it is there for its moment, and its force is meant to remain.
+        crank: Index of the crank to which it is geared, or that carries it.
     """
 
     order: int
@@ -139,6 +140,7 @@ class Device(NamedTuple):
     z: Figure
     kind: DeviceKind = DeviceKind.OTHER
     compensates: bool = False
+    crank: int = 0
 
 
 _STEPS = 720

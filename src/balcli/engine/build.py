@@ -39,6 +39,7 @@ from ..file.fields import counted, join_words
 from ..file.model import EngineFile
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
+from ..names import GEARED, import_name
 from .devices import build_devices
 from .engine import Bearings, Engine, Rating
 from .figures import FileFigures, divide
@@ -74,6 +75,8 @@ def build(
         InputError: Tables do not fit together; the error lists the mistakes by path.
         BalcliError: Figures cannot vary because the file gives others in their place.
     """
+    if model.engine:
+        return cast(Engine, import_name(GEARED)(model, varied, rank))
     parts = assemble(model, varied, rank=rank, gas=gas)
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
@@ -101,7 +104,7 @@ def build(
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=divide(inertia, 1e6),
-        flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
+        flywheel_inertia=None if model.flywheel is None else find_wheel(figures, model.flywheel),
         bearings=bearings,
         rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         inferred=() if varied else tuple(list_inferred(parts)),
@@ -125,7 +128,7 @@ def assemble(
     return parts
 
 
-def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
+def find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
     """Return the moment of inertia of the flywheel, kg m2."""
     inertia, mass, radius = (
         figures.take_optional(f"flywheel.{key}", getattr(table, key))
@@ -193,6 +196,14 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
         yield from one_end or check_rod_inertia(place, gear)
         if not place.articulated:
             yield from check_turning(place, gear, parts.radius)
+
+
+def check_carriers(parts: Parts) -> Iterator[Problem]:
+    """Check that no counterweight names an engine where there is one alone."""
+    for number, weight in enumerate(parts.model.counterweight, 1):
+        if weight.engine is not None:
+            told = f'"{weight.engine}": this file has no [[engine]]; leave it out'
+            yield Problem(f"counterweight.{number}.engine", told)
 
 
 def check_articulation(parts: Parts) -> Iterator[Problem]:
@@ -344,6 +355,7 @@ STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
+    (check_carriers,),
     (check_knuckles,),  # pins
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders

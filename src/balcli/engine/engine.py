@@ -17,14 +17,15 @@ import numpy as np
 
 from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
-from ..core.phasors import Array, Figure, Phasors
+from ..core.phasors import Array, Complex, Figure, Phasors, unit
 from ..core.records import Node
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, list_tables
-from ..names import EXPLORE, NOTEBOOK, VARY, import_name
+from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
+from .figures import place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -56,6 +57,49 @@ class SilentCylinders(NamedTuple):
 
     without_gas: tuple[int, ...] = ()
     without_burning: tuple[int, ...] = ()
+
+
+class Placed(NamedTuple):
+    """An engine where it stands among others that are geared to it one to one.
+
+    Attributes:
+        engine: The engine alone, in its own axes, by its own crank angle and sense of rotation.
+        name: Its name in the file.
+        file: Its engine file.
+        ratio: 1: its crank turns as the first one; -1: against it. It is then its own mirror image
+            (y changed in sign).
+        phase_deg: Crank angle by which it leads the first, in its own sense of rotation.
+        turn_deg: How far it is turned about z.
+        at_m: Place of its origin (its crank axis at its z = 0).
+        load: Whether its crank drives the load.
+        load_sense: Sense of the crank that takes its torque to the load: that of the load's crank,
+            or its own where each has a load.
+    """
+
+    engine: Engine
+    name: str = ""
+    file: str = ""
+    ratio: int = 1
+    phase_deg: Figure = 0.0
+    turn_deg: Figure = 0.0
+    at_m: tuple[Figure, Figure, Figure] = (0.0, 0.0, 0.0)
+    load: bool = True
+    load_sense: int = 1
+
+    def turn(self, vector: complex | Complex) -> complex | Complex:
+        """Return a vector of its own axes in those of all."""
+        seen = vector if self.ratio > 0 else np.conj(vector)
+        turned: Complex = unit(self.turn_deg) * seen
+        return turned
+
+    def find_place(self, own: complex | Complex) -> complex | Complex:
+        """Return a point x + iy of its own axes in those of all, m."""
+        return self.turn(own) + place_in_plane(*self.at_m[:2])
+
+    def find_own_place(self, place: complex | Complex) -> complex | Complex:
+        """Return a point x + iy of the axes of all in its own, m."""
+        back: Complex = np.conj(unit(self.turn_deg)) * (place - place_in_plane(*self.at_m[:2]))
+        return back if self.ratio > 0 else np.conj(back)
 
 
 NONE_SILENT = SilentCylinders()
@@ -99,6 +143,8 @@ class Engine:
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
+        placed: Engines that are geared together, of which this is the whole: `cylinders` and what
+            is derived from them are then those of the first. Empty for an ordinary engine.
     """
 
     name: str
@@ -125,6 +171,7 @@ class Engine:
     up_deg: float | None = None
     inferred: tuple[str, ...] = ()
     model: EngineFile | None = None
+    placed: tuple[Placed, ...] = ()
 
     # -------------------------------------------------------------- the file and its variants
     def vary(
@@ -178,6 +225,9 @@ class Engine:
     def unlikely(self) -> tuple[str, ...]:
         """Warnings: figures of the file that are allowed and yet unlikely."""
         of_gas = () if self.gas is None else self.gas.doubts
+        if self.placed:
+            each = ((one.file, doubt) for one in self.placed for doubt in one.engine.unlikely)
+            return tuple(dict.fromkeys(f"{file}: {doubt}" for file, doubt in each))
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
@@ -197,6 +247,12 @@ class Engine:
                 mount, flywheel.
             without: Keys that do not count.
         """
+        if self.placed:
+            each = [one.engine.list_assumed(*chapters, without=without) or () for one in self.cranks]
+            named = zip((one.name for one in self.placed), each, strict=True)
+            common = [line for line in each[0] if all(line in lines for lines in each)]
+            own = (f"{name}.{x}" for name, lines in named for x in lines if x not in common)
+            return (*common, *own) or None
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
         return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None
@@ -218,6 +274,14 @@ class Engine:
         if isinstance(self.speed_rpm, float):
             words.append(f"{self.speed_rpm:g} rpm")
         return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)
+
+    # -------------------------------------------------------------- several cranks
+    @cached_property
+    def cranks(self) -> tuple[Placed, ...]:
+        """Engines that are geared together, each with the speed, devices and point of reference of
+        the whole in its own terms; an ordinary engine is one that stands where it is.
+        """
+        return tuple(import_name(CRANKS)(self)) if self.placed else (Placed(self),)
 
     # -------------------------------------------------------------- motion
     @property
@@ -241,6 +305,8 @@ class Engine:
     @property
     def displacement_m3(self) -> Figure:
         """Swept volume of all cylinders but dummies, which the firing order leaves out."""
+        if self.placed:
+            return sum(one.engine.displacement_m3 for one in self.placed)
         stroke = find_travel(self.cylinders).stroke
         burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
         volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)

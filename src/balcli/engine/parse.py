@@ -68,6 +68,12 @@ def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> Engi
 
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
+    if draft.model.engine:
+        from .placed import read_engines  # files of one engine do not load it
+
+        draft = read_engines(draft, parse)
+        if not draft.problems:
+            return draft.model
     if not draft.problems:
         return infer_numbering(draft.model)
     raise refuse([*draft.problems, *list_contradictions(draft)], name)

@@ -35,6 +35,8 @@ DEVICES: dict[str, type[FileTable]] = {
     "slider": model.Slider,
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
+# What may stand in a file with [[engine]]; the rest stands in the files of its engines
+BESIDE_ENGINES = (*TEXTS, "operation", "frame", "flywheel", "body", *DEVICES, *CHAPTER_LISTS)
 
 
 def import_table(key: str) -> type[FileTable]:

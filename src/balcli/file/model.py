@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Self
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..limits import MOST_RIPPLES
-from .fields import Choice, FileName, OneOf, counted, join_words, parse_firing_order
+from .fields import Choice, FileName, Label, OneOf, counted, join_words, parse_firing_order
 from .table import (
     INTERVAL_TOLERANCE_DEG,
     Angle,
@@ -49,6 +49,7 @@ from .table import (
 )
 
 if TYPE_CHECKING:
+    from .engine_tables import Engine
     from .gas_tables import Bearing, Flywheel, Gas
     from .mount_tables import Body, Mount, Point
     from .torsion_tables import Torsion
@@ -342,6 +343,8 @@ class Counterweight(Device):
 
     angle: Angle = 0.0
     """At crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    engine: Annotated[str, Label()] | None = None
+    """With [[engine]]: the engine whose crank carries it; left out: the first. Example: 'lower'"""
 
 
 class Shaft(Device):
@@ -379,7 +382,7 @@ def label_table(table: FileTable, number: int) -> str:
         table: Table, which may have a name.
         number: Number of the table, from 1.
     """
-    name = getattr(table, "name", "").replace(" ", "_")
+    name = "" if table.by_number else getattr(table, "name", "").replace(" ", "_")
     return name if name.isidentifier() else str(number)
 
 
@@ -411,6 +414,8 @@ class EngineFile(FileTable):
     """Balancer shafts."""
     slider: tuple[Slider, ...] = ()
     """Reciprocating balance masses."""
+    engine: "tuple[Engine, ...]" = ()
+    """Several engines that are geared together."""
     body: "Body | None" = None
     mount: "tuple[Mount, ...]" = ()
     """What the body stands on."""
@@ -418,11 +423,17 @@ class EngineFile(FileTable):
     """Points whose motion is wanted."""
 
     _folder: Path = PrivateAttr(Path())
+    _cranks: tuple["EngineFile", ...] = PrivateAttr(())
 
     @property
     def folder(self) -> Path:
         """Where the file stands, and the files that it names."""
         return self._folder
+
+    @property
+    def cranks(self) -> "tuple[EngineFile, ...]":
+        """The files of the engines that are geared together; an ordinary file is its own."""
+        return self._cranks or (self,)
 
     def with_table(self, key: str, **values: object) -> Self:
         """Return a copy of this file with other values in one table; they are not checked."""

@@ -19,6 +19,7 @@ from ..limits import LONGEST_NAME, MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_P
 from ..names import CHAPTER_LISTS
 from .fields import printable, shorten
 from .messages import (
+    BESIDE_ENGINES,
     DEVICES,
     ENGINE,
     INSTEAD,
@@ -233,7 +234,8 @@ def check_tables(
         InputError: they are of another kind of file.
     """
     refuse_other_kind(data, name, ENGINE)
-    body_alone = "body" in data and not any(key in data for key in REQUIRED)
+    geared = "engine" in data
+    body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
@@ -246,10 +248,14 @@ def check_tables(
         for inner, value in inside.items():  # of an unknown table: each with the table that has it
             reader.refuse_key(printable(key), inner, None, value)
     for key, example in REQUIRED.items():
-        if key not in data and not body_alone:
+        if key not in data and not (body_alone or geared):
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
-    parts = {key: _read_part(reader, key, data[key]) for key in KNOWN if key in data}
+    foreign = set(KNOWN).difference(BESIDE_ENGINES) if geared else ()
+    for key in filter(foreign.__contains__, data):
+        reader.add(key, "a file with [[engine]] takes this from its engine files")
+    known = [key for key in KNOWN if key in data and key not in foreign]
+    parts = {key: _read_part(reader, key, data[key]) for key in known}
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}
     for key, part in parts.items():

@@ -103,6 +103,7 @@ class FileTable(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
+    by_number: ClassVar[bool] = False  # whether dotted names count such tables, whatever their name
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:

@@ -147,6 +147,28 @@ class Peaks(NamedTuple):
         return [(FORCE, self.force), (MOMENT, self.moment)]
 
 
+class GearedEngine(NamedTuple):
+    """One of several engines that are geared together.
+
+    Attributes:
+        name: Its name.
+        file: Its engine file.
+        ratio: 1: turns as the first crank; -1: against it.
+        phase_deg: Crank angle by which it leads the first, in its own sense of rotation.
+        turn_deg: How far it is turned about z.
+        at_mm: Place of its origin.
+        load: Whether its crank drives the load.
+    """
+
+    name: str
+    file: str
+    ratio: int
+    phase_deg: float
+    turn_deg: float
+    at_mm: tuple[float, ...]
+    load: bool
+
+
 class EngineSize(NamedTuple):
     """An engine.
 
@@ -154,11 +176,13 @@ class EngineSize(NamedTuple):
         name: Name of the engine.
         cylinders: Number of cylinders.
         displacement_m3: Displacement; null where the file gives no bore.
+        engines: Engines that are geared together, of a file that has several.
     """
 
     name: str
     cylinders: int
     displacement_m3: float
+    engines: tuple[GearedEngine, ...] | None = None
 
 
 class EngineName(NamedTuple):
@@ -221,7 +245,20 @@ def find_peaks(spectra: Spectra) -> Peaks:
 
 def measure_engine(engine: Engine) -> EngineSize:
     """Return name and size of an engine without trailing axes."""
-    return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
+    engines = tuple(
+        GearedEngine(
+            name=one.name,
+            file=one.file,
+            ratio=one.ratio,
+            phase_deg=float(one.phase_deg),
+            turn_deg=float(one.turn_deg),
+            at_mm=place_in_mm(one.at_m),
+            load=one.load,
+        )
+        for one in engine.placed
+    )
+    volume = float(engine.displacement_m3)
+    return EngineSize(engine.name, len(engine.numbers), volume, engines or None)
 
 
 def name_engine(engine: Engine | EngineFile) -> EngineName:

@@ -1,0 +1,307 @@
+"""Engines that are geared together one to one: read, built, and seen from the first crank.
+
+Each is built alone. `build_geared` makes one engine of them, whose `placed` say where each stands
+and how it turns; `share_state` hands speed, devices and point of reference of the whole down to
+each, in its own axes and by its own crank angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TypeVar, cast
+
+import numpy as np
+
+from ..core.cylinders import Device, DeviceKind
+from ..core.phasors import Figure, unit
+from ..core.speed_ripple import RippleLine
+from ..errors import BalcliError, InputError, Problem
+from ..file.csv_columns import locate_beside
+from ..file.engine_tables import check_engines, name_engines
+from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
+from ..file.read import Draft
+from ..file.toml import read_bytes
+from .build import build, find_wheel
+from .devices import build_device
+from .engine import Engine, Placed, Rating
+from .figures import FileFigures, place_in_plane
+from .gas import EngineGas
+
+T = TypeVar("T")
+
+
+# ------------------------------------------------------------------ files
+def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Draft:
+    """Return a file with [[engine]] and the files of its engines, with all their mistakes.
+
+    Args:
+        draft: The file without them.
+        parse: Function of an engine file's text and name to its model.
+    """
+    model, problems = draft.model, list(draft.problems)
+    engines = tuple(filter(None, model.engine))
+    if "engine" in draft.readable:
+        problems += check_engines(model)
+    found: dict[str, EngineFile | None] = {}
+    for k, table in enumerate(model.engine, 1):
+        if table is None or table.file in found:
+            continue
+        found[table.file] = None
+        with _collecting(problems, k, table.file):
+            path = locate_beside(model.folder, table.file)
+            found[table.file] = _parse_one(parse, read_bytes(path), str(path))
+    cranks = tuple(filter(None, (found[table.file] for table in engines)))
+    if not problems:
+        operation = _lend_operation(model.operation, cranks[0].operation)
+        model = model.model_copy(update={"operation": operation})
+        speed = operation.model_copy(update={"speed_ripple": ()})
+        turning = [operation, *[speed] * (len(cranks) - 1)]
+        model._cranks = tuple(
+            crank.model_copy(update={"operation": one})
+            for crank, one in zip(cranks, turning, strict=True)
+        )
+    return draft._replace(model=model, problems=tuple(problems))
+
+
+def _parse_one(
+    parse: Callable[[bytes, str], EngineFile], content: bytes, name: str
+) -> EngineFile:
+    model = parse(content, name)
+    if model.engine:
+        told = "has [[engine]] itself; name files of single engines"
+        raise InputError([Problem("", told)], name)
+    return model
+
+
+@contextmanager
+def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[None]:
+    """Collect the mistakes of an engine's file, each under the engine that names it."""
+    try:
+        yield
+    except InputError as error:
+        path = f"engine.{number}.file"
+        problems += (Problem(path, f"{file}: {one}") for one in error.problems)
+    except BalcliError as error:
+        problems.append(Problem(f"engine.{number}.file", str(error)))
+
+
+def _lend_operation(own: Operation, first: Operation) -> Operation:
+    """Return [operation] with speed and speed_ripple of the first engine where it has none."""
+    lent = {
+        key: getattr(first, key)
+        for key in ("speed", "speed_ripple")
+        if first.has(key) and not own.has(key)
+    }
+    return own.model_copy(update=lent)
+
+
+# ------------------------------------------------------------------ one engine of several
+def build_geared(
+    model: EngineFile, varied: Mapping[str, Figure] | None = None, rank: int = 0
+) -> Engine:
+    """Return the engine that a file with [[engine]] describes; arguments and errors as of `build`.
+
+    Figures of an engine's own file vary by names such as `engine.2.rod.length`.
+    """
+    changes, problems = varied or {}, list[Problem]()
+    engines: list[Engine] = []
+    for k, (table, crank) in enumerate(zip(model.engine, model.cranks, strict=True), 1):
+        own = dict(select_varied(changes, k))
+        with _collecting(problems, k, table.file):
+            engines.append(build(crank, own or None, rank=rank))
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
+    figures, first = FileFigures(changes, model), engines[0]
+    placed = _place_engines(model, figures, engines)
+    power = model.operation.power
+    wheel = None if model.flywheel is None else find_wheel(figures, model.flywheel)
+    cylinders = [f"{one.name}.{n}" for one in placed for n in one.engine.numbers]
+    return replace(
+        first,
+        name=model.name,
+        source=model.source,
+        numbers=cast("tuple[int, ...]", tuple(cylinders)),
+        fires_deg={},
+        strokes=max(engine.strokes for engine in engines),
+        throws_m=_join(one.engine.throws_m + one.at_m[2] for one in placed),
+        pins_m=_join(one.engine.pins_m + one.at_m[2] for one in placed),
+        reference_m=_find_reference(model, figures, placed[0]),
+        up_deg=model.frame.up,
+        devices=tuple(_build_devices(model, figures, placed)),
+        weighed=tuple(masses for engine in engines for masses in engine.weighed),
+        places_known=all(engine.places_known for engine in engines),
+        gas=_join_gas(placed),
+        crank_inertia=_add(engine.crank_inertia for engine in engines if not engine.rotary),
+        flywheel_inertia=_add([wheel, *(engine.flywheel_inertia for engine in engines)]),
+        bearings=None,
+        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
+        inferred=(),
+        model=None if varied else model,
+        placed=placed,
+    )
+
+
+def select_varied(varied: Mapping[str, T], number: int) -> Iterator[tuple[str, T]]:
+    """Yield the figures of the file of one engine (from 1) that vary, by their names in it: all
+    turn at the speed of the whole.
+    """
+    start = f"engine.{number}."
+    for path, value in varied.items():
+        own = path.removeprefix(start)
+        if own != path and "." in own and not own.startswith("at."):
+            yield own, value
+        elif path == "operation.speed" or (number == 1 and path.startswith("operation.")):
+            yield path, value
+
+
+def _place_engines(
+    model: EngineFile, figures: FileFigures, engines: Sequence[Engine]
+) -> tuple[Placed, ...]:
+    tables = model.engine
+    given = any(table.has("load") for table in tables)
+    loads = [table.load if given else k == 0 for k, table in enumerate(tables)]
+    driving = tables[loads.index(True)].ratio
+    found = []
+    for k, (name, table, engine) in enumerate(zip(name_engines(tables), tables, engines, strict=True)):
+        path = f"engine.{k + 1}"
+        x, y, z = (each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
+        one = Placed(
+            engine=engine,
+            name=name,
+            file=table.file,
+            ratio=table.ratio,
+            phase_deg=figures.take(f"{path}.phase", table.phase),
+            turn_deg=figures.take(f"{path}.turn", table.turn),
+            at_m=(x, y, z),
+            load=loads[k],
+            load_sense=table.ratio if all(loads) else driving,
+        )
+        found.append(one)
+    return tuple(found)
+
+
+def _find_reference(
+    model: EngineFile, figures: FileFigures, first: Placed
+) -> tuple[Figure, Figure, Figure]:
+    """Return the point of reference of the file, or that of the first engine where it stands, m."""
+    given = model.frame.reference
+    if given is not None:
+        x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
+        return x, y, z
+    x, y, z = first.engine.reference_m
+    place = first.find_place(place_in_plane(x, y))
+    return place.real, place.imag, z + first.at_m[2]
+
+
+def _build_devices(
+    model: EngineFile, figures: FileFigures, placed: Sequence[Placed]
+) -> Iterator[Device]:
+    for path, table in model.tables():
+        if isinstance(table, Counterweight | Shaft | Slider):
+            yield build_placed_device(table, placed, figures, path)
+
+
+def build_placed_device(
+    table: Counterweight | Shaft | Slider,
+    placed: Sequence[Placed],
+    figures: FileFigures = FileFigures(),
+    path: str = "",
+) -> Device:
+    """Return a device of a file with [[engine]]: a counterweight in the sense and the directions of
+    the engine that carries it.
+    """
+    carrier = getattr(table, "engine", None)
+    row = [one.name for one in placed].index(carrier) if carrier else 0
+    axis = placed[row].engine.first_axis_deg
+    return build_device(table, axis, figures, path)._replace(crank=row)
+
+
+def _join(parts: Iterable[Figure]) -> np.ndarray:
+    shapes = [np.asarray(part) for part in parts]
+    trailing = np.broadcast_shapes(*(part.shape[1:] for part in shapes))
+    return np.concatenate([np.broadcast_to(p, (len(p), *trailing)) for p in shapes])
+
+
+def _add(figures: Iterable[Figure | None]) -> Figure | None:
+    given = [figure for figure in figures if figure is not None]
+    return cast("Figure", sum(given)) if given else None
+
+
+def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
+    """Return the gas of all cylinders by the first crank's angle; that of an engine without gas has
+    the share 0. None where no engine has gas.
+    """
+    burning = [one.engine.gas for one in placed if one.engine.gas is not None]
+    if not burning:
+        return None
+    cycle = max(gas.cycle_deg for gas in burning)
+    cylinders = []
+    for one in placed:
+        gas, start = one.engine.gas, len(cylinders)
+        if gas is None:
+            idle = burning[0].cylinders[0]._replace(share=0.0, like=start)
+            cylinders += [idle] * len(one.engine.numbers)
+            continue
+        cylinders += (
+            own._replace(nominal_deg=own.nominal_deg - one.phase_deg, like=start + own.like)
+            for own in gas.cylinders
+        )
+    return EngineGas(
+        tuple(cylinders),
+        cycle,
+        _take_common(gas.mechanical_efficiency for gas in burning),
+        _take_common(gas.compression_ratio for gas in burning),
+    )
+
+
+def _take_common(values: Iterable[float | None]) -> float | None:
+    different = {*values}
+    return different.pop() if len(different) == 1 else None
+
+
+# ------------------------------------------------------------------ seen by each engine
+def share_state(whole: Engine) -> Iterator[Placed]:
+    """Yield the engines of a whole, each with its speed, devices, gas and point of reference."""
+    start = 0
+    for row, one in enumerate(whole.placed):
+        own, stop = one.engine, start + len(one.engine.numbers)
+        x, y, z = whole.reference_m
+        reference = one.find_own_place(place_in_plane(x, y))
+        lines = (
+            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * one.phase_deg)
+            for line in whole.ripple
+        )
+        carried = (_move(device, one) for device in whole.devices if device.crank == row)
+        gas = None if whole.gas is None else own.gas
+        if gas is not None and whole.gas is not None:
+            shares = [cylinder.share for cylinder in whole.gas.cylinders[start:stop]]
+            each = zip(gas.cylinders, shares, strict=True)
+            gas = replace(gas, cylinders=tuple(c._replace(share=s) for c, s in each))
+        yield one._replace(
+            engine=replace(
+                own,
+                speed_rpm=whole.speed_rpm,
+                ripple=tuple(lines),
+                reference_m=(reference.real, reference.imag, z - one.at_m[2]),
+                devices=(*own.devices, *carried),
+                gas=gas,
+            )
+        )
+        start = stop
+
+
+def _move(device: Device, one: Placed) -> Device:
+    """Return a device of the whole as one of an engine's own; those off the crankshafts belong to
+    the first, which turns as they count.
+    """
+    moved = device._replace(z=device.z - one.at_m[2], crank=0)
+    if device.kind is DeviceKind.COUNTERWEIGHT:
+        return moved
+    back = unit(-np.asarray(one.turn_deg))
+    return moved._replace(
+        place=one.find_own_place(device.place),
+        forward=back * device.forward,
+        backward=back * device.backward,
+    )
