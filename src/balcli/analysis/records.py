@@ -251,11 +251,13 @@ class Counterweight(NamedTuple):
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from cylinder 1's crank pin.
         position_mm: Place along the crank.
+        engine: Of geared engines, the one whose crank carries it.
     """
 
     unbalance_kg_m: float
     angle_deg: float
     position_mm: float
+    engine: str | None = None
 
 
 class Shaft(NamedTuple):

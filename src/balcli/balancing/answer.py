@@ -26,7 +26,7 @@ from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import EngineFile, Shaft
+from ..file.model import Counterweight, EngineFile, Shaft
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
@@ -444,4 +444,6 @@ def _list_entries(device: DeviceTable) -> Node:
     values = {key: getattr(device, key) for key in FIELDS[type(device)]}
     if isinstance(device, Shaft) and device.role != "balancer":
         values["role"] = device.role
+    if isinstance(device, Counterweight) and device.engine is not None:
+        values = {"engine": device.engine, **values}
     return {key: [*value] if isinstance(value, tuple) else value for key, value in values.items()}

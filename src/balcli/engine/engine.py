@@ -22,6 +22,7 @@ from ..core.records import Node
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
+from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
@@ -91,6 +92,14 @@ class Placed(NamedTuple):
         seen = vector if self.ratio > 0 else np.conj(vector)
         turned: Complex = unit(self.turn_deg) * seen
         return turned
+
+    def find_own_unbalance(self, seen: complex) -> complex:
+        """Return an unbalance on its crank in its own axes at its own crank angle 0, from what all
+        see when the first crank is at 0, kg m.
+        """
+        back = np.conj(unit(self.turn_deg)) * seen
+        own = back if self.ratio > 0 else np.conj(back)
+        return complex(np.conj(unit(self.phase_deg)) * own)
 
     def find_place(self, own: complex | Complex) -> complex | Complex:
         """Return a point x + iy of its own axes in those of all, m."""
@@ -437,6 +446,19 @@ def check_engine(function: str, value: object) -> Engine:
     if not isinstance(value, Engine):
         raise wrong_type(function, value, "give an Engine; load(...) makes one of a path or a dict")
     return value
+
+
+def refuse_geared(engine: Engine) -> None:
+    """Raise an error for engines that are geared together, where one crank alone is looked at.
+
+    Raises:
+        BalcliError: The engine is made of several.
+    """
+    if engine.placed:
+        files = join_words([*dict.fromkeys(one.file for one in engine.placed)])
+        told = "are geared together; run this on one of them"
+        told = told if " and " in files else "is geared to itself; run this on it"
+        raise BalcliError(f"{files} {told}")
 
 
 def take_model(engine: Engine) -> EngineFile:

@@ -24,7 +24,7 @@ from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from .build import build, find_wheel
-from .devices import build_device
+from .devices import build_fitted
 from .engine import Engine, Placed, Rating
 from .figures import FileFigures, place_in_plane
 from .gas import EngineGas
@@ -118,7 +118,7 @@ def build_geared(
     power = model.operation.power
     wheel = None if model.flywheel is None else find_wheel(figures, model.flywheel)
     cylinders = [f"{one.name}.{n}" for one in placed for n in one.engine.numbers]
-    return replace(
+    whole = replace(
         first,
         name=model.name,
         source=model.source,
@@ -129,7 +129,6 @@ def build_geared(
         pins_m=_join(one.engine.pins_m + one.at_m[2] for one in placed),
         reference_m=_find_reference(model, figures, placed[0]),
         up_deg=model.frame.up,
-        devices=tuple(_build_devices(model, figures, placed)),
         weighed=tuple(masses for engine in engines for masses in engine.weighed),
         places_known=all(engine.places_known for engine in engines),
         gas=_join_gas(placed),
@@ -141,6 +140,7 @@ def build_geared(
         model=None if varied else model,
         placed=placed,
     )
+    return replace(whole, devices=tuple(_build_devices(model, figures, whole)))
 
 
 def select_varied(varied: Mapping[str, T], number: int) -> Iterator[tuple[str, T]]:
@@ -196,26 +196,11 @@ def _find_reference(
 
 
 def _build_devices(
-    model: EngineFile, figures: FileFigures, placed: Sequence[Placed]
+    model: EngineFile, figures: FileFigures, engine: Engine
 ) -> Iterator[Device]:
     for path, table in model.tables():
         if isinstance(table, Counterweight | Shaft | Slider):
-            yield build_placed_device(table, placed, figures, path)
-
-
-def build_placed_device(
-    table: Counterweight | Shaft | Slider,
-    placed: Sequence[Placed],
-    figures: FileFigures = FileFigures(),
-    path: str = "",
-) -> Device:
-    """Return a device of a file with [[engine]]: a counterweight in the sense and the directions of
-    the engine that carries it.
-    """
-    carrier = getattr(table, "engine", None)
-    row = [one.name for one in placed].index(carrier) if carrier else 0
-    axis = placed[row].engine.first_axis_deg
-    return build_device(table, axis, figures, path)._replace(crank=row)
+            yield build_fitted(table, engine, figures, path)
 
 
 def _join(parts: Iterable[Figure]) -> np.ndarray:

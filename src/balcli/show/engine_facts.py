@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from ..core.cylinders import find_travel
 from ..core.phasors import Figure
-from ..engine.engine import Engine, SilentCylinders
+from ..engine.engine import Engine, Placed, SilentCylinders
 from ..file.fields import count_lambda_digits, join_words
 from ..limits import HIGHEST_ORDER_UNASKED
 from .figures import silent_entries
@@ -55,6 +55,8 @@ def engine_facts(
         higher: Whether there may be orders above those that are shown by default.
         speeds_rpm: Speeds of the figures, ascending, where there are several.
     """
+    if engine.placed:
+        return _geared_facts(engine, system, speeds_rpm, whole=whole)
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     reference = f"moments about x, y, z = {about} {system.length.name}"
     if not engine.places_known:
@@ -79,6 +81,47 @@ def engine_facts(
         ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _geared_facts(
+    engine: Engine, system: System, speeds_rpm: Sequence[float], *, whole: bool
+) -> Facts:
+    """Return the facts of several engines: each in a line, then what they have in common."""
+    cylinders = f"{len(engine.numbers)} on {len(engine.placed)} cranks"
+    if not math.isnan(litres := float(engine.displacement_m3)):
+        unit = system.volume.fit(litres)
+        cylinders += f", {number(unit.of(litres))} {unit.name}"
+    own = sum(len(one.engine.devices) for one in engine.placed) + len(engine.devices)
+    reference = f"moments about {tell_place(engine.reference_m, system)}"
+    if not engine.places_known:
+        reference = "moments are not known: crank.spacing is missing"
+    pairs = (
+        ("cylinders", cylinders),
+        *((one.name, _tell_placed(one, system)) for one in engine.placed),
+        *list_silent(engine.silent),
+        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
+        ("devices", f"{own} of the files included" if own else ""),
+        ("reference", reference),
+        ("assumed", tell_assumed(engine.list_assumed("gas") or ())),
+        ("source", engine.source if whole else ""),
+    )
+    return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _tell_placed(one: Placed, system: System) -> str:
+    """Return an engine's file, where it stands and how it turns."""
+    words = [one.file, f"at {tell_place(one.at_m, system)}"]
+    words += [f"turned by {given(float(one.turn_deg))} deg"] if one.turn_deg else []
+    words += [f"leads by {given(float(one.phase_deg))} deg"] if one.phase_deg else []
+    words += ["turns against the first"] if one.ratio < 0 else []
+    words += ["drives the load"] if one.load else []
+    return ", ".join(words)
+
+
+def tell_place(point: Iterable[Figure], system: System) -> str:
+    """Return a point in words: "x, y, z = 0, 0, 100 mm"."""
+    unit = system.length
+    return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 
 def _tell_inferred(engine: Engine) -> str:

@@ -26,7 +26,8 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import EPS, Array, unit
 from ..core.records import Node
 from ..engine.devices import build_device
-from ..engine.engine import Engine
+from ..engine.engine import Engine, Placed
+from ..engine.figures import place_in_plane
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL
@@ -37,14 +38,13 @@ from .planes import (
     as_millimetres,
     find_planes,
     measure_direction,
+    move_along,
     takes_moment,
 )
 from .remedy import Remedy, fit_devices
 from .residual import (
-    BACKWARD,
     BACKWARD_MOMENT,
     FORCE,
-    FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
     MOMENT,
@@ -54,6 +54,7 @@ from .residual import (
     ResidualPart,
     find_residual,
     hold_steady,
+    list_parts,
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
@@ -77,6 +78,7 @@ class Slot(NamedTuple):
         z, place: Position along the crank, m; place x + iy, m.
         direction_deg: Direction of a slider's path, from x.
         role: Role of a shaft.
+        carrier: Of geared engines, the one whose crank carries a counterweight.
     """
 
     kind: Literal["counterweight", "shaft", "slider"]
@@ -86,9 +88,21 @@ class Slot(NamedTuple):
     place: complex = 0j
     direction_deg: float = 0.0
     role: str = "balancer"
+    carrier: Placed | None = None
+
+    @classmethod
+    def on_crank(cls, one: Placed, z: float) -> Slot:
+        """Return the place of a counterweight on a crank: of the engine, or of one of several."""
+        if not one.name:
+            return cls("counterweight", 1, 1, z)
+        place = complex(place_in_plane(*one.at_m[:2]))
+        return cls("counterweight", 1, one.ratio, z, place, carrier=one)
 
     def make_device(self, unbalance: complex) -> Device:
         """The device of this unbalance (kg m) in this slot, as rotating vectors."""
+        if self.carrier is not None:
+            both = (unbalance, 0j) if self.sense > 0 else (0j, unbalance)
+            return Device(1, *both, self.place, self.z, DeviceKind.COUNTERWEIGHT)
         return build_device(self.make_table(unbalance, 0.0), 0.0)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
@@ -97,10 +111,15 @@ class Slot(NamedTuple):
         `first_axis_deg`.
         """
         on_crank = self.kind == "counterweight"
+        carrier = self.carrier
+        if carrier is not None:
+            first_axis_deg = float(carrier.engine.first_axis_deg)
+            unbalance = carrier.find_own_unbalance(unbalance)
         angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
         values: Node = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
         x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
         if on_crank:
+            values |= {} if carrier is None else {"engine": carrier.name}
             return Counterweight.model_construct(**values)
         values["at"] = (x, y)
         if self.kind == "shaft":
@@ -267,23 +286,32 @@ class Fitting(NamedTuple):
         Args:
             keep_overbalance: Whether counterweights of the file that balance more stay as they are.
         """
-        engine, residual = self.engine, self.find_residual(1)
-        if engine.rotary:
-            return self
+        fitting = self
+        for one in self.engine.cranks:
+            if not one.engine.rotary:
+                fitting = fitting._balance_crank(move_along(one), keep_overbalance)
+        return fitting
+
+    def _balance_crank(self, one: Placed, keep_overbalance: bool) -> Fitting:
+        """Return the fitting with counterweights for the rotating masses of one crank."""
+        engine, residual = one.engine, self.find_residual(1)
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
         directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
         pins = masses * float(engine.cylinders.radius) * directions
-        own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
-        vectors = np.array([*pins, *(one.forward for one in own)])
-        z = np.array([*engine.cylinders.z, *(one.z for one in own)])
+        own = [each for each in engine.devices if each.kind is DeviceKind.COUNTERWEIGHT]
+        at_zero = np.array([*pins, *(each.forward for each in own)])
+        vectors = one.turn(unit(one.phase_deg) * at_zero) if one.name else at_zero
+        moved = float(one.at_m[2])
+        z = np.array([*engine.cylinders.z, *(each.z + moved for each in own)])
         force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
-        if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
+        if keep_overbalance and (pins.sum().conjugate() * at_zero.sum()).real < 0:
             return self
-        parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
+        senses = list_parts(one.ratio)
+        parts = {**residual.parts, **dict(zip(senses, (force, moment), strict=True))}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
         turning = residual._replace(parts=parts)
-        slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
-        return self.cancel(slots, FORWARD, _ROTATING, turning)
+        slots = [Slot.on_crank(one, z) for z in find_planes(engine, turning, one.ratio)]
+        return self.cancel(slots, senses, _ROTATING, turning)
 
     def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
         """Return the fitting with details, by these keys of `_LEFT_OF`, on the residual."""
@@ -313,11 +341,14 @@ def _size_total_roll(engine: Engine, order: int) -> float:
     return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])
 
 
-def explain_counterweights(residual: Residual) -> str:
-    """Return why weights are fitted for the part of order 1 that turns with the crank."""
-    both = "both" if residual.force(1) and residual.moment(1) else "it"
+def explain_counterweights(residual: Residual, sense: int = 1) -> str:
+    """Return why weights are fitted for the part of order 1 that turns with a crank, in the sense
+    of the first one or against it.
+    """
+    both = "both" if residual.force(sense) and residual.moment(sense) else "it"
     turn = "counterweights turn with it too and cancel"
-    return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
+    crank = "with the crank" if sense > 0 else "with the crank that turns against the first"
+    return f"{_name(residual, sense)} turning {crank}: {turn} {both}"
 
 
 def explain_shaft(
@@ -362,7 +393,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
 
 def _name(residual: Residual, sense: int) -> str:
     """Return the order and its kinds of parts in this sense, in words."""
-    kinds = [part.kind for part in (FORWARD if sense > 0 else BACKWARD) if residual.parts[part]]
+    kinds = [part.kind for part in list_parts(sense) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"
 
 

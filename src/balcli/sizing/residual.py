@@ -36,6 +36,11 @@ FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMEN
 ROLL = ResidualPart("roll", 0)
 
 
+def list_parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
+    """Return force and moment that turn in a sense: 1 with the crank, -1 against it."""
+    return FORWARD if sense > 0 else BACKWARD
+
+
 class ReferencePoint(NamedTuple):
     """A point about which moments are taken: x + iy and z, m."""
 
@@ -115,7 +120,7 @@ def find_size(residual: Residual, sense: int, scales: Scales) -> float:
     """Return the size of what turns in a sense (1 with the crank, -1 against it): force and moment
     as shares of one cylinder's, the larger of both.
     """
-    return max(find_share(residual, part, scales) for part in (FORWARD if sense > 0 else BACKWARD))
+    return max(find_share(residual, part, scales) for part in list_parts(sense))
 
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
