@@ -24,7 +24,7 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.fields import join_words
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed, list_tables
+from ..file.plain_tables import choose_assumed, join_assumed, list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
 from .figures import place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
@@ -257,11 +257,11 @@ class Engine:
             without: Keys that do not count.
         """
         if self.placed:
-            each = [one.engine.list_assumed(*chapters, without=without) or () for one in self.cranks]
-            named = zip((one.name for one in self.placed), each, strict=True)
-            common = [line for line in each[0] if all(line in lines for lines in each)]
-            own = (f"{name}.{x}" for name, lines in named for x in lines if x not in common)
-            return (*common, *own) or None
+            of_each = {
+                one.name: one.engine.list_assumed(*chapters, without=without) or ()
+                for one in self.cranks
+            }
+            return join_assumed(of_each) or None
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
         return choose_assumed(self.inferred, chapters, {*given, *steady, *without}) or None

@@ -119,6 +119,8 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
     try:
         return build_with(changes)
     except InputError as error:
+        if model.engine:
+            raise
         needed = model.crank.throws is None or model.gas is not None
         named = _NO_FIRING_ORDER.keys() & changes.keys()
         if needed or named or model.layout.firing_order is None:
@@ -140,7 +142,7 @@ _OF_GAS = (
 
 def concerns_gas(path: str) -> bool:
     """Return whether the gas torque of a cylinder depends on a figure, by its dotted name."""
-    return re.fullmatch(_OF_GAS, path) is not None
+    return re.fullmatch(rf"(engine\.\d+\.)?({_OF_GAS})", path) is not None
 
 
 Key = TypeVar("Key")

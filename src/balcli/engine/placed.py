@@ -7,10 +7,10 @@ each, in its own axes and by its own crank angle.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TypeVar, cast
+from typing import cast
 
 import numpy as np
 
@@ -19,17 +19,15 @@ from ..core.phasors import Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import BalcliError, InputError, Problem
 from ..file.csv_columns import locate_beside
-from ..file.engine_tables import check_engines, name_engines
+from ..file.engine_tables import check_engines
 from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from .build import build, find_wheel
 from .devices import build_fitted
 from .engine import Engine, Placed, Rating
-from .figures import FileFigures, place_in_plane
+from .figures import FileFigures, place_in_plane, select_varied
 from .gas import EngineGas
-
-T = TypeVar("T")
 
 
 # ------------------------------------------------------------------ files
@@ -143,19 +141,6 @@ def build_geared(
     return replace(whole, devices=tuple(_build_devices(model, figures, whole)))
 
 
-def select_varied(varied: Mapping[str, T], number: int) -> Iterator[tuple[str, T]]:
-    """Yield the figures of the file of one engine (from 1) that vary, by their names in it: all
-    turn at the speed of the whole.
-    """
-    start = f"engine.{number}."
-    for path, value in varied.items():
-        own = path.removeprefix(start)
-        if own != path and "." in own and not own.startswith("at."):
-            yield own, value
-        elif path == "operation.speed" or (number == 1 and path.startswith("operation.")):
-            yield path, value
-
-
 def _place_engines(
     model: EngineFile, figures: FileFigures, engines: Sequence[Engine]
 ) -> tuple[Placed, ...]:
@@ -164,7 +149,7 @@ def _place_engines(
     loads = [table.load if given else k == 0 for k, table in enumerate(tables)]
     driving = tables[loads.index(True)].ratio
     found = []
-    for k, (name, table, engine) in enumerate(zip(name_engines(tables), tables, engines, strict=True)):
+    for k, (name, table, engine) in enumerate(zip(model.crank_names, tables, engines, strict=True)):
         path = f"engine.{k + 1}"
         x, y, z = (each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
         one = Placed(

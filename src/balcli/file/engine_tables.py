@@ -51,11 +51,6 @@ class Engine(FileTable):
     each has a load of its own. Example: true"""
 
 
-def name_engines(engines: tuple[Engine, ...]) -> tuple[str, ...]:
-    """Return the name of each engine: its own, or its letter."""
-    return tuple(engine.name or chr(ord("A") + k) for k, engine in enumerate(engines))
-
-
 def check_engines(model: EngineFile) -> Iterator[Problem]:
     """Yield the contradictions between the engines of a file, all of which could be read."""
     engines = model.engine
@@ -68,7 +63,7 @@ def check_engines(model: EngineFile) -> Iterator[Problem]:
         if getattr(engines[0], key) != type(engines[0]).model_fields[key].default:
             told = "the first engine is the reference; its ratio is 1 and its phase 0"
             yield Problem(f"engine.1.{key}", told)
-    names = name_engines(engines)
+    names = model.crank_names
     for k, name in enumerate(names):
         if name in names[:k]:
             told = f'"{name}" is engine {names.index(name) + 1} as well; give each its own name'

@@ -435,6 +435,16 @@ class EngineFile(FileTable):
         """The files of the engines that are geared together; an ordinary file is its own."""
         return self._cranks or (self,)
 
+    @property
+    def crank_names(self) -> tuple[str, ...]:
+        """Names of the engines of [[engine]]: their own, or letters."""
+        return tuple(one.name or chr(ord("A") + k) for k, one in enumerate(self.engine))
+
+    @property
+    def has_gas(self) -> bool:
+        """Whether the engine has [gas], or one of several that are geared together."""
+        return any(crank.gas is not None for crank in self.cranks)
+
     def with_table(self, key: str, **values: object) -> Self:
         """Return a copy of this file with other values in one table; they are not checked."""
         table: FileTable = getattr(self, key)

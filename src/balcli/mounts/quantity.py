@@ -66,7 +66,7 @@ class Variants:
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
         self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
         # The mean torque of the gas, less friction, leans on the mounts at rest.
-        self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
+        self._leans = model.has_gas and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:

@@ -108,7 +108,11 @@ class Sweep:
     def doubts(self) -> list[str]:
         """Warnings of unlikely figures of the file, without those that vary."""
         with naming_file(self.name):
-            all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
+            all_of_file = [
+                doubt
+                for crank in self.file.cranks
+                for doubt in (*find_suspicious(crank), *doubt_firing(crank))
+            ]
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
         return [d for d in all_of_file if not any(one in d for one in varied)]
 
@@ -185,7 +189,7 @@ def plan_sweep(
     if len(paths) > MOST_PARAMETERS:
         raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
-    asked = parse_quantities(wanted, with_gas=model.gas is not None)
+    asked = parse_quantities(wanted, with_gas=model.has_gas)
     sweep = Sweep(model, parameters, asked, name)
     corners = build_corners(sweep)
     if quantities is None:
@@ -231,7 +235,7 @@ def count_at_once(sweep: Sweep) -> int:
         return most
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.of_engine)
-    figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
+    figures = max(len(engine.numbers) * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_engine_samples(engine) // 2 ** len(sweep.parameters)
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 
