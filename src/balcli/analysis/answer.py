@@ -10,7 +10,7 @@ from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, Node, WrittenAs
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import Engine, check_engine, refuse_geared
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -55,6 +55,7 @@ UNASKED = (*KINDS, "peak")  # of every engine, unless something is named
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "pru")  # computed only when they are named
 DEFAULT_ORDERS = (1.0, 2.0)
+_OF_ONE_CRANK = ("inner", "guide", "journals", "masses")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -210,6 +211,8 @@ def analyze(
     check_type("beside", beside, Collection, "give engines, such as [engine]")
     for one in beside:
         check_engine("analyze", one)
+    if reasons or not wanted.isdisjoint(_OF_ONE_CRANK):
+        refuse_geared(engine)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
     of_gas = () if engine.gas is None else list_gas_orders(engine)
@@ -301,7 +304,8 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(f"by cylinder: {count} results; give orders for {most} at most")
     own = compute_spectra(engine, orders, kinds, each=True)
-    rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
+    named = engine.numbers if engine.placed else sorted(engine.numbers)
+    rows = ((n, engine.numbers.index(n)) for n in named)
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 
 

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..forces.kinds import COUPLE, GAS, ROLL
 from ..shell.inputs import exit_on_errors, name_engines, read_engine, silence_cylinders, try_each
 from ..shell.output import show
@@ -71,6 +71,8 @@ def answer(
 
     def find_one(path: str) -> tuple[str, str, object]:
         engine = read_engine(path, rpm, asked.words).engine
+        if "textbook" in asked.parts:
+            refuse_geared(engine)
         return engine.name, path, find(silence_cylinders(engine, asked.misfires, path))
 
     found, errors = try_each(paths, find_one)
@@ -112,7 +114,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
             wanted.append("ladder")
             if asked.whole or not for_people:
                 wanted.append("sizing")
-        if asked.whole and for_people:
+        if asked.whole and for_people and not engine.placed:
             wanted.append("guide")
     else:
         wanted = list(asked.quantities)

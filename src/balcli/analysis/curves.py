@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, compose, unit
-from ..engine.engine import Engine, check_engine, find_row
+from ..engine.engine import Engine, Placed, check_engine, find_crank
 from ..errors import BalcliError, check_number
 from ..forces.curves import (
     EngineMotion,
@@ -145,9 +145,11 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: the engine has no such cylinder.
     """
-    row = find_row(engine, number, "--cylinder")
+    one, row = find_crank(engine, number, "--cylinder")
     return _sum_parts(
-        engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
+        engine,
+        crank_deg,
+        lambda angles: _compute_cylinder_parts(one.engine, row, angles + one.phase_deg),
     )
 
 
@@ -180,16 +182,29 @@ def _sum_parts(
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return the curves of each cylinder and device, shape (cylinders and devices, angles)."""
+    each = [_compute_crank_parts(one, crank_deg + one.phase_deg) for one in engine.cranks]
+    return {name: np.concatenate([parts[name] for parts in each]) for name in each[0]}
+
+
+def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
+    """Return the same curves of one crank, as all see them.
+
+    Args:
+        one: Engine with this crank, one of several or the only one.
+        crank_deg: Its own crank angles, shape (angles,).
+    """
+    engine = one.engine
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
-    force = np.concatenate([_force_of_cylinders(motion), of_devices])
+    own_force = np.concatenate([_force_of_cylinders(motion), of_devices])
     x, y, z = engine.reference_m
     levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
-    moment = 1j * (levels - float(z))[:, None] * force
+    moment = one.turn_axial(1j * (levels - float(z))[:, None] * own_force)
+    force = one.turn(own_force)
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
-    arms = (np.conj(places)[:, None] * force).imag
-    couple = np.concatenate([_couple_of_cylinders(motion), arms])
+    arms = (np.conj(places)[:, None] * own_force).imag
+    couple = one.ratio * np.concatenate([_couple_of_cylinders(motion), arms])
     torque = _torque_of_cylinders(motion)
     return {
         FORCE.key_along("x"): force.real,
@@ -198,7 +213,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
         MOMENT.key_along("y"): moment.imag,
         COUPLE.key: couple,
         TORQUE.key: torque,
-        ROLL.key: np.concatenate([couple, -torque]),
+        ROLL.key: np.concatenate([couple, -one.load_sense * torque]),
     }
 
 
@@ -240,13 +255,16 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
 
 
 _ROUNDING = 1e-14
+_BORNE = "borne"  # the gas torque that the frame bears, in the sense of the load
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return the torque of all cylinders' gas, N m, shape (angles,)."""
     at = np.radians(crank_deg)
-    each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
-    return {GAS.key: sum(each, np.zeros(at.shape))}
+    each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
+    senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
+    borne = (sense * torque for sense, torque in zip(senses, each, strict=True))
+    return {GAS.key: sum(each, np.zeros(at.shape)), _BORNE: sum(borne, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
@@ -345,14 +363,17 @@ def compute_curves_by_step(
         found = compute_cylinder_curves(engine, cylinder, crank_deg)
     if engine.gas is None:
         return found
-    compute = partial(_find_gas_torque, engine)
+    compute, own_deg = partial(_find_gas_torque, engine), crank_deg
     if cylinder is not None:
-        compute = partial(_find_cylinder_gas, engine, engine.numbers.index(cylinder))
+        one, row = find_crank(engine, cylinder, "--cylinder")
+        if one.engine.gas is None:
+            return found
+        compute, own_deg = partial(_find_cylinder_gas, one.engine, row), crank_deg + one.phase_deg
     every = dict(found.curves)
-    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, crank_deg, compute).items()}
+    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, own_deg, compute).items()}
     if cylinder is None:
         every[TORQUE_TOTAL.key] = every[TORQUE.key] + every[GAS.key]
-        every[ROLL_TOTAL.key] = every[ROLL.key] - every[GAS.key]
+        every[ROLL_TOTAL.key] = every[ROLL.key] - every.pop(_BORNE)
     return replace(found, curves=every)
 
 

@@ -124,7 +124,8 @@ def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterato
     asked for.
     """
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
-    parts = view.parts or {*EVERY_KIND, "xy", "textbook"}
+    of_one = set() if result.engine.placed else {"textbook"}
+    parts = view.parts or {*EVERY_KIND, "xy", *of_one}
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)

@@ -101,6 +101,10 @@ class Placed(NamedTuple):
         own = back if self.ratio > 0 else np.conj(back)
         return complex(np.conj(unit(self.phase_deg)) * own)
 
+    def turn_axial(self, vector: complex | Complex) -> complex | Complex:
+        """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
+        return self.ratio * self.turn(vector)
+
     def find_place(self, own: complex | Complex) -> complex | Complex:
         """Return a point x + iy of its own axes in those of all, m."""
         return self.turn(own) + place_in_plane(*self.at_m[:2])
@@ -327,7 +331,7 @@ class Engine:
         are on a linkage.
         """
         c = self.cylinders
-        return c.linkage is not None and c.linkage.turning
+        return c.linkage is not None and c.linkage.turning and not self.placed
 
     @property
     def equal(self) -> bool:
@@ -473,6 +477,18 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
+def find_crank(engine: Engine, number: int, option: str) -> tuple[Placed, int]:
+    """Return the engine of a cylinder, one of several or the only one, and its row in that engine's
+    arrays; arguments and errors as of `find_row`.
+    """
+    row = find_row(engine, number, option)
+    for one in engine.cranks:
+        if row < len(one.engine.numbers):
+            break
+        row -= len(one.engine.numbers)
+    return one, row
+
+
 def find_row(engine: Engine, number: int, option: str) -> int:
     """Return the row of a cylinder in the arrays of its engine.
 
@@ -486,6 +502,6 @@ def find_row(engine: Engine, number: int, option: str) -> int:
     """
     if number not in engine.numbers:
         some = f"{engine.name or 'the engine'} has the cylinders "
-        some += ", ".join(map(str, sorted(engine.numbers)))
+        some += ", ".join(map(str, engine.numbers if engine.placed else sorted(engine.numbers)))
         raise BalcliError(f"{option} {number}: {some}")
     return engine.numbers.index(number)

@@ -11,8 +11,10 @@ Gas: torque of all cylinders on the crank over the cycle, with and without the i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import reduce
+from operator import add
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -67,7 +69,13 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
         engine: Engine without trailing axes.
         crank_deg: Crank angles, deg, shape (angles,).
     """
-    return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
+    motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
+    return sum_curves(_torque_of_cylinders(motion).sum(axis=0) for motion in motions)
+
+
+def sum_curves(curves: Iterable[Array]) -> Array:
+    """Return the sum of curves, at least one."""
+    return reduce(add, curves)
 
 
 def compute_piecemeal(
@@ -210,6 +218,9 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    # A two-stroke engine's cycle comes twice in the one of a four-stroke engine geared to it
+    twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
+    cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
     inertia = find_inertia_torque(engine)
     total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
@@ -221,6 +232,8 @@ def count_repeats(engine: Engine) -> int:
     equal and fire evenly to the last digit. One interval is computed in a quarter of the time.
     """
     gas, c = take_gas(engine), engine.cylinders
+    if engine.placed:
+        return 1
     columns = (c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
     gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
     if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
@@ -247,6 +260,11 @@ def find_moving_inertia(engine: Engine) -> Function:
     crank angles (rad) of any shape. Throw masses are left out where the crankshaft's own inertia is
     given, which has them; those of a rotary engine stand still.
     """
+    if engine.placed:
+        cranks = [
+            (find_moving_inertia(one.engine), np.radians(one.phase_deg)) for one in engine.cranks
+        ]
+        return lambda angle: sum_curves(moving(angle + lead) for moving, lead in cranks)
     if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
