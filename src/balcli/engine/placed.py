@@ -63,9 +63,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     return draft._replace(model=model, problems=tuple(problems))
 
 
-def _parse_one(
-    parse: Callable[[bytes, str], EngineFile], content: bytes, name: str
-) -> EngineFile:
+def _parse_one(parse: Callable[[bytes, str], EngineFile], content: bytes, name: str) -> EngineFile:
     model = parse(content, name)
     if model.engine:
         told = "has [[engine]] itself; name files of single engines"
@@ -111,34 +109,61 @@ def build_geared(
             engines.append(build(crank, own or None, rank=rank))
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
-    figures, first = FileFigures(changes, model), engines[0]
-    placed = _place_engines(model, figures, engines)
-    power = model.operation.power
+    figures = FileFigures(changes, model)
+    whole = gear_engines(_place_engines(model, figures, engines))
+    given, power = model.frame.reference, model.operation.power
+    if given is not None:
+        x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
+        whole = replace(whole, reference_m=(x, y, z))
     wheel = None if model.flywheel is None else find_wheel(figures, model.flywheel)
-    cylinders = [f"{one.name}.{n}" for one in placed for n in one.engine.numbers]
-    whole = replace(
-        first,
+    devices = (
+        build_fitted(table, whole, figures, path)
+        for path, table in model.tables()
+        if isinstance(table, Counterweight | Shaft | Slider)
+    )
+    return replace(
+        whole,
         name=model.name,
         source=model.source,
-        numbers=cast("tuple[int, ...]", tuple(cylinders)),
+        up_deg=model.frame.up,
+        devices=tuple(devices),
+        flywheel_inertia=_add([wheel, whole.flywheel_inertia]),
+        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
+        model=None if varied else model,
+    )
+
+
+def gear_engines(placed: Sequence[Placed]) -> Engine:
+    """Return engines that are geared together as one, at the speed and with the point of reference
+    of the first; it has no devices but those of each.
+    """
+    engines = [one.engine for one in placed]
+    first, fired = placed[0], [engine for engine in engines if engine.gas is not None]
+    x, y, z = first.engine.reference_m
+    place = first.find_place(place_in_plane(x, y))
+    cylinders = tuple(f"{one.name}.{number}" for one in placed for number in one.engine.numbers)
+    return replace(
+        first.engine,
+        name=" and ".join(engine.name or "an engine" for engine in engines),
+        source="",
+        numbers=cast("tuple[int, ...]", cylinders),
         fires_deg={},
-        strokes=max(engine.strokes for engine in engines),
+        strokes=max(engine.strokes for engine in fired or engines),
         throws_m=_join(one.engine.throws_m + one.at_m[2] for one in placed),
         pins_m=_join(one.engine.pins_m + one.at_m[2] for one in placed),
-        reference_m=_find_reference(model, figures, placed[0]),
-        up_deg=model.frame.up,
+        reference_m=(place.real, place.imag, z + first.at_m[2]),
+        devices=(),
         weighed=tuple(masses for engine in engines for masses in engine.weighed),
         places_known=all(engine.places_known for engine in engines),
         gas=_join_gas(placed),
         crank_inertia=_add(engine.crank_inertia for engine in engines if not engine.rotary),
-        flywheel_inertia=_add([wheel, *(engine.flywheel_inertia for engine in engines)]),
+        flywheel_inertia=_add(engine.flywheel_inertia for engine in engines),
         bearings=None,
-        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
+        rated=None,
         inferred=(),
-        model=None if varied else model,
-        placed=placed,
+        model=None,
+        placed=tuple(placed),
     )
-    return replace(whole, devices=tuple(_build_devices(model, figures, whole)))
 
 
 def _place_engines(
@@ -165,27 +190,6 @@ def _place_engines(
         )
         found.append(one)
     return tuple(found)
-
-
-def _find_reference(
-    model: EngineFile, figures: FileFigures, first: Placed
-) -> tuple[Figure, Figure, Figure]:
-    """Return the point of reference of the file, or that of the first engine where it stands, m."""
-    given = model.frame.reference
-    if given is not None:
-        x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
-        return x, y, z
-    x, y, z = first.engine.reference_m
-    place = first.find_place(place_in_plane(x, y))
-    return place.real, place.imag, z + first.at_m[2]
-
-
-def _build_devices(
-    model: EngineFile, figures: FileFigures, engine: Engine
-) -> Iterator[Device]:
-    for path, table in model.tables():
-        if isinstance(table, Counterweight | Shaft | Slider):
-            yield build_fitted(table, engine, figures, path)
 
 
 def _join(parts: Iterable[Figure]) -> np.ndarray:

@@ -149,8 +149,8 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 def find_crank_loads(engine: Engine) -> CrankLoads | None:
     """Return the largest inertia loads within the crankshaft of an engine with its counterweights;
-    None where positions are not known, of rotary or geared engines, and where there are too many loads to
-    keep apart.
+    None where positions are not known, of rotary or geared engines, and where there are too many
+    loads to keep apart.
     """
     if not engine.places_known or engine.rotary or engine.placed:
         return None

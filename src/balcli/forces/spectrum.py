@@ -155,9 +155,7 @@ def compute_spectra(
     return Spectra(wanted, engine.up_deg, **sums)
 
 
-def _add_cranks(
-    engine: Engine, orders: Array, kinds: Collection[str], *, each: bool
-) -> Spectra:
+def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: bool) -> Spectra:
     """Return the spectra of engines that are geared together; arguments as of `compute_spectra`."""
     if not GAS_KINDS.keys().isdisjoint(kinds) and engine.gas_of_variants is None:
         take_gas(engine)

@@ -52,10 +52,9 @@ from .shafts import (
 )
 from .single_cylinder import size_eccentric_slider, size_oldham
 
-
 _NO_CARRIER = (
-    "What turns against the cranks stays: no crank turns so that could carry it, and shafts take it "
-    "(auto)"
+    "What turns against the cranks stays, for no crank turns so and could carry it: shafts (auto) "
+    "take it"
 )
 _OF_ONE_CRANK = ("minimax", "ellipse", "eccentric-slider", "oldham")
 

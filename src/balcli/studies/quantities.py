@@ -230,9 +230,7 @@ class _VariedGas:
                 yield build(self._model, own)
 
 
-def _vary_gas(
-    model: EngineFile, engine: Engine, figures: Mapping[str, Array], rank: int
-) -> Engine:
+def _vary_gas(model: EngineFile, engine: Engine, figures: Mapping[str, Array], rank: int) -> Engine:
     """Return variants of an engine with their gas, if there is some."""
     if not model.has_gas:
         return engine
