@@ -34,7 +34,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import emit, refuse_overwriting, show
-from ..shell.values import optional, read_angle, read_lengths
+from ..shell.values import optional, parse_cylinder, read_angle, read_lengths
 from ..show.csv import csv_text, json_text
 from ..show.formats import Units
 from . import options as analysis_options
@@ -128,7 +128,9 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 
 
-Cylinder = Annotated[int | None, optional("N", "Motion of this piston, with [gas] its pressure.")]
+Cylinder = Annotated[
+    str | None, optional("N|NAME.N", "Motion of this piston, with [gas] its pressure.")
+]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
@@ -162,7 +164,8 @@ def curves(
 
     asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    found = chapter.compute_curves_by_step(engine, cylinder, step_deg, asked)
+    number = None if cylinder is None else parse_cylinder(cylinder)
+    found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])

@@ -239,7 +239,7 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
                 couple_constant_kg_m2=couple,
                 reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
             )
-        found.setdefault(one, []).append(number_)
+        found.setdefault(one, []).append(int(number_))
     return tuple(one._replace(cylinders=tuple(numbers)) for one, numbers in found.items())
 
 

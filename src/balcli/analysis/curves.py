@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, compose, unit
-from ..engine.engine import Engine, Placed, check_engine, find_crank
+from ..engine.engine import CylinderNumber, Engine, Placed, check_engine, find_crank
 from ..errors import BalcliError, check_number
 from ..forces.curves import (
     EngineMotion,
@@ -133,7 +133,7 @@ def _add_upright(engine: Engine, found: Curves) -> Curves:
     return replace(found, curves=curves, assumed=engine.list_assumed())
 
 
-def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
+def compute_cylinder_curves(engine: Engine, number: CylinderNumber, crank_deg: Array) -> Curves:
     """Return piston travel from top dead centre (m), velocity and acceleration away from it (m/s,
     m/s2) and rod angle (deg) of one cylinder.
 
@@ -307,7 +307,7 @@ def curves(
     engine: Engine,
     step_deg: float = 1.0,
     *,
-    cylinder: int | None = None,
+    cylinder: int | str | None = None,
     orders: Iterable[float] | None = None,
 ) -> Curves:
     """Return force, moment, couple, torque and roll over the crank angle, or the motion of one
@@ -316,8 +316,9 @@ def curves(
     Args:
         engine: Engine from `load`.
         step_deg: Step of the crank angle, which begins at 0; with gas it runs over the whole cycle.
-        cylinder: Number of the cylinder whose piston travel, speed, acceleration and rod angle are
-            wanted, with its pressure if it has gas; default: the whole engine.
+        cylinder: Number of the cylinder (of geared engines "upper.3") whose piston travel, speed,
+            acceleration and rod angle are wanted, with its pressure if it has gas; default: the
+            whole engine.
         orders: Orders of the whole engine whose sum alone is wanted; default: all.
 
     Returns:
@@ -334,13 +335,15 @@ def curves(
     """
     engine = check_engine("curves", engine)
     step = check_number("step_deg", step_deg, "give a step in degrees")
-    number = None if cylinder is None else check_count("cylinder", cylinder)
+    number = cylinder
+    if cylinder is not None and not isinstance(cylinder, str):
+        number = check_count("cylinder", cylinder)
     return compute_curves_by_step(engine, number, step, orders)
 
 
 def compute_curves_by_step(
     engine: Engine,
-    cylinder: int | None,
+    cylinder: CylinderNumber | None,
     step_deg: float,
     orders: Iterable[float] | None = None,
 ) -> Curves:

@@ -20,7 +20,7 @@ from ..core.mechanisms.slidercrank import fastest_two_term
 from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
-from ..engine.engine import Engine, check_engine, find_row
+from ..engine.engine import Engine, check_engine, find_row, refuse_geared
 from ..show.csv import Rows
 from ..show.engine_facts import name_cylinders, tell_speed
 from ..show.formats import Renderer
@@ -171,6 +171,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
         >>> analyze_pistons(load("i4.toml")).mechanisms[0].velocity.max_m_per_s
     """
     engine = check_engine("analyze_pistons", engine)
+    refuse_geared(engine)
     c, numbers = engine.cylinders, np.array(engine.numbers)
     orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
     harmonics, which = c.find_distinct_harmonics(orders, {"piston"})

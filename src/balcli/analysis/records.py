@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
+from ..engine.engine import CylinderNumber
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -29,11 +30,11 @@ class CylinderShare(NamedTuple):
     """One cylinder's share, by itself.
 
     Attributes:
-        cylinder: Number of the cylinder.
+        cylinder: Number of the cylinder; of geared engines with the name of its engine.
         spectra: Orders of its forces and moments.
     """
 
-    cylinder: int
+    cylinder: CylinderNumber
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
 
 

@@ -21,7 +21,7 @@ from ..core.phasors import Array, unit
 from ..core.records import Node
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import CylinderNumber, Engine, check_engine
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type, list_values
@@ -343,7 +343,7 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
     return turn_deg
 
 
-def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
+def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> list[int]:
     """Return the row of the first cylinder of each bank."""
     cells = plan_cylinders(model).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}

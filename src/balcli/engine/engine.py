@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -32,6 +32,9 @@ from .rods import CylinderMasses
 
 if TYPE_CHECKING:
     from .gas import EngineGas
+
+
+CylinderNumber: TypeAlias = int | str  # 3; of geared engines with the engine's name: "upper.3"
 
 
 class Bearings(NamedTuple):
@@ -56,8 +59,8 @@ class SilentCylinders(NamedTuple):
         without_burning: Compress and expand, but burn nothing.
     """
 
-    without_gas: tuple[int, ...] = ()
-    without_burning: tuple[int, ...] = ()
+    without_gas: tuple[CylinderNumber, ...] = ()
+    without_burning: tuple[CylinderNumber, ...] = ()
 
 
 class Placed(NamedTuple):
@@ -87,7 +90,7 @@ class Placed(NamedTuple):
     load: bool = True
     load_sense: int = 1
 
-    def turn(self, vector: complex | Complex) -> complex | Complex:
+    def turn(self, vector: complex | Complex) -> Complex:
         """Return a vector of its own axes in those of all."""
         seen = vector if self.ratio > 0 else np.conj(vector)
         turned: Complex = unit(self.turn_deg) * seen
@@ -101,15 +104,15 @@ class Placed(NamedTuple):
         own = back if self.ratio > 0 else np.conj(back)
         return complex(np.conj(unit(self.phase_deg)) * own)
 
-    def turn_axial(self, vector: complex | Complex) -> complex | Complex:
+    def turn_axial(self, vector: complex | Complex) -> Complex:
         """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
         return self.ratio * self.turn(vector)
 
-    def find_place(self, own: complex | Complex) -> complex | Complex:
+    def find_place(self, own: complex | Complex) -> Complex:
         """Return a point x + iy of its own axes in those of all, m."""
         return self.turn(own) + place_in_plane(*self.at_m[:2])
 
-    def find_own_place(self, place: complex | Complex) -> complex | Complex:
+    def find_own_place(self, place: complex | Complex) -> Complex:
         """Return a point x + iy of the axes of all in its own, m."""
         back: Complex = np.conj(unit(self.turn_deg)) * (place - place_in_plane(*self.at_m[:2]))
         return back if self.ratio > 0 else np.conj(back)
@@ -162,7 +165,7 @@ class Engine:
 
     name: str
     source: str
-    numbers: tuple[int, ...]
+    numbers: tuple[CylinderNumber, ...]
     cylinders: Cylinders
     fires_deg: Mapping[int, Figure]
     strokes: int
@@ -347,7 +350,7 @@ class Engine:
         return self.cylinders.axis_deg[self.cylinders.first]
 
     @property
-    def pins_deg(self) -> dict[int, Figure]:
+    def pins_deg(self) -> dict[CylinderNumber, Figure]:
         """Angle of each cylinder's crank pin from that of cylinder 1, by number."""
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
 
@@ -421,7 +424,8 @@ class Engine:
         """Cylinders that do not fire; none for an engine without [gas]."""
         if self.gas is None:
             return NONE_SILENT
-        each = sorted(zip(self.numbers, self.gas.cylinders, strict=True))
+        each = [*zip(self.numbers, self.gas.cylinders, strict=True)]
+        each = each if self.placed else sorted(each)
         return SilentCylinders(
             tuple(number for number, own in each if not own.share),
             tuple(number for number, own in each if own.share and own.heat == 0),
@@ -452,17 +456,16 @@ def check_engine(function: str, value: object) -> Engine:
     return value
 
 
-def refuse_geared(engine: Engine) -> None:
+def refuse_geared(subject: Engine | EngineFile) -> None:
     """Raise an error for engines that are geared together, where one crank alone is looked at.
 
     Raises:
-        BalcliError: The engine is made of several.
+        BalcliError: The engine, or its file, is made of several.
     """
-    if engine.placed:
-        files = join_words([*dict.fromkeys(one.file for one in engine.placed)])
-        told = "are geared together; run this on one of them"
-        told = told if " and " in files else "is geared to itself; run this on it"
-        raise BalcliError(f"{files} {told}")
+    geared = subject.placed if isinstance(subject, Engine) else subject.engine
+    if geared:
+        files = join_words([one.file or one.name for one in geared])
+        raise BalcliError(f"{files} are geared together; run this on one of them")
 
 
 def take_model(engine: Engine) -> EngineFile:
@@ -477,7 +480,7 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
-def find_crank(engine: Engine, number: int, option: str) -> tuple[Placed, int]:
+def find_crank(engine: Engine, number: CylinderNumber, option: str) -> tuple[Placed, int]:
     """Return the engine of a cylinder, one of several or the only one, and its row in that engine's
     arrays; arguments and errors as of `find_row`.
     """
@@ -489,7 +492,7 @@ def find_crank(engine: Engine, number: int, option: str) -> tuple[Placed, int]:
     return one, row
 
 
-def find_row(engine: Engine, number: int, option: str) -> int:
+def find_row(engine: Engine, number: CylinderNumber, option: str) -> int:
     """Return the row of a cylinder in the arrays of its engine.
 
     Args:

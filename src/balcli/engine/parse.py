@@ -68,12 +68,16 @@ def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> Engi
 
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
-    if draft.model.engine:
-        from .placed import read_engines  # files of one engine do not load it
-
-        draft = read_engines(draft, parse)
-        if not draft.problems:
-            return draft.model
+    draft = join_engines(draft)
     if not draft.problems:
-        return infer_numbering(draft.model)
+        return draft.model if draft.model.engine else infer_numbering(draft.model)
     raise refuse([*draft.problems, *list_contradictions(draft)], name)
+
+
+def join_engines(draft: Draft) -> Draft:
+    """Return the readable part of a file; with [[engine]] also of the files of its engines."""
+    if not draft.model.engine:
+        return draft
+    from .placed import read_engines  # files of one engine do not load it
+
+    return read_engines(draft, parse)

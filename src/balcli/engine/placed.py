@@ -27,7 +27,7 @@ from .build import build, find_wheel
 from .devices import build_fitted
 from .engine import Engine, Placed, Rating
 from .figures import FileFigures, place_in_plane, select_varied
-from .gas import EngineGas
+from .gas import CylinderGas, EngineGas
 
 
 # ------------------------------------------------------------------ files
@@ -146,7 +146,7 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
         first.engine,
         name=" and ".join(engine.name or "an engine" for engine in engines),
         source="",
-        numbers=cast("tuple[int, ...]", cylinders),
+        numbers=cylinders,
         fires_deg={},
         strokes=max(engine.strokes for engine in fired or engines),
         throws_m=_join(one.engine.throws_m + one.at_m[2] for one in placed),
@@ -211,7 +211,7 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     if not burning:
         return None
     cycle = max(gas.cycle_deg for gas in burning)
-    cylinders = []
+    cylinders = list[CylinderGas]()
     for one in placed:
         gas, start = one.engine.gas, len(cylinders)
         if gas is None:
@@ -219,7 +219,7 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
             cylinders += [idle] * len(one.engine.numbers)
             continue
         cylinders += (
-            own._replace(nominal_deg=own.nominal_deg - one.phase_deg, like=start + own.like)
+            own._replace(nominal_deg=own.nominal_deg - float(one.phase_deg), like=start + own.like)
             for own in gas.cylinders
         )
     return EngineGas(

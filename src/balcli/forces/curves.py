@@ -25,7 +25,7 @@ from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..engine.engine import Engine, find_row
+from ..engine.engine import CylinderNumber, Engine, find_row
 from ..errors import BalcliError
 from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
@@ -283,7 +283,7 @@ def find_constant_inertia(engine: Engine) -> float | None:
     return float(sum(given)) if given else None
 
 
-def silence(engine: Engine, number: int) -> Engine:
+def silence(engine: Engine, number: CylinderNumber) -> Engine:
     """Return the engine without the gas of one cylinder.
 
     Args:

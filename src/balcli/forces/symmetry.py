@@ -146,7 +146,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
         force=float(mass * c.radius * engine.omega**2),
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
-        cylinder=engine.numbers[row],
+        cylinder=int(engine.numbers[row]),
         equal=engine.equal,
     )
 

@@ -113,6 +113,18 @@ class BodyLoads:
         return np.any((self.inertia != 0) | (self.gas != 0), axis=1)
 
 
+def list_gas_kinds(engine: Engine) -> list[str]:
+    """Return the kinds by which `find_gas_reaction` is known."""
+    return ["roll", "roll_total"] if engine.placed else ["gas"]
+
+
+def find_gas_reaction(found: Spectra) -> Phasors:
+    """Return the torque of the gas that the load takes from the frame, N m: of geared engines in
+    the sense of the load, which is not that of the first crank everywhere.
+    """
+    return found["gas"] if found.gas is not None else found["roll"] - found["roll_total"]
+
+
 def find_loads(
     engine: Engine, centre: Real, orders: Real | None = None, gas_orders: Real | None = None
 ) -> BodyLoads:
@@ -134,7 +146,8 @@ def find_loads(
     usual = merge_orders(find_relevant_orders(engine), of_gas if fired else ())
     wanted = np.array(usual if orders is None else orders, np.float64)
     wanted = wanted[wanted > 0]
-    kinds = ("force", "moment", "roll", *["gas"] * fired)
+    of_engine = ("force", "moment", "roll")
+    kinds = tuple(dict.fromkeys((*of_engine, *list_gas_kinds(engine) * fired)))
     if engine.ripple:  # by orders of the time, in which the crank turns faster than over the angle
         found, turns = compute_spectra_in_time(engine, wanted, kinds)
     else:
@@ -147,8 +160,9 @@ def find_loads(
     inertia = load_at_centre(pull, turn, list(map(float, engine.reference_m)), centre)
     gas, mean, silent = np.zeros_like(inertia), 0.0, NONE_SILENT
     if fired:
-        gas[:, ROLL] = -found["gas"].drop_noise().x
-        indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
+        gas[:, ROLL] = -find_gas_reaction(found).drop_noise().x
+        still = compute_spectra(engine, [0.0], list_gas_kinds(engine))
+        indicated = float(find_gas_reaction(still).x[0].real)
         mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
     omega = turns * float(engine.omega)
     loads = BodyLoads(found.orders, inertia, omega, gas, mean, fired, silent)

@@ -30,7 +30,7 @@ from ..forces.spectrum import compute_spectra, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
 from ..show.figures import silent_entries
 from .build import BodyModes, MountedBody
-from .loads import BodyLoads, find_loads
+from .loads import BodyLoads, find_gas_reaction, find_loads, list_gas_kinds
 from .records import (
     BodyResponse,
     ForceOfOrder,
@@ -111,7 +111,8 @@ class RunningBody(NamedTuple):
         rows = np.linspace(0, len(omega) - 1, _LOOKED_AT).round().astype(int)
         some = np.unique(omega[rows])
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
-        roll = np.abs(compute_spectra(engine, every, ["gas"])["gas"].x)
+        found = compute_spectra(engine, every, list_gas_kinds(engine))
+        roll = np.abs(find_gas_reaction(found).x)
         sizes = roll[:, None, None] * running.bound_response(every, some)
         beyond = sizes[::-1].cumsum(axis=0)[::-1]  # of an order and all higher ones
         needed = (beyond > _BEYOND * own).any(axis=(1, 2))

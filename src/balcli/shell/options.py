@@ -114,9 +114,9 @@ Whole = Annotated[
     bool, typer.Option("--all", help="Every table and every order that is not rounding.")
 ]
 Misfire = Annotated[
-    list[int] | None,
+    list[str] | None,
     optional(
-        "N",
+        "N|NAME.N",
         "A cylinder without gas pressure, may be given again. If it still compresses, give "
         "[cylinder.N] heat = 0 in the file.",
     ),

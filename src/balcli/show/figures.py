@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
-from ..engine.engine import Engine, SilentCylinders
+from ..engine.engine import CylinderNumber, Engine, SilentCylinders
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
@@ -207,8 +207,8 @@ class EngineState:
     """
 
     speed_rpm: float
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
+    no_gas_in: tuple[CylinderNumber, ...] | None = None
+    no_burning_in: tuple[CylinderNumber, ...] | None = None
     reference_mm: tuple[float, ...]
 
 
@@ -230,7 +230,7 @@ class OrdersAndPeaks(Protocol):
 class FigureRow(NamedTuple):
     """One figure of a result; `cylinder` 0 is the engine, order None the whole curve."""
 
-    cylinder: int
+    cylinder: CylinderNumber
     quantity: str
     order: float | None
     figure: str
@@ -298,7 +298,7 @@ def list_assumed(
     return (*common, *(f"{name}: {keys}" for name, keys in others if keys)) or None
 
 
-def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
+def silent_entries(silent: SilentCylinders) -> dict[str, tuple[CylinderNumber, ...]]:
     """Return numbers of the cylinders without gas, and of those that compress and burn nothing."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: numbers for key, numbers in each.items() if numbers}
@@ -391,7 +391,9 @@ def phase_deg(c: complex | Complex) -> Array:
 
 # ------------------------------------------------------------------ as a list
 def figure_rows(
-    result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
+    result: OrdersAndPeaks,
+    system: System,
+    shares: Mapping[CylinderNumber, Spectra] = MappingProxyType({}),
 ) -> Iterator[FigureRow]:
     """Yield every figure of the orders and the peaks, one a row; none of moments that are not
     known.
@@ -427,7 +429,7 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
 
 
 def order_rows(
-    quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: int = 0
+    quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: CylinderNumber = 0
 ) -> Iterator[FigureRow]:
     """Yield all figures of one order.
 

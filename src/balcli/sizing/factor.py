@@ -17,7 +17,7 @@ from ..core.loads import share_by_lever
 from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
-from ..engine.engine import Engine
+from ..engine.engine import CylinderNumber, Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
@@ -40,7 +40,7 @@ class _Pin(NamedTuple):
     that is balanced opposite it, kg m; centre of these masses along z, m.
     """
 
-    cylinders: tuple[int, ...]
+    cylinders: tuple[CylinderNumber, ...]
     unbalance: complex
     z: float
 

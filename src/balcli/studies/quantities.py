@@ -19,7 +19,7 @@ from typing import Literal, Protocol, cast
 
 import numpy as np
 
-from ..core.phasors import Array, Phasors
+from ..core.phasors import Array, Figure, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.figures import select_varied
@@ -203,7 +203,7 @@ class _VariedGas:
     gas.
     """
 
-    def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
+    def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:
         self._model, self._engines = model, list[Engine]()
         self._figures = {path: value for path, value in figures.items() if concerns_gas(path)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
@@ -230,7 +230,9 @@ class _VariedGas:
                 yield build(self._model, own)
 
 
-def _vary_gas(model: EngineFile, engine: Engine, figures: Mapping[str, Array], rank: int) -> Engine:
+def _vary_gas(
+    model: EngineFile, engine: Engine, figures: Mapping[str, Figure], rank: int
+) -> Engine:
     """Return variants of an engine with their gas, if there is some."""
     if not model.has_gas:
         return engine

@@ -31,7 +31,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
-from ..shell.values import optional, read_inertia
+from ..shell.values import optional, parse_cylinder, read_inertia
 from ..show.formats import Units
 
 if TYPE_CHECKING:
@@ -50,7 +50,9 @@ EngineFile = Annotated[
 Fluctuation = Annotated[
     str | None, optional("1/200", "Also the inertia for this fluctuation of the speed; or 0.5%.")
 ]
-Cylinder = Annotated[int, typer.Option(metavar="N", help="Also the torque of cylinder N.")]
+Cylinder = Annotated[
+    str, typer.Option(metavar="N|NAME.N", help="Also the torque of this cylinder.")
+]
 LoadsOption = Annotated[
     str | None, optional("pin,main", "Also loads of pins and main bearings.", "--loads")
 ]
@@ -71,7 +73,7 @@ Write = Annotated[
 def torque(
     path: EngineFile = None,
     fluctuation: Fluctuation = None,
-    cylinder: Cylinder = 1,
+    cylinder: Cylinder = "1",
     misfire: Misfire = None,
     loads: LoadsOption = None,
     curve: Curve = None,
@@ -107,7 +109,7 @@ def torque(
     needed = "--curve; the inertia of an engine stands in its file: [crank] inertia, [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
-        misplaced["--cylinder"], needed = cylinder != 1, "an engine file"
+        misplaced["--cylinder"], needed = cylinder != "1", "an engine file"
     for option, value in misplaced.items():
         if value:
             raise BalcliError(f"{option} needs {needed}")
@@ -128,7 +130,11 @@ def torque(
         engine = named_by_file(source.engine, path or "")
         engine = silence_cylinders(engine, misfire or (), path or "")
         found = answer.analyze_torque_of_engine(
-            engine, asked, cylinder=cylinder, fluctuation=allowed, loads=loads or ()
+            engine,
+            asked,
+            cylinder=parse_cylinder(cylinder),
+            fluctuation=allowed,
+            loads=loads or (),
         )
         if found.loads is not None and found.loads.obstacle:
             warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
@@ -175,6 +181,9 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     ]
     keys = {"speed": result.speed_rpm, "speed_ripple": lines}
     text = set_keys(source.decode("utf-8-sig"), "operation", keys, _NOTE)
+    if result.no_gas_in and result.engine is not None and result.engine.placed:
+        told = "write [cylinder.N] gas = 0 into the file of that engine"
+        raise BalcliError(f"--write: a misfire stands in an engine's own file; {told}")
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..engine.engine import CylinderNumber
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
 from ..show.csv import Rows
@@ -47,7 +49,7 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
 def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[FigureRow]:
     # Torque by order of an engine is that of inertia here, as in `analyze`.
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
-    places = [(0, found["orders"])]
+    places: list[tuple[CylinderNumber, Any]] = [(0, found["orders"])]
     if result.engine is None:
         names[TORQUE_TOTAL.key] = TORQUE.name
     else:

@@ -15,7 +15,7 @@ import numpy as np
 from ...core.phases import TURN
 from ...core.records import HIDDEN, WrittenAs
 from ...engine.build import build
-from ...engine.engine import Engine, check_engine, take_model
+from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
 from ...errors import BalcliError, InputError, check_type, wrong_type
@@ -328,6 +328,7 @@ def search(
         >>> search(engine, "throws", "moment.1.major").to_pandas()
     """
     model = take_model(check_engine("search", engine))
+    refuse_geared(model)
     if not isinstance(over, (str, list, tuple)):
         raise wrong_type("search", over, 'give what to arrange, such as "throws"')
     texts = (join_names("search", over) or "").split(",")

@@ -173,6 +173,7 @@ def search(
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
     from ...engine import build, parse
+    from ...engine.engine import refuse_geared
     from . import answer, designs
 
     if require not in ("", "even-firing"):
@@ -180,6 +181,7 @@ def search(
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
+    refuse_geared(model)
     with naming_file(name):
         unlikely = build.build(model).unlikely
     varied = [text.partition("=")[0] for text in over]
