@@ -53,12 +53,13 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     cranks = tuple(filter(None, (found[table.file] for table in engines)))
     if not problems:
         operation = _lend_operation(model.operation, cranks[0].operation)
-        model = model.model_copy(update={"operation": operation})
         speed = operation.model_copy(update={"speed_ripple": ()})
         turning = [operation, *[speed] * (len(cranks) - 1)]
-        model._cranks = tuple(
-            crank.model_copy(update={"operation": one})
-            for crank, one in zip(cranks, turning, strict=True)
+        model = model.model_copy(update={"operation": operation}).with_cranks(
+            [
+                crank.model_copy(update={"operation": one})
+                for crank, one in zip(cranks, turning, strict=True)
+            ]
         )
     return draft._replace(model=model, problems=tuple(problems))
 

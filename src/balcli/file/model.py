@@ -435,6 +435,12 @@ class EngineFile(FileTable):
         """The files of the engines that are geared together; an ordinary file is its own."""
         return self._cranks or (self,)
 
+    def with_cranks(self, cranks: Sequence["EngineFile"]) -> Self:
+        """Return a copy of this file, which has [[engine]], with these files of its engines."""
+        copy = self.model_copy()
+        copy._cranks = tuple(cranks)
+        return copy
+
     @property
     def crank_names(self) -> tuple[str, ...]:
         """Names of the engines of [[engine]]: their own, or letters."""

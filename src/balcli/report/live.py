@@ -86,6 +86,8 @@ _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 def explain_still(engine: Engine) -> str:
     """Return why the page cannot compute an engine itself; empty if it can."""
+    if engine.placed:
+        return "it has several cranks"
     if isinstance(engine.cylinders.linkage, Rotary):
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:

@@ -261,6 +261,9 @@ def page(
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
+    drawn = None  # of geared engines no mechanism is shown
+    if not result.engine.placed:
+        drawn = scene(result, _list_variants(result, balanced), system)
     pictures = []
     for panel in (*alone, *beside):
         pictures.append(draw_panel(*panel))
@@ -275,10 +278,10 @@ def page(
         verdict=next((part for part in own.parts if part.title == "Verdict"), None),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
-        scene=scene(result, _list_variants(result, balanced), system),
+        scene=drawn,
         pictures=pictures[: len(alone)],
         compared=pictures[len(alone) :],
-        running=None if turning is None else running(turning, system),
+        running=running(turning, system) if turning and drawn else None,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),

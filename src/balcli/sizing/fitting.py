@@ -301,8 +301,7 @@ class Fitting(NamedTuple):
         own = [each for each in engine.devices if each.kind is DeviceKind.COUNTERWEIGHT]
         at_zero = np.array([*pins, *(each.forward for each in own)])
         vectors = one.turn(unit(one.phase_deg) * at_zero) if one.name else at_zero
-        moved = float(one.at_m[2])
-        z = np.array([*engine.cylinders.z, *(each.z + moved for each in own)])
+        z = np.array([*engine.cylinders.z, *(each.z for each in own)])
         force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
         if keep_overbalance and (pins.sum().conjugate() * at_zero.sum()).real < 0:
             return self

@@ -52,8 +52,9 @@ def move_along(one: Placed) -> Placed:
     if not z:
         return one
     cylinders = replace(own.cylinders, z=own.cylinders.z + z)
-    moved = replace(own, throws_m=own.throws_m + z, pins_m=own.pins_m + z, cylinders=cylinders)
-    return one._replace(engine=moved)
+    devices = tuple(device._replace(z=device.z + z) for device in own.devices)
+    moved = replace(own, throws_m=own.throws_m + z, pins_m=own.pins_m + z, devices=devices)
+    return one._replace(engine=replace(moved, cylinders=cylinders))
 
 
 def find_length(engine: Engine) -> tuple[float, float]:

@@ -4,17 +4,17 @@ tolerances: `scatter`. Every variant is analyzed as `sweep` would.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
 
-from ..core.phasors import Array
+from ..core.phasors import Array, Figure
 from ..core.records import HIDDEN
 from ..engine.build import build
 from ..engine.engine import Engine, check_engine, take_model
-from ..engine.figures import column
+from ..engine.figures import column, select_varied
 from ..engine.load import concerns_gas
 from ..errors import BalcliError, InputError, check_type
 from ..file.fields import Number, shorten
@@ -150,6 +150,20 @@ def _read_share(option: str, value: float | str) -> float:
     raise BalcliError(f"{option} {shorten(value)}: give {wanted}")
 
 
+def _weigh_throws(model: EngineFile, engine: Engine, figures: Mapping[str, Figure]) -> Engine:
+    """Return the engine with the masses of its throws, of which the file has but one."""
+    if engine.placed:
+        pairs = enumerate(zip(model.cranks, engine.placed, strict=True), 1)
+        own = [_weigh_throws(m, p.engine, dict(select_varied(figures, k))) for k, (m, p) in pairs]
+        placed = (p._replace(engine=e) for p, e in zip(engine.placed, own, strict=True))
+        return replace(engine, placed=tuple(placed))
+    nominal, c = model.crank.throw_mass, engine.cylinders
+    throws = [w.throw for w in engine.weighed]
+    changes = [figures.get(f"{THROW_MASS}{k + 1}", nominal) - nominal for k in throws]
+    shares = [change / throws.count(k) for change, k in zip(changes, throws, strict=True)]
+    return replace(engine, cylinders=replace(c, rotating=c.rotating + column(shares, 1)))
+
+
 # ------------------------------------------------------------------ random variants
 class Variants:
     """Variants of an engine file, and the quantities to compute for them.
@@ -217,26 +231,18 @@ class Variants:
             for source, column in zip(self.sources, deviations.T, strict=True)
             for path, line in source.figures.items()
         }
-        of_file = {k: v for k, v in figures.items() if not k.startswith(THROW_MASS)}
+        of_file = {k: v for k, v in figures.items() if THROW_MASS not in k}
         shape = (len(deviations),)
         try:
             engine = None
             if self._evaluator.of_engine:
-                engine = self._weigh_throws(self._evaluator.build(of_file, 1), figures)
+                engine = _weigh_throws(self.model, self._evaluator.build(of_file, 1), figures)
             return np.stack(self._evaluator.evaluate(of_file, shape, engine), axis=1)
         except InputError as error:
             raise BalcliError(
                 f"some engines within these tolerances are impossible: "
                 f"{error.problems[0].message}; give smaller tolerances"
             ) from None
-
-    def _weigh_throws(self, engine: Engine, figures: dict[str, Array]) -> Engine:
-        """Return the engine with the masses of its throws, of which the file has but one."""
-        nominal, c = self.model.crank.throw_mass, engine.cylinders
-        throws = [w.throw for w in engine.weighed]
-        changes = [figures.get(f"{THROW_MASS}{k + 1}", nominal) - nominal for k in throws]
-        shares = [change / throws.count(k) for change, k in zip(changes, throws, strict=True)]
-        return replace(engine, cylinders=replace(c, rotating=c.rotating + column(shares, 1)))
 
     def draw(
         self,
