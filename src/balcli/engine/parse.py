@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from ..errors import InputError, Problem
 from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
@@ -80,4 +81,12 @@ def join_engines(draft: Draft) -> Draft:
         return draft
     from .placed import read_engines  # files of one engine do not load it
 
-    return read_engines(draft, parse)
+    return read_engines(draft, _parse_one)
+
+
+def _parse_one(text: bytes, name: str) -> EngineFile:
+    draft = read_tables(text, name)
+    if draft.model.engine:
+        told = "has [[engine]] itself; name files of single engines"
+        raise InputError([Problem("", told)], name)
+    return _refuse_mistakes(draft, name)

@@ -17,9 +17,9 @@ import numpy as np
 from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
 from ..core.speed_ripple import RippleLine
-from ..errors import BalcliError, InputError, Problem
+from ..errors import BalcliError, InputError, Problem, note
 from ..file.csv_columns import locate_beside
-from ..file.engine_tables import check_engines
+from ..file.engine_tables import Engine as EngineTable, check_engines
 from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
@@ -36,7 +36,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
 
     Args:
         draft: The file without them.
-        parse: Function of an engine file's text and name to its model.
+        parse: Function of the text and name of one engine's file to its model.
     """
     model, problems = draft.model, list(draft.problems)
     engines = tuple(filter(None, model.engine))
@@ -49,8 +49,9 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
         found[table.file] = None
         with _collecting(problems, k, table.file):
             path = locate_beside(model.folder, table.file)
-            found[table.file] = _parse_one(parse, read_bytes(path), str(path))
+            found[table.file] = parse(read_bytes(path), str(path))
     cranks = tuple(filter(None, (found[table.file] for table in engines)))
+    _tell_ignored(engines, cranks)
     if not problems:
         operation = _lend_operation(model.operation, cranks[0].operation)
         speed = operation.model_copy(update={"speed_ripple": ()})
@@ -64,12 +65,15 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     return draft._replace(model=model, problems=tuple(problems))
 
 
-def _parse_one(parse: Callable[[bytes, str], EngineFile], content: bytes, name: str) -> EngineFile:
-    model = parse(content, name)
-    if model.engine:
-        told = "has [[engine]] itself; name files of single engines"
-        raise InputError([Problem("", told)], name)
-    return model
+_IGNORED = ("body", "mount", "point", "torsion", "operation", "frame")
+
+
+def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
+    """List the tables of engines' files that do not count; the first lends speed and reference."""
+    for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
+        keys = [key for key in (_IGNORED if k else _IGNORED[:4]) if crank.has(key)]
+        if keys:
+            note(f"{table.file}: does not count in engine {k + 1}: {', '.join(keys)}")
 
 
 @contextmanager
