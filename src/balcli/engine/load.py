@@ -12,13 +12,13 @@ import numpy as np
 from ..core.records import Node
 from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
-from ..file.examples import text
+from ..file.examples import locate
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .parse import parse, parse_dict, parse_tables
+from .parse import parse_dict, parse_tables, read
 
 if TYPE_CHECKING:
     from .gas import EngineGas
@@ -91,7 +91,7 @@ def load_example(name: str) -> Engine:
     """
     if not isinstance(name, str):
         raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
-    return build(parse(text(name), name))
+    return build(read(locate(name)))
 
 
 # ------------------------------------------------------------------ variants of an engine

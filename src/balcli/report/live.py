@@ -212,7 +212,7 @@ def make_examples() -> Node:
     engines = {}
     for name in examples.names():
         written = examples.text(name)
-        model = parse(written, name)
+        model = parse(written, str(examples.locate(name)))
         engine = build(model)
         if not explain_still(engine):
             engines[name] = describe_engine(model, engine, written)
