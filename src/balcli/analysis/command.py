@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, assert_never
 
 import typer
 
 from ..errors import BalcliError
-from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
+from ..shell.file_names import (
+    SERIES,
+    SeriesFormat,
+    format_of,
+    format_option,
+    require_ending,
+    text_format,
+)
 from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
     PARTS,
@@ -33,7 +41,7 @@ from ..shell.options import (
     parse_small,
     parse_speed,
 )
-from ..shell.output import emit, refuse_overwriting, show
+from ..shell.output import emit, refuse_overwriting, show, write_file
 from ..shell.values import optional, parse_cylinder, read_angle, read_lengths
 from ..show.csv import csv_text, json_text
 from ..show.formats import Units
@@ -213,6 +221,7 @@ Phase = Annotated[
 At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Place of the second engine's origin, mm.")]
 Turn = Annotated[str, typer.Option(metavar="DEG", help="How far it is turned about z.")]
 Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write both as a file with [[engine]].")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]
@@ -226,26 +235,33 @@ def sum(  # noqa: A001 (the command's name)
     turn: Turn = "0",
     reverse: Reverse = False,
     load: LoadOption = "first",
+    write: Write = None,
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines; a short form of
+    a file with [[engine]], which all commands read.
 
     \b
-    Example:
+    Examples:
       balcli sum i4.toml i4.toml --phase 90 --at 300,0,0
+      balcli sum i4.toml i4.toml --phase 90 --at 300,0,0 --write h8.toml
     """
-    refuse_overwriting(reads=[first, second], writes={"--output": output})
+    paths = [first, second]
+    refuse_overwriting(reads=paths, writes={"--output": output, "--write": write})
     form = text_format(output, form)
-    from .two_engines import RENDERER, Arrangement, combine_engines
+    require_ending(write, ".toml", "--write")
+    from .two_engines import RENDERER, Arrangement, combine_engines, describe_file
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
     x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
     lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
     arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
-    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
+    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in paths]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
+    if write is not None:
+        write_file(describe_file(result, paths, write, rpm), write)
     show([result], RENDERER, form, output, units)

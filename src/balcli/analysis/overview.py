@@ -269,6 +269,7 @@ def verdict(
     *,
     small: float = SMALL,
     steady: bool = True,
+    turning: Collection[int] = (1,),
 ) -> tuple[str, ...]:
     """Return a sentence for every order that is not small, and one on the others, each of at most
     25 words; none without forces and moments.
@@ -280,6 +281,7 @@ def verdict(
         small: Share of it below which a part is small.
         steady: Whether the speed is. If not, no cure is named: most of an order may come from
             another one through the unevenness, and vanishes with that one.
+        turning: Senses in which cranks turn, seen from the first: they carry counterweights.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -306,7 +308,7 @@ def verdict(
             large=[vector for vector, found in senses.items() if found],
             rest=[vector for vector, found in senses.items() if not found],
             couple=f"roll couple of {size_text(couple, system.moment)}" if told else "",
-            cures=_find_cures(order, due) if steady else {},
+            cures=_find_cures(order, due, turning) if steady else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
@@ -325,12 +327,13 @@ def verdict(
     return (*told, sentence(last)) if last else tuple(told)
 
 
-def _find_cures(order: float, due: Collection[int]) -> dict[int, str]:
+def _find_cures(order: float, due: Collection[int], turning: Collection[int]) -> dict[int, str]:
     """Return what would cancel the parts of an order that turn in these senses, by sense."""
     if order % 1:
         return {}  # no device turns at half orders
+    weights = {1: "counterweights", -1: "weights on the opposite crank"}
     ratios = {sense: round(order) * sense for sense in sorted(due, reverse=True)}
-    return {s: "counterweights" if n == 1 else f"a shaft at {n:+d}" for s, n in ratios.items()}
+    return {s: weights[n] if n in turning else f"a shaft at {n:+d}" for s, n in ratios.items()}
 
 
 def _tell_balanced(orders: Sequence[float], names: str) -> str:

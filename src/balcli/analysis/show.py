@@ -181,6 +181,7 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
+        turning={one.ratio for one in result.engine.cranks},
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)

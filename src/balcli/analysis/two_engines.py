@@ -4,8 +4,9 @@ with [[engine]]; and how the sum is shown.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 from ..core.peaks import Peak
@@ -13,6 +14,7 @@ from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, Placed, check_engine
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
+from ..file.edit import format_value
 from ..file.fields import counted
 from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
@@ -34,6 +36,7 @@ from ..show.figures import (
 from ..show.formats import Renderer
 from ..show.result import Result
 from ..show.sheet import Facts, Grid, Sheet, tell_assumed
+from ..sizing.planes import as_millimetres
 from .answer import analyze
 from .order_tables import order_tables, peak_facts
 
@@ -235,6 +238,46 @@ def combine(
     check_type("load", load, str, "give first, second or both")
     place = read_position("at_m", at_m)
     return combine_engines(*checked, Arrangement(phase, place, turn, reverse, load), orders)
+
+
+def describe_file(
+    result: Combined, paths: Sequence[str], target: Path, speed_rpm: float | None
+) -> str:
+    """Return the text of a file with [[engine]] that describes both engines as they are combined.
+
+    Args:
+        result: Both engines together.
+        paths: Their files.
+        target: Path of the new file, in the folder of the others or above it.
+        speed_rpm: Speed instead of that of the first file; None: that one.
+
+    Raises:
+        BalcliError: A file is elsewhere.
+    """
+    blocks = [f"name = {format_value(' and '.join(one.name for one in result.engines))}\n"]
+    if speed_rpm is not None:
+        blocks.append(f"[operation]\nspeed = {format_value(speed_rpm)}\n")
+    for path, placed in zip(paths, result.arrangement.place(*result.engines), strict=True):
+        keys = {
+            "name": placed.name,
+            "file": _name_beside(path, target),
+            "ratio": placed.ratio,
+            "phase": placed.phase_deg,
+            "at": [as_millimetres(float(each)) for each in placed.at_m],
+            "turn": placed.turn_deg,
+            "load": placed.load,
+        }
+        lines = (f"{key} = {format_value(value)}\n" for key, value in keys.items())
+        blocks.append(f"[[engine]]\n{''.join(lines)}")
+    return "\n".join(blocks)
+
+
+def _name_beside(path: str, target: Path) -> str:
+    """Return the name by which a file at `target` names an engine file."""
+    home, place = target.parent.resolve(), Path(path).resolve()
+    if path == "-" or not place.is_relative_to(home):
+        raise BalcliError(f"--write {target}: {path} is not in its folder; write it there")
+    return place.relative_to(home).as_posix()
 
 
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
