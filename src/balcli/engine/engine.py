@@ -364,7 +364,7 @@ class Engine:
         positions of the throws, the position of a single cylinder moves its rod alone.
         """
         c, z = self.cylinders, np.ravel(self.pins_m)
-        if self.rotary or not self.places_known:
+        if self.rotary or self.placed or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
         of_row = np.array([masses.throw for masses in self.weighed])
