@@ -13,7 +13,6 @@ from support.paths import ENGINE_FILES, ENGINES, GEARED_FILES, ROOT
 from balcli.errors import BalcliError
 from balcli.file import examples
 
-
 EVERY = [*ENGINE_FILES, *GEARED_FILES]
 
 

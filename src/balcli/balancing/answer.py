@@ -21,7 +21,7 @@ from ..core.phasors import Array, unit
 from ..core.records import Node
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
-from ..engine.engine import CylinderNumber, Engine, check_engine
+from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..errors import BalcliError, InputError, check_type, list_values
@@ -267,6 +267,7 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     if goal not in _CLOSE:
         raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
     engine = build(model)
+    refuse_geared(engine)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")

@@ -22,7 +22,7 @@ from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from .fitting import find_effects
-from .planes import TABLES, DeviceTable, find_order, measure_direction
+from .planes import TABLES, DeviceTable, find_order, measure_direction, see_device
 from .remedy import Remedy
 from .residual import (
     FORCE,
@@ -149,7 +149,7 @@ def _set_up(
     for table in tables:
         angles = (table.angle,) if "angle" in table.model_fields_set else (0.0, 90.0)
         turned = [table.model_copy(update={"unbalance": 1e6, "angle": angle}) for angle in angles]
-        devices = [build_fitted(one, engine) for one in turned]
+        devices = [see_device(engine, build_fitted(one, engine)) for one in turned]
         of_one = find_effects(devices, parts, residual.reference)
         effects.append(np.array(weights)[:, None] * of_one)
     return effects, -np.array(weights) * np.array(there, complex).view(float)
