@@ -104,6 +104,7 @@ QUANTITIES = {
 }
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
+READ_GEARED = "engine.placed:read_engines"
 GEARED = "engine.placed:build_geared"
 CRANKS = "engine.placed:share_state"
 EXPLORE = "report.page:explore"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +11,6 @@ from ..core.phasors import Figure, unit
 from ..errors import InputError, Problem
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .figures import AS_GIVEN, FileFigures, or_zero, place_in_plane
-
-if TYPE_CHECKING:
-    from .engine import Engine
 
 
 def build_devices(
@@ -64,27 +60,6 @@ def build_device(
     half = unit(take(f"{path}.direction", table.direction)) / 2
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
-
-
-def build_fitted(
-    table: Counterweight | Shaft | Slider,
-    engine: Engine,
-    figures: FileFigures = AS_GIVEN,
-    path: str = "",
-) -> Device:
-    """Return a device of an engine, SI. Of geared engines a counterweight counts from the first
-    pin of the one that carries it, in that engine's sense; its z counts as that of the others.
-
-    Args:
-        table: Table of an engine file.
-        engine: Engine that has it.
-        figures: Figures of the file.
-        path: Dotted name of the table.
-    """
-    carrier = getattr(table, "engine", None)
-    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
-    own = engine.placed[row].engine if engine.placed else engine
-    return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
 
 
 def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:

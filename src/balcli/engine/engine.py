@@ -23,10 +23,11 @@ from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
 from ..file.fields import join_words
-from ..file.model import EngineFile
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.plain_tables import choose_assumed, join_assumed, list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
-from .figures import place_in_plane
+from .devices import build_device
+from .figures import AS_GIVEN, FileFigures, place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -478,6 +479,27 @@ def take_model(engine: Engine) -> EngineFile:
         told = "no file describes this engine, which is a variant, or has devices of its own; take "
         raise BalcliError(f"{engine.summary}: {told}the one from which it was made")
     return engine.model
+
+
+def build_fitted(
+    table: Counterweight | Shaft | Slider,
+    engine: Engine,
+    figures: FileFigures = AS_GIVEN,
+    path: str = "",
+) -> Device:
+    """Return a device of an engine, SI. Of geared engines a counterweight counts from the first
+    pin of the one that carries it, in that engine's sense; its z counts as that of the others.
+
+    Args:
+        table: Table of an engine file.
+        engine: Engine that has it.
+        figures: Figures of the file.
+        path: Dotted name of the table.
+    """
+    carrier = getattr(table, "engine", None)
+    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
+    own = engine.placed[row].engine if engine.placed else engine
+    return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
 
 
 def find_crank(engine: Engine, number: CylinderNumber, option: str) -> tuple[Placed, int]:

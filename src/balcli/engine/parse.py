@@ -14,6 +14,7 @@ from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
+from ..names import READ_GEARED, import_name
 from .build import list_contradictions
 from .numbering import infer_numbering
 
@@ -79,9 +80,8 @@ def join_engines(draft: Draft) -> Draft:
     """Return the readable part of a file; with [[engine]] also of the files of its engines."""
     if not draft.model.engine:
         return draft
-    from .placed import read_engines  # files of one engine do not load it
-
-    return read_engines(draft, _parse_one)
+    whole: Draft = import_name(READ_GEARED)(draft, _parse_one)
+    return whole
 
 
 def _parse_one(text: bytes, name: str) -> EngineFile:

@@ -19,13 +19,13 @@ from ..core.phasors import Figure, unit
 from ..core.speed_ripple import RippleLine
 from ..errors import BalcliError, InputError, Problem, note
 from ..file.csv_columns import locate_beside
-from ..file.engine_tables import Engine as EngineTable, check_engines
+from ..file.engine_tables import Engine as EngineTable
 from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
+from ..limits import MOST_ENGINES
 from .build import build, find_wheel
-from .devices import build_fitted
-from .engine import Engine, Placed, Rating
+from .engine import Engine, Placed, Rating, build_fitted
 from .figures import FileFigures, place_in_plane, select_varied
 from .gas import CylinderGas, EngineGas
 
@@ -41,7 +41,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     model, problems = draft.model, list(draft.problems)
     engines = tuple(filter(None, model.engine))
     if "engine" in draft.readable:
-        problems += check_engines(model)
+        problems += _check_engines(model)
     found: dict[str, EngineFile | None] = {}
     for k, table in enumerate(model.engine, 1):
         if table is None or table.file in found:
@@ -63,6 +63,34 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
             ]
         )
     return draft._replace(model=model, problems=tuple(problems))
+
+
+def _check_engines(model: EngineFile) -> Iterator[Problem]:
+    """Yield the contradictions between the engines of a file, all of which could be read."""
+    engines = model.engine
+    if len(engines) < 2:
+        yield Problem("engine", f"one engine; analyze {engines[0].file} itself")
+    if len(engines) > MOST_ENGINES:
+        yield Problem("engine", f"{len(engines)} engines; at most {MOST_ENGINES} are read")
+        return
+    for key in ("ratio", "phase"):
+        if getattr(engines[0], key) != type(engines[0]).model_fields[key].default:
+            told = "the first engine is the reference; its ratio is 1 and its phase 0"
+            yield Problem(f"engine.1.{key}", told)
+    names = model.crank_names
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            told = f'"{name}" is engine {names.index(name) + 1} as well; give each its own name'
+            yield Problem(f"engine.{k + 1}.name", told)
+    for k, weight in enumerate(model.counterweight, 1):
+        if weight.engine is not None and weight.engine not in names:
+            told = f'"{weight.engine}" is no engine; there are {", ".join(names)}'
+            yield Problem(f"counterweight.{k}.engine", told)
+    loads = sum(engine.load for engine in engines)
+    given = any(engine.has("load") for engine in engines)
+    if given and loads not in (1, len(engines)):
+        told = f"true for {loads} of {len(engines)} engines; mark one engine, or all"
+        yield Problem("engine.load", told)
 
 
 _IGNORED = ("body", "mount", "point", "torsion", "operation", "frame")

@@ -143,7 +143,8 @@ class TableReader:
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
-        table, meant = printable(format_heading(path)), join_path(path, [near]) if near else ""
+        heading = f"[{path}]" if own is None else format_heading(path)
+        table, meant = printable(heading), join_path(path, [near]) if near else ""
         message = f"unknown key in {table if path else self._file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self._is_engine and path and is_table:
@@ -234,16 +235,19 @@ def check_tables(
         InputError: they are of another kind of file.
     """
     refuse_other_kind(data, name, ENGINE)
-    geared = "engine" in data
+    inner = data.get("engine")
+    slip = isinstance(inner, Mapping) and "file" not in inner  # a heading for what has none
+    geared = "engine" in data and not slip
     body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
-    for key in filter(lambda key: key not in KNOWN, data):
+    known = [key for key in KNOWN if key != "engine" or not slip]
+    for key in filter(lambda key: key not in known, data):
         inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
-            reader.refuse_key("", key, KNOWN, inside)
+        if not isinstance(inside, Mapping) or not inside or suggest(key, known)[1]:
+            reader.refuse_key("", key, known, inside)
             continue
         for inner, value in inside.items():  # of an unknown table: each with the table that has it
             reader.refuse_key(printable(key), inner, None, value)
@@ -254,8 +258,8 @@ def check_tables(
     foreign = set(KNOWN).difference(BESIDE_ENGINES) if geared else ()
     for key in filter(foreign.__contains__, data):
         reader.add(key, "a file with [[engine]] takes this from its engine files")
-    known = [key for key in KNOWN if key in data and key not in foreign]
-    parts = {key: _read_part(reader, key, data[key]) for key in known}
+    there = [key for key in known if key in data and key not in foreign]
+    parts = {key: _read_part(reader, key, data[key]) for key in there}
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}
     for key, part in parts.items():

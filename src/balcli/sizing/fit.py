@@ -14,8 +14,7 @@ import numpy as np
 
 from ..core import least_squares
 from ..core.phasors import Array, unit
-from ..engine.devices import build_fitted
-from ..engine.engine import Engine
+from ..engine.engine import Engine, build_fitted
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
 from ..file.fields import join_words
 from ..file.model import EngineFile

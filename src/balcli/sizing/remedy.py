@@ -7,8 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device, DeviceKind
-from ..engine.devices import build_fitted
-from ..engine.engine import Engine
+from ..engine.engine import Engine, build_fitted
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .planes import KINDS, DeviceTable, find_free, name_kind
 

@@ -172,8 +172,7 @@ def search(
     refuse_overwriting(reads=[path], writes={"--output": output, "--write": write})
     form = text_format(output, form)
     require_ending(write, ".toml", "--write")
-    from ...engine import build, parse
-    from ...engine.engine import refuse_geared
+    from ...engine import build, engine, parse
     from . import answer, designs
 
     if require not in ("", "even-firing"):
@@ -181,7 +180,7 @@ def search(
         raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
-    refuse_geared(model)
+    engine.refuse_geared(model)
     with naming_file(name):
         unlikely = build.build(model).unlikely
     varied = [text.partition("=")[0] for text in over]
