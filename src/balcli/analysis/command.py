@@ -243,7 +243,7 @@ def sum(  # noqa: A001 (the command's name)
     output: Output = None,
 ) -> None:
     """Two engines on one frame, geared one to one: H, U and opposed-piston engines; a short form of
-    a file with [[engine]], which all commands read.
+    a file with [[engine]].
 
     \b
     Examples:

@@ -56,7 +56,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         turns, angle, place = "1", degrees(device.angle), "crank axis"
         if isinstance(device, Counterweight):
             angle += " from pin 1"
-            place += f" of {device.engine}" if device.engine else ""
+            place = f"crank of {device.engine}" if device.engine else place
         else:
             place = "free" if anywhere else ", ".join(_length(v, length) for v in device.at)
             turns = f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
