@@ -64,7 +64,8 @@ def analyze_torque_of_engine(
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
     """
     gas = take_gas(check_engine("analyze_torque", engine))
-    check_type("cylinder", cylinder, (int, np.integer, str), "give a whole number from 1")
+    kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
+    check_type("cylinder", cylinder, kinds, "give a whole number from 1")
     if fluctuation is not None:
         fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
     wanted = list_words("loads", loads, '["pin", "main"]')
