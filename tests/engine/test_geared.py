@@ -215,20 +215,6 @@ def test_weights_go_on_the_cranks_that_turn_so(geared, tmp_path, ratio):
         assert [w["unbalance_kg_m"] * 1e6 for w in mine] == pytest.approx([w.unbalance for w in own])
 
 
-def test_open_weights_are_fitted_on_their_crank(geared, tmp_path):
-    """As well as the scheme that places them itself."""
-    places = {"upper": [-55, 55], "lower": [345, 455]}
-    weights = [{"unbalance": "fit", "position": z, "engine": name} for name, own in places.items() for z in own]
-    bare = balcli.balance(geared(), "counterweights").after
-    with pytest.raises(balcli.InputError, match="fit"):
-        geared(counterweight=weights)
-    told = json.loads(run("balance", str(tmp_path / "geared.toml"), "-f", "json", "--orders", "1").out)
-    (order,) = told["after"]["orders"]
-    for kind in ("force_N", "moment_Nm"):
-        assert order[kind]["major"] == pytest.approx(0, abs=1e-6)
-    assert bare.spectra.select_orders([1]).force.major[0] == pytest.approx(0, abs=1e-6)
-
-
 def test_json_names_engines_and_cylinders(geared, tmp_path):
     geared()
     file = str(tmp_path / "geared.toml")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 from ..core.peaks import Peak
 from ..core.records import HIDDEN, INLINE, WrittenAs
-from ..engine.engine import Engine, Placed, check_engine
+from ..engine.engine import Engine, Placed, check_engine, place_in_mm
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
 from ..file.edit import format_value
@@ -31,7 +31,6 @@ from ..show.figures import (
     list_assumed,
     list_orders,
     measure_engine,
-    place_in_mm,
 )
 from ..show.formats import Renderer
 from ..show.result import Result
@@ -85,7 +84,7 @@ class Arrangement:
     """
 
     phase_deg: float = 0.0
-    at_m: Annotated[tuple[float, float, float], WrittenAs(place_in_mm, "at_mm")] = (0.0, 0.0, 0.0)
+    at_m: Annotated[tuple[float, ...], WrittenAs(place_in_mm, "at_mm")] = (0.0, 0.0, 0.0)
     turn_deg: float = 0.0
     reverse: bool = False
     load: str = "first"
@@ -109,16 +108,8 @@ class Arrangement:
         ratio = -1 if self.reverse else 1
         senses = {"first": (1, 1), "second": (ratio, ratio), "both": (1, ratio)}[self.load]
         leader = Placed(first, "first", load=self.load != "second", load_sense=senses[0])
-        other = Placed(
-            second,
-            "second",
-            ratio=ratio,
-            phase_deg=self.phase_deg,
-            turn_deg=self.turn_deg,
-            at_m=self.at_m,
-            load=self.load != "first",
-            load_sense=senses[1],
-        )
+        stands = ratio, self.phase_deg, self.turn_deg, self.at_m, self.load != "first", senses[1]
+        other = Placed(second, "second", "", *stands)
         return leader, other
 
 
@@ -258,15 +249,9 @@ def describe_file(
     if speed_rpm is not None:
         blocks.append(f"[operation]\nspeed = {format_value(speed_rpm)}\n")
     for path, placed in zip(paths, result.arrangement.place(*result.engines), strict=True):
-        keys = {
-            "name": placed.name,
-            "file": _name_beside(path, target),
-            "ratio": placed.ratio,
-            "phase": placed.phase_deg,
-            "at": [as_millimetres(float(each)) for each in placed.at_m],
-            "turn": placed.turn_deg,
-            "load": placed.load,
-        }
+        at = [as_millimetres(float(each)) for each in placed.at_m]
+        keys = {"name": placed.name, "file": _name_beside(path, target), "ratio": placed.ratio}
+        keys |= {"phase": placed.phase_deg, "at": at, "turn": placed.turn_deg, "load": placed.load}
         lines = (f"{key} = {format_value(value)}\n" for key, value in keys.items())
         blocks.append(f"[[engine]]\n{''.join(lines)}")
     return "\n".join(blocks)

@@ -7,18 +7,18 @@ from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ..core.cylinders import Cylinders, Device, find_travel
 from ..core.phases import RPM
 from ..core.phasors import Array, Complex, Figure, Phasors, unit
-from ..core.records import Node
+from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
@@ -64,6 +64,16 @@ class SilentCylinders(NamedTuple):
     without_burning: tuple[CylinderNumber, ...] = ()
 
 
+def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
+    """Return a place given in m."""
+    return tuple(1e3 * float(v) for v in place_m)
+
+
+def as_number(figure: Figure) -> float:
+    """Return a figure that does not vary as a plain number."""
+    return float(figure)
+
+
 class Placed(NamedTuple):
     """An engine where it stands among others that are geared to it one to one.
 
@@ -81,15 +91,15 @@ class Placed(NamedTuple):
             or its own where each has a load.
     """
 
-    engine: Engine
+    engine: Annotated[Engine, HIDDEN]
     name: str = ""
     file: str = ""
     ratio: int = 1
-    phase_deg: Figure = 0.0
-    turn_deg: Figure = 0.0
-    at_m: tuple[Figure, Figure, Figure] = (0.0, 0.0, 0.0)
+    phase_deg: Annotated[Figure, WrittenAs(as_number)] = 0.0
+    turn_deg: Annotated[Figure, WrittenAs(as_number)] = 0.0
+    at_m: Annotated[tuple[Figure, ...], WrittenAs(place_in_mm, "at_mm")] = (0.0, 0.0, 0.0)
     load: bool = True
-    load_sense: int = 1
+    load_sense: Annotated[int, HIDDEN] = 1
 
     def turn(self, vector: complex | Complex) -> Complex:
         """Return a vector of its own axes in those of all."""

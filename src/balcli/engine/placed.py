@@ -20,7 +20,7 @@ from ..core.speed_ripple import RippleLine
 from ..errors import BalcliError, InputError, Problem, note
 from ..file.csv_columns import locate_beside
 from ..file.engine_tables import Engine as EngineTable
-from ..file.model import Counterweight, EngineFile, Operation, Shaft, Slider
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.read import Draft
 from ..file.toml import read_bytes
 from ..limits import MOST_ENGINES
@@ -53,15 +53,14 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     cranks = tuple(filter(None, (found[table.file] for table in engines)))
     _tell_ignored(engines, cranks)
     if not problems:
-        operation = _lend_operation(model.operation, cranks[0].operation)
-        speed = operation.model_copy(update={"speed_ripple": ()})
-        turning = [operation, *[speed] * (len(cranks) - 1)]
-        model = model.model_copy(update={"operation": operation}).with_cranks(
-            [
-                crank.model_copy(update={"operation": one})
-                for crank, one in zip(cranks, turning, strict=True)
-            ]
-        )
+        own, lent = model.operation, cranks[0].operation
+        keys = [k for k in ("speed", "speed_ripple") if lent.has(k) and not own.has(k)]
+        operation = own.model_copy(update={key: getattr(lent, key) for key in keys})
+        turning = {"operation": operation}
+        steady = {"operation": operation.model_copy(update={"speed_ripple": ()})}
+        others = [crank.model_copy(update=steady) for crank in cranks[1:]]
+        model = model.model_copy(update=turning)
+        model = model.with_cranks([cranks[0].model_copy(update=turning), *others])
     return draft._replace(model=model, problems=tuple(problems))
 
 
@@ -116,16 +115,6 @@ def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[Non
         problems.append(Problem(f"engine.{number}.file", str(error)))
 
 
-def _lend_operation(own: Operation, first: Operation) -> Operation:
-    """Return [operation] with speed and speed_ripple of the first engine where it has none."""
-    lent = {
-        key: getattr(first, key)
-        for key in ("speed", "speed_ripple")
-        if first.has(key) and not own.has(key)
-    }
-    return own.model_copy(update=lent)
-
-
 # ------------------------------------------------------------------ one engine of several
 def build_geared(
     model: EngineFile, varied: Mapping[str, Figure] | None = None, rank: int = 0
@@ -177,13 +166,9 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
     cylinders = tuple(f"{one.name}.{number}" for one in placed for number in one.engine.numbers)
     return replace(
         first.engine,
-        name=" and ".join(engine.name or "an engine" for engine in engines),
-        source="",
         numbers=cylinders,
         fires_deg={},
         strokes=max(engine.strokes for engine in fired or engines),
-        throws_m=_join(one.engine.throws_m + one.at_m[2] for one in placed),
-        pins_m=_join(one.engine.pins_m + one.at_m[2] for one in placed),
         reference_m=(place.real, place.imag, z + first.at_m[2]),
         devices=(),
         weighed=tuple(masses for engine in engines for masses in engine.weighed),
@@ -191,12 +176,12 @@ def gear_engines(placed: Sequence[Placed]) -> Engine:
         gas=_join_gas(placed),
         crank_inertia=_add(engine.crank_inertia for engine in engines if not engine.rotary),
         flywheel_inertia=_add(engine.flywheel_inertia for engine in engines),
-        bearings=None,
-        rated=None,
-        inferred=(),
         model=None,
         placed=tuple(placed),
     )
+
+
+_ANGLES = ("phase", "turn")
 
 
 def _place_engines(
@@ -209,26 +194,12 @@ def _place_engines(
     found = []
     for k, (name, table, engine) in enumerate(zip(model.crank_names, tables, engines, strict=True)):
         path = f"engine.{k + 1}"
-        x, y, z = (each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
-        one = Placed(
-            engine=engine,
-            name=name,
-            file=table.file,
-            ratio=table.ratio,
-            phase_deg=figures.take(f"{path}.phase", table.phase),
-            turn_deg=figures.take(f"{path}.turn", table.turn),
-            at_m=(x, y, z),
-            load=loads[k],
-            load_sense=table.ratio if all(loads) else driving,
-        )
+        phase, turn = (figures.take(f"{path}.{key}", getattr(table, key)) for key in _ANGLES)
+        at = tuple(each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
+        sense = table.ratio if all(loads) else driving
+        one = Placed(engine, name, table.file, table.ratio, phase, turn, at, loads[k], sense)
         found.append(one)
     return tuple(found)
-
-
-def _join(parts: Iterable[Figure]) -> np.ndarray:
-    shapes = [np.asarray(part) for part in parts]
-    trailing = np.broadcast_shapes(*(part.shape[1:] for part in shapes))
-    return np.concatenate([np.broadcast_to(p, (len(p), *trailing)) for p in shapes])
 
 
 def _add(figures: Iterable[Figure | None]) -> Figure | None:
@@ -243,7 +214,6 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
     burning = [one.engine.gas for one in placed if one.engine.gas is not None]
     if not burning:
         return None
-    cycle = max(gas.cycle_deg for gas in burning)
     cylinders = list[CylinderGas]()
     for one in placed:
         gas, start = one.engine.gas, len(cylinders)
@@ -255,17 +225,9 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
             own._replace(nominal_deg=own.nominal_deg - float(one.phase_deg), like=start + own.like)
             for own in gas.cylinders
         )
-    return EngineGas(
-        tuple(cylinders),
-        cycle,
-        _take_common(gas.mechanical_efficiency for gas in burning),
-        _take_common(gas.compression_ratio for gas in burning),
-    )
-
-
-def _take_common(values: Iterable[float | None]) -> float | None:
-    different = {*values}
-    return different.pop() if len(different) == 1 else None
+    efficiencies = {gas.mechanical_efficiency for gas in burning}
+    same = efficiencies.pop() if len(efficiencies) == 1 else None
+    return EngineGas(tuple(cylinders), max(gas.cycle_deg for gas in burning), same)
 
 
 # ------------------------------------------------------------------ seen by each engine

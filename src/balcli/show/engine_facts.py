@@ -87,10 +87,8 @@ def _geared_facts(
     engine: Engine, system: System, speeds_rpm: Sequence[float], *, whole: bool
 ) -> Facts:
     """Return the facts of several engines: each in a line, then what they have in common."""
-    cylinders = f"{len(engine.numbers)} on {len(engine.placed)} cranks"
-    if not math.isnan(litres := float(engine.displacement_m3)):
-        unit = system.volume.fit(litres)
-        cylinders += f", {number(unit.of(litres))} {unit.name}"
+    volume = "" if math.isnan(engine.displacement_m3) else f", {_volume(engine, system)}"
+    cylinders = f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
     own = sum(len(one.engine.devices) for one in engine.placed) + len(engine.devices)
     reference = f"moments about {tell_place(engine.reference_m, system)}"
     if not engine.places_known:
@@ -110,12 +108,14 @@ def _geared_facts(
 
 def _tell_placed(one: Placed, system: System) -> str:
     """Return an engine's file, where it stands and how it turns."""
-    words = [one.file, f"at {tell_place(one.at_m, system)}"]
-    words += [f"turned by {given(float(one.turn_deg))} deg"] if one.turn_deg else []
-    words += [f"leads by {given(float(one.phase_deg))} deg"] if one.phase_deg else []
-    words += ["turns against the first"] if one.ratio < 0 else []
-    words += ["drives the load"] if one.load else []
-    return ", ".join(words)
+    words = {
+        f"at {tell_place(one.at_m, system)}": True,
+        f"turned by {given(float(one.turn_deg))} deg": one.turn_deg,
+        f"leads by {given(float(one.phase_deg))} deg": one.phase_deg,
+        "turns against the first": one.ratio < 0,
+        "drives the load": one.load,
+    }
+    return ", ".join([one.file, *(word for word, counts in words.items() if counts)])
 
 
 def tell_place(point: Iterable[Figure], system: System) -> str:
@@ -189,9 +189,13 @@ def _bore(engine: Engine, system: System) -> str:
     bore = number(system.length.of(bore_m), 5)
     first = find_travel(engine.cylinders).stroke[engine.numbers.index(1)]
     stroke = number(system.length.of(float(first)), 5)
-    volume = system.volume.fit(float(engine.displacement_m3))
-    size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
-    return f", bore × stroke {bore} × {stroke} {system.length.name}, {size}"
+    return f", bore × stroke {bore} × {stroke} {system.length.name}, {_volume(engine, system)}"
+
+
+def _volume(engine: Engine, system: System) -> str:
+    volume = float(engine.displacement_m3)
+    unit = system.volume.fit(volume)
+    return f"{number(unit.of(volume))} {unit.name}"
 
 
 def _crank(engine: Engine, system: System) -> str:

@@ -1,7 +1,7 @@
 """The figures of an engine as records (orders, peaks, the engine itself), and as lines of CSV."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Annotated, NamedTuple, Protocol
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
-from ..engine.engine import CylinderNumber, Engine, SilentCylinders
+from ..engine.engine import CylinderNumber, Engine, Placed, SilentCylinders, place_in_mm
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
@@ -147,28 +147,6 @@ class Peaks(NamedTuple):
         return [(FORCE, self.force), (MOMENT, self.moment)]
 
 
-class GearedEngine(NamedTuple):
-    """One of several engines that are geared together.
-
-    Attributes:
-        name: Its name.
-        file: Its engine file.
-        ratio: 1: turns as the first crank; -1: against it.
-        phase_deg: Crank angle by which it leads the first, in its own sense of rotation.
-        turn_deg: How far it is turned about z.
-        at_mm: Place of its origin.
-        load: Whether its crank drives the load.
-    """
-
-    name: str
-    file: str
-    ratio: int
-    phase_deg: float
-    turn_deg: float
-    at_mm: tuple[float, ...]
-    load: bool
-
-
 class EngineSize(NamedTuple):
     """An engine.
 
@@ -182,7 +160,7 @@ class EngineSize(NamedTuple):
     name: str
     cylinders: int
     displacement_m3: float
-    engines: tuple[GearedEngine, ...] | None = None
+    engines: tuple[Placed, ...] | None = None
 
 
 class EngineName(NamedTuple):
@@ -245,30 +223,13 @@ def find_peaks(spectra: Spectra) -> Peaks:
 
 def measure_engine(engine: Engine) -> EngineSize:
     """Return name and size of an engine without trailing axes."""
-    engines = tuple(
-        GearedEngine(
-            name=one.name,
-            file=one.file,
-            ratio=one.ratio,
-            phase_deg=float(one.phase_deg),
-            turn_deg=float(one.turn_deg),
-            at_mm=place_in_mm(one.at_m),
-            load=one.load,
-        )
-        for one in engine.placed
-    )
-    volume = float(engine.displacement_m3)
-    return EngineSize(engine.name, len(engine.numbers), volume, engines or None)
+    count, volume = len(engine.numbers), float(engine.displacement_m3)
+    return EngineSize(engine.name, count, volume, engine.placed or None)
 
 
 def name_engine(engine: Engine | EngineFile) -> EngineName:
     """Return the name of an engine, or of its file."""
     return EngineName(engine.name)
-
-
-def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
-    """Return a place given in m."""
-    return tuple(1e3 * float(v) for v in place_m)
 
 
 def describe_state(engine: Engine) -> EngineState:

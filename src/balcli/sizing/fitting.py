@@ -38,13 +38,13 @@ from .planes import (
     as_millimetres,
     find_planes,
     measure_direction,
-    move_along,
     takes_moment,
 )
 from .remedy import Remedy, fit_devices
 from .residual import (
     BACKWARD_MOMENT,
     FORCE,
+    FORWARD,
     FORWARD_FORCE,
     FORWARD_MOMENT,
     MOMENT,
@@ -286,31 +286,23 @@ class Fitting(NamedTuple):
         Args:
             keep_overbalance: Whether counterweights of the file that balance more stay as they are.
         """
-        fitting = self
-        for one in self.engine.cranks:
-            if not one.engine.rotary:
-                fitting = fitting._balance_crank(move_along(one), keep_overbalance)
-        return fitting
-
-    def _balance_crank(self, one: Placed, keep_overbalance: bool) -> Fitting:
-        """Return the fitting with counterweights for the rotating masses of one crank."""
-        engine, residual = one.engine, self.find_residual(1)
+        engine, residual = self.engine, self.find_residual(1)
+        if engine.rotary or engine.placed:
+            return self
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
         directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
         pins = masses * float(engine.cylinders.radius) * directions
-        own = [each for each in engine.devices if each.kind is DeviceKind.COUNTERWEIGHT]
-        at_zero = np.array([*pins, *(each.forward for each in own)])
-        vectors = one.turn(unit(one.phase_deg) * at_zero) if one.name else at_zero
-        z = np.array([*engine.cylinders.z, *(each.z for each in own)])
+        own = [one for one in engine.devices if one.kind is DeviceKind.COUNTERWEIGHT]
+        vectors = np.array([*pins, *(one.forward for one in own)])
+        z = np.array([*engine.cylinders.z, *(one.z for one in own)])
         force, moment = complex(vectors.sum()), complex(vectors @ (z - residual.reference.z))
-        if keep_overbalance and (pins.sum().conjugate() * at_zero.sum()).real < 0:
+        if keep_overbalance and (pins.sum().conjugate() * force).real < 0:
             return self
-        senses = list_parts(one.ratio)
-        parts = {**residual.parts, **dict(zip(senses, (force, moment), strict=True))}
+        parts = {**residual.parts, FORWARD_FORCE: force, FORWARD_MOMENT: moment}
         parts = {p: v if abs(v) > 4 * residual.noise.get(p, 0) else 0j for p, v in parts.items()}
         turning = residual._replace(parts=parts)
-        slots = [Slot.on_crank(one, z) for z in find_planes(engine, turning, one.ratio)]
-        return self.cancel(slots, senses, _ROTATING, turning)
+        slots = [Slot("counterweight", 1, 1, z) for z in find_planes(engine, turning, 1)]
+        return self.cancel(slots, FORWARD, _ROTATING, turning)
 
     def describe_left(self, order: int, *keys: str, group: str = "") -> Fitting:
         """Return the fitting with details, by these keys of `_LEFT_OF`, on the residual."""

@@ -14,10 +14,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import EPS, unit, wrap_degrees
+from ..core.phasors import EPS, wrap_degrees
 from ..engine.engine import Engine, Placed
-from ..engine.figures import place_in_plane
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
@@ -33,7 +31,8 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """Return z of the end planes, m: first and last throw; of throws in one plane, half a bore to
     either side of it, or without a bore the crank radius.
     """
-    low, high = _find_reach(engine.joined_throws_m)
+    throws = [move_along(one).engine.joined_throws_m for one in engine.cranks]
+    low, high = _find_reach(np.concatenate(throws))
     if low < high:
         return low, high
     bore = float(engine.bore_m)
@@ -57,17 +56,6 @@ def move_along(one: Placed) -> Placed:
     devices = tuple(device._replace(z=device.z + z) for device in own.devices)
     moved = replace(own, throws_m=own.throws_m + z, pins_m=own.pins_m + z, devices=devices)
     return one._replace(engine=replace(moved, cylinders=cylinders))
-
-
-def see_device(engine: Engine, device: Device) -> Device:
-    """Return a device by the angle of the first crank, in the axes of all geared engines."""
-    if not engine.placed or device.kind is not DeviceKind.COUNTERWEIGHT:
-        return device
-    one = engine.placed[device.crank]
-    seen = complex(one.turn(unit(one.phase_deg) * device.forward))
-    forward, backward = (seen, 0j) if one.ratio > 0 else (0j, seen)
-    place = complex(place_in_plane(*one.at_m[:2]))
-    return device._replace(forward=forward, backward=backward, place=place)
 
 
 def find_length(engine: Engine) -> tuple[float, float]:
