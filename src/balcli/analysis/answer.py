@@ -304,8 +304,7 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(f"by cylinder: {count} results; give orders for {most} at most")
     own = compute_spectra(engine, orders, kinds, each=True)
-    named = engine.numbers if engine.placed else sorted(engine.numbers)
-    rows = ((n, engine.numbers.index(n)) for n in named)
+    rows = ((n, engine.numbers.index(n)) for n in engine.rising_numbers)
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 from ..core.peaks import Peak
 from ..core.records import HIDDEN, INLINE, WrittenAs
-from ..engine.engine import Engine, Placed, check_engine, place_in_mm
+from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
 from ..file.edit import format_value
@@ -170,8 +170,10 @@ def combine_engines(
         orders: which to show; default as in `analyze`.
 
     Raises:
-        BalcliError: orders that are negative or too high.
+        BalcliError: orders that are negative or too high; an engine that is made of several.
     """
+    for engine in (first, second):
+        refuse_geared(engine)
     found = analyze(gear_engines(arrangement.place(first, second)), orders)
     assert found.peak is not None
     return Combined(

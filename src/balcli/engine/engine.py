@@ -356,6 +356,14 @@ class Engine:
         )
 
     @property
+    def rising_numbers(self) -> list[CylinderNumber]:
+        """Numbers of the cylinders in rising order; of geared engines one engine after another."""
+        if not self.placed:
+            return sorted(self.numbers)
+        each = ((one.name, sorted(one.engine.numbers)) for one in self.placed)
+        return [f"{name}.{number}" for name, numbers in each for number in numbers]
+
+    @property
     def first_axis_deg(self) -> Figure:
         """Axis of cylinder 1, deg; its crank pin points along it at crank angle 0."""
         return self.cylinders.axis_deg[self.cylinders.first]
@@ -435,8 +443,8 @@ class Engine:
         """Cylinders that do not fire; none for an engine without [gas]."""
         if self.gas is None:
             return NONE_SILENT
-        each = [*zip(self.numbers, self.gas.cylinders, strict=True)]
-        each = each if self.placed else sorted(each)
+        by_number = dict(zip(self.numbers, self.gas.cylinders, strict=True))
+        each = [(number, by_number[number]) for number in self.rising_numbers]
         return SilentCylinders(
             tuple(number for number, own in each if not own.share),
             tuple(number for number, own in each if own.share and own.heat == 0),
@@ -537,6 +545,6 @@ def find_row(engine: Engine, number: CylinderNumber, option: str) -> int:
     """
     if number not in engine.numbers:
         some = f"{engine.name or 'the engine'} has the cylinders "
-        some += ", ".join(map(str, engine.numbers if engine.placed else sorted(engine.numbers)))
+        some += ", ".join(map(str, engine.rising_numbers))
         raise BalcliError(f"{option} {number}: {some}")
     return engine.numbers.index(number)
