@@ -220,8 +220,13 @@ def test_json_names_engines_and_cylinders(geared, tmp_path):
     file = str(tmp_path / "geared.toml")
     told = json.loads(run("analyze", file, "-f", "json", "--by", "cylinder", "--misfire", "lower.1").out)
     assert told["engine"]["engines"][1] == {
-        "name": "lower", "file": "two.toml", "ratio": -1, "phase_deg": 75.0, "turn_deg": 35.0,
-        "at_mm": [200.0, -300.0, 400.0], "load": False,
+        "name": "lower",
+        "file": "two.toml",
+        "ratio": -1,
+        "phase_deg": 75.0,
+        "turn_deg": 35.0,
+        "at_mm": [200.0, -300.0, 400.0],
+        "load": False,
     }
     assert [share["cylinder"] for share in told["cylinders"]][3:5] == ["upper.4", "lower.1"]
     assert told["no_gas_in"] == ["lower.1"]
