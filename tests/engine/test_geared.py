@@ -127,6 +127,7 @@ def test_orders_add_up_to_the_curves(tmp_path_factory, data):
     engines = []
     for k in range(data.draw(st.integers(2, 3))):
         tables = data.draw(st.sampled_from([engine(), TWO_STROKE, COLD]))
+        tables["crank"].pop("inertia", None)  # curves leave it out
         write(folder / f"{k}.toml", tomli_w.dumps(tables))
         turned = {"ratio": data.draw(st.sampled_from([1, -1])), "phase": data.draw(angle)} if k else {}
         engines.append({"file": f"{k}.toml", "at": data.draw(place), "turn": data.draw(angle), **turned})
@@ -141,19 +142,17 @@ def test_orders_add_up_to_the_curves(tmp_path_factory, data):
     sampled = balcli.curves(both, 20).curves
     summed = balcli.curves(both, 20, orders=np.arange(0.0, 260.5, 0.5 if both.cycle_revolutions == 2 else 1.0)).curves
     for name, curve in sampled.items():
-        if name not in ("couple_Nm", "inertia_torque_Nm", "roll_Nm", "torque_Nm", "roll_total_Nm", "gas_torque_Nm"):
-            assert np.abs(curve - summed[name]).max() < 1e-9 * max(np.abs(curve).max(), 1), name
-    torque = sampled.get("gas_torque_Nm")
-    if torque is not None:
-        assert np.abs(torque - summed["gas_torque_Nm"]).max() < 2e-2 * np.abs(torque).max()
+        with_gas = {"gas_torque_Nm", "torque_Nm", "roll_total_Nm"}  # whose orders have no end
+        share = 2e-2 if name in with_gas else 1e-9
+        assert np.abs(curve - summed[name]).max() < share * max(np.abs(curve).max(), 1), name
 
 
 def test_devices_stand_on_their_engines(geared):
     """A counterweight of the whole is one of the engine that carries it; a shaft counts in the axes of the whole."""
     weight = {"unbalance": 50000, "angle": 35, "position": 460, "engine": "lower"}
-    shaft = {"ratio": -2, "unbalance": 8000, "angle": 40, "at": [30, 80], "position": 70}
+    shafts = [{"ratio": n, "unbalance": 8000, "angle": 40, "at": [30, 80], "position": 70 + n} for n in (-2, 1)]
     moved = [TWO[0] | {"at": [50, 60, 70], "turn": 25}, TWO[1]]
-    bare, fitted = geared(moved), geared(moved, counterweight=[weight], shaft=[shaft])
+    bare, fitted = geared(moved), geared(moved, counterweight=[weight], shaft=shafts)
     with_own = compute_spectra(fitted, ORDERS[::2])
     one = alone(TWO_STROKE, counterweight=[weight | {"position": 60, "engine": None}])
     lower = bare.placed[1]._replace(engine=one)
