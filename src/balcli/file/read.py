@@ -237,7 +237,7 @@ def check_tables(
     refuse_other_kind(data, name, ENGINE)
     inner = data.get("engine")
     slip = isinstance(inner, Mapping) and "file" not in inner  # a heading for what has none
-    geared = "engine" in data and not slip
+    geared = bool(inner) and not slip
     body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
