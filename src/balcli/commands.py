@@ -102,12 +102,13 @@ def engines(
         typer.Option(
             "--class",
             metavar="CLASS",
-            help="List one class: layout, aero, car, historic, marine or motorcycle.",
+            help="List one class: layout, aero, car, geared, historic, marine or motorcycle.",
         ),
     ] = None,
     force: Force = False,
 ) -> None:
-    """List the example engines that come with balcli, print one, or copy it.
+    """List the example engines that come with balcli, print one, or copy it, with the files of its
+    engines where it has several.
 
     \b
     Examples:
@@ -121,8 +122,13 @@ def engines(
         raise BalcliError("--find and --class list engines; NAME prints one: give one of the two")
     text = examples.text(name)
     require_ending(path, ".toml", "FILE")
-    refuse_existing(path, force)
+    beside = {} if path is None else examples.list_engine_files(name)
+    targets = {path.parent / file: own for file, own in beside.items()} if path else {}
+    for target in (path, *targets):
+        refuse_existing(target, force)
     emit(text, path)
+    for target, own in targets.items():
+        write_file(own, target)
 
 
 def _list(found: list[examples.Example]) -> str:

@@ -23,6 +23,7 @@ MOST_MISTAKES_SHOWN = 20  # of one file, so that they fit on the screen
 
 # What an engine may have ---------------------------------------------------------------------
 MOST_PARTS = 1000  # cylinders, or devices of one kind
+MOST_ENGINES = 12  # geared together; the largest built have three or four cranks
 MOST_LIST_VALUES = 10_000  # length of a list; largest number of a bank, cylinder or order
 MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # of a key, inner lists included
 HIGHEST_RIPPLE_ORDER = 256  # it raises the highest order of the engine by as much

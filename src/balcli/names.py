@@ -95,6 +95,7 @@ CHAPTERS = {
 }
 # Tables that a file may have several times.
 CHAPTER_LISTS = {
+    "engine": "file.engine_tables",
     "mount": "file.mount_tables",
     "point": "file.mount_tables",
     "axle": "file.locomotive_tables",
@@ -110,6 +111,9 @@ QUANTITIES = {
 }
 NOTEBOOK = "show.notebook:show_engine"
 VARY = "engine.load:vary_engine"
+READ_GEARED = "engine.placed:read_engines"
+GEARED = "engine.placed:build_geared"
+CRANKS = "engine.placed:share_state"
 EXPLORE = "report.page:explore"
 
 

@@ -8,22 +8,24 @@ import zipfile
 
 import pytest
 from support.commands import run_command
-from support.paths import ENGINE_FILES, ENGINES, ROOT
+from support.paths import ENGINE_FILES, ENGINES, GEARED_FILES, ROOT
 
 from balcli.errors import BalcliError
 from balcli.file import examples
+
+EVERY = [*ENGINE_FILES, *GEARED_FILES]
 
 
 def test_every_engine_is_listed_with_its_lesson():
     lines = run_command("engines").stdout.splitlines()
     listed = {line.split("  ")[0]: line.split("  ")[-1].strip() for line in lines if "  " in line}
-    lessons = {file.stem: file.read_text(encoding="utf-8").splitlines()[0] for file in ENGINE_FILES}
-    assert len(lessons) == len(ENGINE_FILES), "two engines of one name"
+    lessons = {file.stem: file.read_text(encoding="utf-8").splitlines()[0] for file in EVERY}
+    assert len(lessons) == len(EVERY), "two engines of one name"
     assert {name: f"# {lesson}" for name, lesson in listed.items()} == lessons
     assert max(map(len, lines)) <= 80
 
 
-@pytest.mark.parametrize("path", ENGINE_FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", EVERY, ids=lambda path: path.stem)
 def test_every_engine_says_where_its_figures_come_from(path):
     """And which are assumed, or that all are."""
     source = tomllib.loads(path.read_text(encoding="utf-8"))["source"]
@@ -45,6 +47,13 @@ def test_a_copy_is_the_file(tmp_path):
     assert target.read_text(encoding="utf-8") == examples.text("i4")
 
 
+def test_a_copy_of_geared_engines_comes_with_their_files(tmp_path):
+    target = tmp_path / "mine.toml"
+    assert run_command("engines", "napier_deltic", target).returncode == 0
+    assert run_command("analyze", target).stdout == run_command("analyze", ENGINES / "geared/napier_deltic.toml").stdout
+    assert run_command("engines", "napier_deltic", tmp_path / "other.toml").returncode == 2
+
+
 @pytest.mark.parametrize("name", ["v8crossplane", "../engines/i4", "expected"])
 def test_unknown_names(name):
     with pytest.raises(BalcliError, match=f'^there is no example "{name}": balcli engines lists them'):
@@ -59,7 +68,7 @@ def test_a_wheel_has_the_examples_and_the_page(tmp_path):
     (wheel,) = tmp_path.glob("*.whl")
     with zipfile.ZipFile(wheel) as content:
         inside = content.namelist()
-        shipped = {f"balcli/engines/{p.relative_to(ENGINES).as_posix()}" for p in ENGINE_FILES}
+        shipped = {f"balcli/engines/{p.relative_to(ENGINES).as_posix()}" for p in EVERY}
         assert shipped <= set(inside)
         assert {f"balcli/report/assets/report.{end}" for end in ("html", "css", "js")} <= set(inside)
         content.extractall(tmp_path / "installed")

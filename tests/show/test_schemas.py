@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 from support.cases import slow
 from support.commands import ask, refusal, run_here
 from support.gas_engines import WIEBE
-from support.paths import ENGINES
+from support.paths import ENGINES, GEARED_FILES
 
 from balcli import __version__
 from balcli.commands import describe_document
@@ -81,6 +81,8 @@ RESULTS = {
     "oldham": f"balance {SINGLE} --scheme oldham",
     "compare": f"compare {I4} {SINGLE} --all",
     "sum with gas": f"sum {V8} {I4}",
+    "geared": f"analyze {GEARED_FILES[-1]} --by cylinder",
+    "geared weights": f"balance {GEARED_FILES[-1]} --scheme factor",
     "layouts": "layouts",
     "table": "tables tsinghua-1-2",
     "series": "tables series",

@@ -6,7 +6,9 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "src"
 PACKAGE = SOURCE / "balcli"
 ENGINES = ROOT / "engines"
-ENGINE_FILES = sorted(ENGINES.rglob("*.toml"))  # textbook layouts, and engines by class
+_FILES = sorted(ENGINES.rglob("*.toml"))  # textbook layouts, and engines by class
+GEARED_FILES = [file for file in _FILES if "[[engine]]" in file.read_text("utf-8")]
+ENGINE_FILES = [file for file in _FILES if file not in GEARED_FILES]
 DOCS = ROOT / "docs"
 
 

@@ -10,7 +10,7 @@ from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, Node, WrittenAs
-from ..engine.engine import Engine, check_engine, take_model
+from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
@@ -74,6 +74,7 @@ _DEPENDENT = {
     "crank.spacing": _WITH_PLACES | {"force", "journals"},  # of forces: why there are no moments
 }
 DEFAULT_ORDERS = (1.0, 2.0)
+_OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
@@ -235,6 +236,8 @@ def analyze(
     check_type("beside", beside, Collection, "give engines, such as [engine]")
     for one in beside:
         check_engine("analyze", one)
+    if reasons or not wanted.isdisjoint(_OF_ONE_CRANK):
+        refuse_geared(engine)
     asked = None if orders is None else check_orders(orders, [engine, *beside])
     shown = wanted.intersection(EVERY_KIND)
     of_gas = () if engine.gas is None else list_gas_orders(engine)
@@ -251,6 +254,7 @@ def analyze(
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
     peak = find_peaks(everything) if peaked else None
+    has_linkage = engine.cylinders.linkage is not None and not engine.placed
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -263,7 +267,7 @@ def analyze(
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
-        travel=_list_strokes(engine) if engine.cylinders.linkage is not None else None,
+        travel=_list_strokes(engine) if has_linkage else None,
         why=_explain(engine, visible.orders, shown) if reasons else None,
         small=small,
         **_find_seldom(engine, wanted),
@@ -346,7 +350,7 @@ def _analyze_cylinders(
     if count > MOST_RESULTS_BY_CYLINDER:
         raise BalcliError(f"by cylinder: {count} results; give orders for {most} at most")
     own = compute_spectra(engine, orders, kinds, each=True)
-    rows = ((n, engine.numbers.index(n)) for n in sorted(engine.numbers))
+    rows = ((n, engine.numbers.index(n)) for n in engine.rising_numbers)
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
 
 

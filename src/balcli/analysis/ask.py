@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..file.toml import name_file
 from ..forces.kinds import COUPLE, GAS, ROLL
 from ..shell.inputs import (
@@ -79,6 +79,8 @@ def answer(
 
     def find_one(path: str) -> tuple[str, str, object]:
         engine = read_engine(path, rpm, asked.words, over=asked.speeds_rpm or None).engine
+        if "textbook" in asked.parts:
+            refuse_geared(engine)
         result = find(silence_cylinders(engine, asked.misfires, path))
         if isinstance(result, Analysis) and result.parts is not None:
             warn_each(result.parts.doubts, name_file(path))
@@ -125,7 +127,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
             wanted.append("ladder")
             if asked.whole or not for_people:
                 wanted.append("sizing")
-        if asked.whole and for_people:
+        if asked.whole and for_people and not engine.placed:
             wanted.append("guide")
     else:
         wanted = list(asked.quantities)

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, assert_never
 
 import typer
 
 from ..errors import BalcliError
-from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
+from ..shell.file_names import (
+    SERIES,
+    SeriesFormat,
+    format_of,
+    format_option,
+    require_ending,
+    text_format,
+)
 from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
     OF_ONE,
@@ -33,8 +41,8 @@ from ..shell.options import (
     parse_small,
     parse_speed,
 )
-from ..shell.output import emit, refuse_overwriting, show
-from ..shell.values import optional, read_angle, read_lengths
+from ..shell.output import emit, refuse_overwriting, show, write_file
+from ..shell.values import optional, parse_cylinder, read_angle, read_lengths
 from ..show.csv import csv_text, json_text
 from ..show.formats import Units
 from . import options as analysis_options
@@ -128,7 +136,9 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
         raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
 
 
-Cylinder = Annotated[int | None, optional("N", "Motion of this piston, also pressure with [gas].")]
+Cylinder = Annotated[
+    str | None, optional("N|NAME.N", "Motion of this piston, also pressure with [gas].")
+]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
@@ -162,7 +172,8 @@ def curves(
 
     asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
-    found = chapter.compute_curves_by_step(engine, cylinder, step_deg, asked)
+    number = None if cylinder is None else parse_cylinder(cylinder)
+    found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
     match form:
         case SeriesFormat.CSV:
             text = csv_text([chapter.rows(found)])
@@ -210,6 +221,7 @@ Phase = Annotated[
 At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Origin of the second engine, mm.")]
 Turn = Annotated[str, typer.Option(metavar="DEG", help="Angle by which it is turned about z.")]
 Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write both as a file with [[engine]].")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]
@@ -223,26 +235,33 @@ def sum(  # noqa: A001 (the command's name)
     turn: Turn = "0",
     reverse: Reverse = False,
     load: LoadOption = "first",
+    write: Write = None,
     speed: Speed = None,
     orders: Orders = None,
     form: FormatOption = None,
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines.
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines; a short form of
+    a file with [[engine]].
 
     \b
-    Example:
+    Examples:
       balcli sum i4.toml i4.toml --phase 90 --at 300,0,0
+      balcli sum i4.toml i4.toml --phase 90 --at 300,0,0 --write h8.toml
     """
-    refuse_overwriting(reads=[first, second], writes={"--output": output})
+    paths = [first, second]
+    refuse_overwriting(reads=paths, writes={"--output": output, "--write": write})
     form = text_format(output, form)
-    from .two_engines import RENDERER, Arrangement, combine_engines
+    require_ending(write, ".toml", "--write")
+    from .two_engines import RENDERER, Arrangement, combine_engines, describe_file
 
     rpm, asked = parse_speed(speed), parse_orders(orders)
     x, y, z = read_lengths("--at", at, "three numbers, X,Y,Z in mm, such as 0,300,0", 3, units)
     lead, turned = read_angle("--phase", phase), read_angle("--turn", turn)
     arrangement = Arrangement(lead, (x, y, z), turned, reverse, load)
-    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in (first, second)]
+    engines = [named_by_file(read_engine(path, rpm).engine, path) for path in paths]
     result = combine_engines(engines[0], engines[1], arrangement, asked)
+    if write is not None:
+        write_file(describe_file(result, paths, write, rpm), write)
     show([result], RENDERER, form, output, units)

@@ -30,7 +30,7 @@ from ..core.phasors import Array, Complex
 from ..core.piecewise import PiecewiseCurve, resolved
 from ..core.records import find_unit, list_figures, to_document, write_each
 from ..engine.build import build
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..engine.gas import EngineGas
 from ..engine.load import FiguresOfVariants
 from ..errors import BalcliError
@@ -196,13 +196,14 @@ _KINDS = {"journal": "main", "pin": "pin"}
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of main journals and crank pins."""
-    if not build(model).rotary:
+    if not (model.engine or build(model).rotary):
         for kind in ("journal", "pin"):
             yield from (f"{kind}.N.{part}" for part in ("range", "max", "min"))
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity is of a journal or pin that the crankshaft does not have."""
+    refuse_geared(model)
     places = [place.split() for place in weigh_cylinders(build(model))]
     for q in quantities:
         refuse_stranger(q, [number_ for kind, number_ in places if kind == _KINDS[q.kind]])
@@ -311,7 +312,7 @@ def list_masses(engine: Engine) -> tuple[Masses, ...]:
                 couple_constant_kg_m2=couple,
                 reduced_length_m=(inertia + mass * a * a) / (mass * a) if a else None,
             )
-        found.setdefault((one, radius), []).append(number_)
+        found.setdefault((one, radius), []).append(int(number_))
     return tuple(one._replace(cylinders=tuple(numbers)) for (one, _), numbers in found.items())
 
 

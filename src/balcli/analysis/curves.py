@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from ..core.phasors import EPS, Array, Complex, compose, unit
-from ..engine.engine import Engine, check_engine, find_row
+from ..engine.engine import CylinderNumber, Engine, Placed, check_engine, find_crank
 from ..errors import BalcliError, check_number
 from ..forces.curves import (
     EngineMotion,
@@ -137,7 +137,7 @@ def _add_upright(engine: Engine, found: Curves) -> Curves:
     return replace(found, curves=curves, assumed=engine.list_assumed())
 
 
-def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Curves:
+def compute_cylinder_curves(engine: Engine, number: CylinderNumber, crank_deg: Array) -> Curves:
     """Return piston travel from top dead centre (m), velocity and acceleration away from it (m/s,
     m/s2) and rod angle (deg) of one cylinder.
 
@@ -149,9 +149,11 @@ def compute_cylinder_curves(engine: Engine, number: int, crank_deg: Array) -> Cu
     Raises:
         BalcliError: The engine has no such cylinder.
     """
-    row = find_row(engine, number)
+    one, row = find_crank(engine, number)
     return _sum_parts(
-        engine, crank_deg, lambda angles: _compute_cylinder_parts(engine, row, angles)
+        engine,
+        crank_deg,
+        lambda angles: _compute_cylinder_parts(one.engine, row, angles + one.phase_deg),
     )
 
 
@@ -186,21 +188,34 @@ def _sum_parts(
 
 
 def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """Return the terms of each curve: those of cylinders and devices, shape (cylinders + devices,
-    angles).
+    """Return the terms of each curve: those of cylinders and devices of every crank, shape
+    (terms, angles).
     """
+    each = [_compute_crank_parts(one, crank_deg + one.phase_deg) for one in engine.cranks]
+    return {name: np.concatenate([parts[name] for parts in each]) for name in each[0]}
+
+
+def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
+    """Return the same terms of one crank, in the axes of all.
+
+    Args:
+        one: Engine with this crank, one of several or the only one.
+        crank_deg: Its own crank angles, shape (angles,).
+    """
+    engine = one.engine
     motion = EngineMotion(engine, crank_deg)
     of_devices = compute_device_forces(engine, crank_deg)
-    force = np.concatenate([_force_of_cylinders(motion), of_devices])
+    own_force = np.concatenate([_force_of_cylinders(motion), of_devices])
     x, y, z = engine.reference_m
     levels = np.array([*np.ravel(engine.cylinders.z), *(d.z for d in engine.devices)], float)
-    moment = 1j * (levels - float(z))[:, None] * force
+    moment = one.turn_axial(1j * (levels - float(z))[:, None] * own_force)
+    force = one.turn(own_force)
     on_crank = np.zeros(engine.cylinders.count)
     places = np.concatenate([on_crank, [d.place for d in engine.devices]]) - (x + 1j * y)
-    arms = (np.conj(places)[:, None] * force).imag
+    arms = (np.conj(places)[:, None] * own_force).imag
     turning = engine.find_turning_inertia(beyond_pins=True)
     momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
-    couple = np.concatenate([_couple_of_cylinders(motion), arms, momentum])
+    couple = one.ratio * np.concatenate([_couple_of_cylinders(motion), arms, momentum])
     torque = np.concatenate([_torque_of_cylinders(motion), energy])
     return {
         FORCE.key_along("x"): force.real,
@@ -209,7 +224,7 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
         MOMENT.key_along("y"): moment.imag,
         COUPLE.key: couple,
         TORQUE.key: torque,
-        ROLL.key: np.concatenate([couple, -torque]),
+        ROLL.key: np.concatenate([couple, -one.load_sense * torque]),
     }
 
 
@@ -252,13 +267,16 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
 
 
 _ROUNDING = 1e-14
+_BORNE = "borne"  # the gas torque that the frame bears, in the sense of the load
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
     """Return the gas torque of all cylinders, N m, shape (angles,)."""
     at = np.radians(crank_deg)
-    each = (c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders)
-    return {GAS.key: sum(each, np.zeros(at.shape))}
+    each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
+    senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
+    borne = (sense * torque for sense, torque in zip(senses, each, strict=True))
+    return {GAS.key: sum(each, np.zeros(at.shape)), _BORNE: sum(borne, np.zeros(at.shape))}
 
 
 def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, Array]:
@@ -301,7 +319,7 @@ def curves(
     engine: Engine,
     step_deg: float = 1.0,
     *,
-    cylinder: int | None = None,
+    cylinder: int | str | None = None,
     orders: Iterable[float] | None = None,
 ) -> Curves:
     """Return force, moment, couple, torque and roll over the crank angle, or the motion of one
@@ -311,8 +329,9 @@ def curves(
         engine: Engine from `load`.
         step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
             cycle.
-        cylinder: Number of the cylinder whose piston travel, speed, acceleration and rod angle are
-            wanted, with its pressure if it has gas; default: the whole engine.
+        cylinder: Number of the cylinder (of geared engines "upper.3") whose piston travel, speed,
+            acceleration and rod angle are wanted, with its pressure if it has gas; default: the
+            whole engine.
         orders: Orders of the whole engine whose sum alone is wanted; default: all.
 
     Returns:
@@ -330,13 +349,15 @@ def curves(
     """
     engine = check_engine("curves", engine)
     step = check_number("step_deg", step_deg, "give a step in degrees")
-    number = None if cylinder is None else check_count("cylinder", cylinder)
+    number = cylinder
+    if cylinder is not None and not isinstance(cylinder, str):
+        number = check_count("cylinder", cylinder)
     return compute_curves_by_step(engine, number, step, orders)
 
 
 def compute_curves_by_step(
     engine: Engine,
-    cylinder: int | None,
+    cylinder: CylinderNumber | None,
     step_deg: float,
     orders: Iterable[float] | None = None,
 ) -> Curves:
@@ -359,14 +380,17 @@ def compute_curves_by_step(
         found = compute_cylinder_curves(engine, cylinder, crank_deg)
     if engine.gas is None:
         return found
-    compute = partial(_find_gas_torque, engine)
+    compute, own_deg = partial(_find_gas_torque, engine), crank_deg
     if cylinder is not None:
-        compute = partial(_find_cylinder_gas, engine, engine.numbers.index(cylinder))
+        one, row = find_crank(engine, cylinder)
+        if one.engine.gas is None:
+            return found
+        compute, own_deg = partial(_find_cylinder_gas, one.engine, row), crank_deg + one.phase_deg
     every = dict(found.curves)
-    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, crank_deg, compute).items()}
+    every |= {k: _settle(y) for k, y in compute_piecemeal(engine, own_deg, compute).items()}
     if cylinder is None:
         every[TORQUE_TOTAL.key] = every[TORQUE.key] + every[GAS.key]
-        every[ROLL_TOTAL.key] = every[ROLL.key] - every[GAS.key]
+        every[ROLL_TOTAL.key] = every[ROLL.key] - every.pop(_BORNE)
     return replace(found, curves=every)
 
 

@@ -58,6 +58,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         turns, angle, place = "1", degrees(device.angle), "crank axis"
         if isinstance(device, Counterweight):
             angle += " from pin 1"
+            place = f"crank of {device.engine}" if device.engine else place
         else:
             place = "free" if anywhere else ", ".join(_length(v, length) for v in device.at)
             turns = f"{device.ratio:+d}" if isinstance(device, Shaft) else str(device.order)
@@ -283,6 +284,8 @@ def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, floa
         system: System of units.
     """
     own = FIELDS[type(device)]
+    if isinstance(device, Counterweight) and device.engine is not None:
+        yield "engine", device.engine, ""
     figures = {field: find_value(device, field) for field in _ORDER if field in own}
     figures |= zip(("at_x", "at_y"), figures.pop("at", ()), strict=False)
     for field, value in figures.items():

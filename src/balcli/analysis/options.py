@@ -74,7 +74,7 @@ class Request(NamedTuple):
     by_cylinder: bool
     why: bool
     height_m: float | None
-    misfires: tuple[int, ...]
+    misfires: tuple[str, ...]
     marine: bool
     small: float
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..engine.engine import CylinderNumber
 from ..engine.figures import find_first_largest
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, GAS_KINDS, KINDS, MOMENT, ROLL, Kind
@@ -143,7 +144,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 
 
 def cylinder_tables(
-    cylinder: int, share: Spectra, system: System, *, about_crank: bool
+    cylinder: CylinderNumber, share: Spectra, system: System, *, about_crank: bool
 ) -> Iterator[Grid]:
     """Yield tables of one cylinder's share, as lecturers list it: vectors as size and angle, couple
     and torques as amplitude and phase.

@@ -281,6 +281,7 @@ def verdict(
     steady: bool = True,
     devices: Sequence[Device] = (),
     omega: float = 0.0,
+    turning: Collection[int] = (1,),
 ) -> tuple[str, ...]:
     """Return a sentence for every order to 2 that is not small, one on higher orders that are not,
     and one on the others, each of at most 25 words; none without forces and moments.
@@ -294,6 +295,7 @@ def verdict(
             another one through the unevenness, and vanishes with that one.
         devices: Devices of the file; a device that turns like one of these is a further one.
         omega: Crank speed, rad/s, for the force of compensators among the devices.
+        turning: Senses in which cranks turn, seen from the first: they carry counterweights.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -315,7 +317,7 @@ def verdict(
             large=[vector for vector, found in senses.items() if found],
             rest=[vector for vector, found in senses.items() if not found],
             couple=spectra.couple is not None and bool(spectra.couple.balanced[k]),
-            cures=_find_cures(order, due, devices) if steady else {},
+            cures=_find_cures(order, due, devices, turning) if steady else {},
         )
 
     every = [judge(k, float(order)) for k, order in enumerate(spectra.orders) if order > 0]
@@ -396,15 +398,18 @@ def find_couple(result: Analysis) -> Phasors | None:
 
 
 def tell_couple(result: Analysis, system: System) -> str:
-    """Return a sentence on the largest transverse couple and its causes; empty if all orders of it
-    are negligible.
+    """Return a sentence on the largest transverse couple and, for a single crank, its causes; empty
+    if all orders of it are negligible.
     """
     if (couple := find_couple(result)) is None:
         return ""
     k = int(np.argmax(couple.major))
     order, size = couple.orders[k], size_text(float(couple.major[k]), system.moment)
+    told = f"Transverse couple: up to {size} (order {order_name(order)})"
+    if result.engine.placed:
+        return f"{told}."
     causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
-    told = f"Transverse couple: up to {size} (order {order_name(order)}), from {join_words(causes)}"
+    told += f", from {join_words(causes)}"
     alone = causes == [_RODS] and result.engine.cylinders.linkage is None
     return f"{told}{'; rods with H = 0 have none' * alone}."
 
@@ -439,20 +444,22 @@ def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
     return causes
 
 
-def _find_cures(order: float, due: Collection[int], devices: Sequence[Device]) -> dict[int, str]:
+def _find_cures(
+    order: float, due: Collection[int], devices: Sequence[Device], turning: Collection[int]
+) -> dict[int, str]:
     """Return the devices that would cancel the vectors of an order that turn in these senses, by
     sense.
     """
     if order % 1:
         return {}  # no device turns at half orders
+    weights = {1: "counterweights", -1: "weights on the opposite crank"}
     cures = {}
     alike = [one for one in devices if one.order == order and one.kind is not DeviceKind.SLIDER]
     for sense in sorted(due, reverse=True):
         there = any(np.any(one.forward if sense > 0 else one.backward) for one in alike)
         further, ratio = "further " * there, round(order) * sense
-        cures[sense] = (
-            f"a {further}shaft at {ratio:+d}" if ratio != 1 else f"{further}counterweights"
-        )
+        on_crank = ratio in turning
+        cures[sense] = further + weights[ratio] if on_crank else f"a {further}shaft at {ratio:+d}"
     return cures
 
 

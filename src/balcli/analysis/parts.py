@@ -21,9 +21,9 @@ from ..core.cylinders import find_innermost
 from ..core.loads import find_arms
 from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
-from ..engine.devices import build_device, find_given_unbalance, find_sector
-from ..engine.engine import Engine
-from ..file.model import Counterweight, Shaft, group_eccentrics
+from ..engine.devices import build_device, find_given_unbalance, find_sector, group_eccentrics
+from ..engine.engine import Engine, refuse_geared
+from ..file.model import Counterweight, Shaft
 from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
@@ -42,6 +42,7 @@ def find_parts(
         shafts: Entries of its balancer shafts.
         counterweights: Its counterweights.
     """
+    refuse_geared(engine)
     skirt = None if engine.model is None else engine.model.piston.skirt
     lowest = None
     if skirt is not None and not engine.rotary:  # counterweights there turn with the cylinders

@@ -23,7 +23,7 @@ from ..core.peaks import Swing, find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
 from ..engine.build import build
-from ..engine.engine import Engine, check_engine, find_row
+from ..engine.engine import Engine, check_engine, find_row, refuse_geared
 from ..engine.load import FiguresOfVariants
 from ..file.model import EngineFile
 from ..forces.quantity import TargetQuantity, refuse_stranger
@@ -177,6 +177,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
         >>> analyze_pistons(load("i4.toml")).mechanisms[0].velocity.max_m_per_s
     """
     engine = check_engine("analyze_pistons", engine)
+    refuse_geared(engine)
     c, numbers = engine.cylinders, np.array(engine.numbers)
     orders = np.arange(1.0, max(c.find_highest_order(), 2) + 1)
     harmonics, which = c.find_distinct_harmonics(orders, {"piston"})
@@ -286,14 +287,17 @@ def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
 _PARTS = ("mean_speed", "max_speed", "max_acceleration", "stroke")
 
 
-def list_names(_: EngineFile) -> Iterator[str]:
+def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities of piston 1, and of any other."""
+    if model.engine:
+        return
     for stem in ("piston", "piston.N"):
         yield from (f"{stem}.{part}" for part in _PARTS)
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
     """Raise BalcliError if a quantity is of a cylinder that the engine does not have."""
+    refuse_geared(model)
     there = list(map(str, sorted(build(model).numbers)))
     for q in (q for q in quantities if q.target):
         refuse_stranger(q, there)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 from ..core.peaks import Peak
 from ..core.phasors import Array, Phasors
 from ..core.records import HIDDEN, INLINE, Reached, WrittenAs, remove_unit
+from ..engine.engine import CylinderNumber
 from ..file import model
 from ..file.fields import order_number
 from ..forces.crankshaft import AlongCrank, CrankLoads, InnerLoads
@@ -30,11 +31,11 @@ class CylinderShare(NamedTuple):
     """Forces and moments of a single cylinder.
 
     Attributes:
-        cylinder: Number of the cylinder.
+        cylinder: Number of the cylinder; of geared engines with the name of its engine.
         spectra: Orders of its forces and moments.
     """
 
-    cylinder: int
+    cylinder: CylinderNumber
     spectra: Annotated[Spectra, WrittenAs(list_orders, "orders")]
 
 
@@ -253,11 +254,13 @@ class Counterweight(NamedTuple):
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from cylinder 1's crank pin.
         position_mm: Position along the crank.
+        engine: Of geared engines, the one whose crank carries it.
     """
 
     unbalance_kg_m: float
     angle_deg: float
     position_mm: float
+    engine: str | None = None
 
 
 class Shaft(NamedTuple):

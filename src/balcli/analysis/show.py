@@ -131,7 +131,8 @@ def import_seldom(name: str = "crank_drive") -> ModuleType:
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
     """Yield all tables, or those that `--only` names; by default only with orders that matter."""
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
-    parts = view.parts or {*EVERY_KIND, "xy", "textbook"}
+    of_one = set() if result.engine.placed else {"textbook"}
+    parts = view.parts or {*EVERY_KIND, "xy", *of_one}
     others = ""
     if not (view.whole or every):
         shown = find_orders_that_matter(spectra, result.of_one_cylinder)
@@ -197,8 +198,9 @@ def _judge(result: Analysis, system: System) -> Iterator[Text]:
         result.scales,
         small=result.small,
         steady=not result.engine.ripple,
-        devices=result.engine.devices,
+        devices=result.engine.every_device,
         omega=float(result.engine.omega),
+        turning={one.ratio for one in result.engine.cranks},
     )
     rocking = tell_rocking(spectra, system, tell_pivot(result.engine))
     unknown = "" if known else sentence(MOMENTS_UNKNOWN)

@@ -174,7 +174,7 @@ class CountedEngine:
 
 def count_cylinders(engine: Engine) -> CountedEngine:
     """Return name and number of cylinders."""
-    return CountedEngine(engine.name, engine.cylinders.count)
+    return CountedEngine(engine.name, len(engine.numbers))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,57 +1,46 @@
-"""Two engines on one frame, geared one to one (H, U and opposed-piston engines): the sum of their
-phasors, and the tables that show it.
+"""`sum`: two engines on one frame, geared one to one (H, U, opposed-piston), in place of a file
+with [[engine]]; and how the sum is shown.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
-import numpy as np
-
 from ..core.peaks import Peak
-from ..core.phasors import Array, Figure, Phasors, unit
 from ..core.records import HIDDEN, INLINE, WrittenAs
-from ..core.speed_ripple import RippleLine
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
+from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
+from ..file.edit import format_value
 from ..file.fields import counted
-from ..forces.kinds import EVERY_KIND, GAS, KINDS, Kind
-from ..forces.spectrum import (
-    Spectra,
-    add_parts,
-    check_orders,
-    choose_orders,
-    compute_spectra,
-    find_relevant_orders,
-    list_gas_orders,
-    merge_orders,
-)
-from ..limits import FARTHEST_DEG, FARTHEST_M, HIGHEST_ORDER_UNASKED
+from ..forces.kinds import Kind
+from ..forces.spectrum import Spectra
+from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..shell.arguments import read_position, tell_arguments
 from ..show.csv import Rows
-from ..show.engine_facts import tell_pivot, tell_speed
+from ..show.engine_facts import tell_pivot, tell_place, tell_speed
 from ..show.figures import (
     EngineSize,
     EngineState,
     Peaks,
     describe_state,
     figure_rows,
-    find_peaks,
     list_assumed,
     list_orders,
     measure_engine,
-    place_in_mm,
 )
 from ..show.formats import Renderer
 from ..show.result import Result
-from ..show.sheet import Facts, Grid, Sheet, number, tell_assumed
-from .answer import DEFAULT_ORDERS
+from ..show.sheet import Facts, Grid, Sheet, tell_assumed
+from ..sizing.planes import as_millimetres
+from .answer import analyze
 from .order_tables import order_tables, peak_facts
 
 if TYPE_CHECKING:
-    from ..show.units import ShownUnit, System
+    from ..show.units import System
 
 
 Load = Literal["first", "second", "both"]
@@ -114,6 +103,15 @@ class Arrangement:
         if self.load != "first" and not self.reverse:
             raise BalcliError(f"--load {self.load}: makes a difference only with --reverse")
 
+    def place(self, first: Engine, second: Engine) -> tuple[Placed, Placed]:
+        """Return both engines where they stand."""
+        ratio = -1 if self.reverse else 1
+        senses = {"first": (1, 1), "second": (ratio, ratio), "both": (1, ratio)}[self.load]
+        leader = Placed(first, "first", load=self.load != "second", load_sense=senses[0])
+        stands = ratio, self.phase_deg, self.turn_deg, self.at_m, self.load != "first", senses[1]
+        other = Placed(second, "second", "", *stands)
+        return leader, other
+
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Combined(Result):
@@ -174,123 +172,21 @@ def combine_engines(
         orders: Orders to show; default: as in `analyze`.
 
     Raises:
-        BalcliError: An order is negative or too high.
+        BalcliError: An order is negative or too high; an engine is made of several.
     """
-    given = (first, second)
-    asked = None if orders is None else check_orders(orders, given)
-    second = gear_to(second, first, arrangement.phase_deg)
-    computed = merge_orders(
-        find_relevant_orders(first),
-        find_relevant_orders(second),
-        DEFAULT_ORDERS if asked is None else asked,
-        *(list_gas_orders(engine) for engine in (first, second) if engine.gas is not None),
-    )
-    few = computed[computed <= HIGHEST_ORDER_UNASKED] if asked is None else asked
-    visible = _compute_sum(first, second, arrangement, few)
-    if asked is None:
-        of_gas = merge_orders(*map(list_gas_orders, (first, second)))
-        visible = visible.select_orders(choose_orders(visible, of_gas))
-    # an engine close to locking has tens of thousands of orders, which all contribute to the peaks
-    one, other = (replace(engine, gas=None) for engine in (first, second))
+    for engine in (first, second):
+        refuse_geared(engine)
+    found = analyze(gear_engines(arrangement.place(first, second)), orders)
+    assert found.peak is not None
     return Combined(
-        engines=given,
+        engines=(first, second),
         arrangement=arrangement,
         state=describe_state(first),
-        spectra=visible,
+        spectra=replace(found.spectra, up_deg=first.up_deg),
         assumed=list_assumed(("first", "second"), [e.list_assumed("gas") for e in (first, second)]),
-        peak=find_peaks(_compute_sum(one, other, arrangement, computed)),
-        every_order=asked is not None,
+        peak=found.peak,
+        every_order=orders is not None,
     )
-
-
-def _compute_sum(first: Engine, second: Engine, arrangement: Arrangement, orders: Array) -> Spectra:
-    """Return the spectra of both engines together, with gas if one of them has some."""
-    about_origin = replace(second, reference_m=(0.0, 0.0, 0.0))
-    one, own = (
-        compute_spectra(engine, orders, KINDS if engine.gas is None else (*KINDS, GAS.name))
-        for engine in (first, about_origin)
-    )
-    return _add_spectra(one, place_spectra(own, arrangement, first.reference_m), arrangement)
-
-
-def gear_to(engine: Engine, leader: Engine, phase_deg: float) -> Engine:
-    """Return an engine at the (possibly uneven) speed of another one, to which it is geared.
-
-    Args:
-        engine: Engine whose speed is replaced.
-        leader: Engine that determines the speed.
-        phase_deg: Crank angle by which `engine` leads, deg.
-    """
-    ripple = tuple(
-        RippleLine(line.order, line.amplitude, line.angle_deg + line.order * phase_deg)
-        for line in leader.ripple
-    )
-    return replace(engine.at_speed(leader.speed_rpm), ripple=ripple)
-
-
-def place_spectra(
-    own: Spectra, arrangement: Arrangement, reference_m: tuple[Figure, Figure, Figure]
-) -> Spectra:
-    """Return the phasors of an engine in its place, over the crank angle of the engine to which it
-    is geared.
-
-    Args:
-        own: All kinds of inertia, and the gas torque if there is gas, about the engine's own origin
-            and over its own crank angle.
-        arrangement: Arrangement of the engine.
-        reference_m: Point of reference of the result, in the other engine's axes.
-    """
-    n = own.orders
-    places = zip(arrangement.at_m, reference_m, strict=True)
-    x, y, z = (place - float(point) for place, point in places)
-    lead = unit(n * arrangement.phase_deg)
-    parts = {
-        kind.name: Phasors.of(n, lead * p.forward, np.conj(lead) * p.backward, p.noise)
-        for kind, p in own.items()
-    }
-    if arrangement.reverse:
-        parts = {name: _mirror(phasors, EVERY_KIND[name]) for name, phasors in parts.items()}
-    turn = unit(arrangement.turn_deg)
-    force = turn * parts["force"]
-    parts["force"] = force
-    parts["moment"] = turn * parts["moment"] + 1j * z * force
-    parts["couple"] = parts["couple"] + force.about(x + 1j * y)
-    return Spectra(n, None, **{kind.name: add_parts(kind, parts) for kind, _ in own.items()})
-
-
-def _mirror(phasors: Phasors, kind: Kind) -> Phasors:
-    """Return phasors mirrored by a change of sign of y: a force becomes its conjugate; a moment or
-    torque also changes its sign.
-    """
-    sign = 1.0 if kind.dimension == "force" else -1.0
-    ahead, against = sign * phasors.forward.conj(), sign * phasors.backward.conj()
-    mean = phasors.orders == 0
-    forward, backward = np.where(mean, ahead, against), np.where(mean, 0, ahead)
-    return Phasors.of(phasors.orders, forward, backward, phasors.noise)
-
-
-def _add_spectra(one: Spectra, other: Spectra, arrangement: Arrangement) -> Spectra:
-    """Return the sum of both engines, with torque and roll as derived in `Combined`."""
-    parts = {name: one[name] + other[name] for name in ("force", "moment", "couple")}
-    parts["torque"], taken = _gear(one["torque"], other["torque"], arrangement)
-    parts["roll"] = parts["couple"] - taken
-    if one.gas is not None or other.gas is not None:
-        none = 0.0 * one["torque"]
-        parts["gas"], taken_of_gas = _gear(one.gas or none, other.gas or none, arrangement)
-        parts["torque_total"] = parts["torque"] + parts["gas"]
-        parts["roll_total"] = parts["roll"] - taken_of_gas
-    found = {name: phasors.drop_noise() for name, phasors in parts.items()}
-    return Spectra(one.orders, one.up_deg, **found)
-
-
-def _gear(one: Phasors, other: Phasors, arrangement: Arrangement) -> tuple[Phasors, Phasors]:
-    """Return the torque at the first crank from torques on both, and the torque that the load
-    takes, both about z.
-    """
-    sense = -1.0 if arrangement.reverse else 1.0  # sense of the second crank
-    felt = one + sense * other
-    taken = {"first": felt, "second": sense * felt, "both": one + other}
-    return felt, taken[arrangement.load]
 
 
 @tell_arguments(phase="phase_deg", at="at_m", turn="turn_deg")
@@ -338,6 +234,40 @@ def combine(
     return combine_engines(*checked, Arrangement(phase, place, turn, reverse, load), orders)
 
 
+def describe_file(
+    result: Combined, paths: Sequence[str], target: Path, speed_rpm: float | None
+) -> str:
+    """Return the text of a file with [[engine]] that describes both engines as they are combined.
+
+    Args:
+        result: Both engines together.
+        paths: Their files.
+        target: Path of the new file, in the folder of the others or above it.
+        speed_rpm: Speed instead of that of the first file; None: that one.
+
+    Raises:
+        BalcliError: A file is elsewhere.
+    """
+    blocks = [f"name = {format_value(' and '.join(one.name for one in result.engines))}\n"]
+    if speed_rpm is not None:
+        blocks.append(f"[operation]\nspeed = {format_value(speed_rpm)}\n")
+    for path, placed in zip(paths, result.arrangement.place(*result.engines), strict=True):
+        at = [as_millimetres(float(each)) for each in placed.at_m]
+        keys = {"name": placed.name, "file": _name_beside(path, target), "ratio": placed.ratio}
+        keys |= {"phase": placed.phase_deg, "at": at, "turn": placed.turn_deg, "load": placed.load}
+        lines = (f"{key} = {format_value(value)}\n" for key, value in keys.items())
+        blocks.append(f"[[engine]]\n{''.join(lines)}")
+    return "\n".join(blocks)
+
+
+def _name_beside(path: str, target: Path) -> str:
+    """Return the name by which a file at `target` names an engine file."""
+    home, place = target.parent.resolve(), Path(path).resolve()
+    if path == "-" or not place.is_relative_to(home):
+        raise BalcliError(f"--write {target}: {path} is not in its folder; write it there")
+    return place.relative_to(home).as_posix()
+
+
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL = {
     "first": "It drives the load, and the roll is C − T.",
@@ -381,7 +311,7 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     named = {"first": first, "second": second}
     for which, engine in named.items():
         yield which, f"{engine.name}, {counted(engine.cylinders.count, 'cylinder')}"
-    place = _tell_place(how.at_m, system.length)
+    place = tell_place(how.at_m, system)
     yield "place", f"the second at {place}, turned by {how.turn_deg:g} deg"
     against = ", and turns against the first" if how.reverse else ""
     yield "crank", f"the second leads by {how.phase_deg:g} deg{against}"
@@ -391,13 +321,9 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
     if result.assumed:
         yield "assumed", tell_assumed(result.assumed)
     if result.moments_known:
-        yield "reference", f"moments about {_tell_place(first.reference_m, system.length)}"
+        yield "reference", f"moments about {tell_place(first.reference_m, system)}"
     else:
         yield "reference", "moments are not known: crank.spacing is missing"
-
-
-def _tell_place(point: Iterable[Figure], unit: ShownUnit) -> str:
-    return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -23,13 +23,13 @@ from ..core.phasors import Array, unit
 from ..core.records import Node
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
-from ..engine.engine import Engine, check_engine
+from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
 from ..engine.layout import plan_cylinders
 from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import EngineFile, Sector, Shaft
+from ..file.model import Counterweight, EngineFile, Sector, Shaft
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
@@ -282,6 +282,7 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     if goal not in _CLOSE:
         raise BalcliError(f'--even "{goal:.60}": choose from {", ".join(_CLOSE)}')
     engine = build(model)
+    refuse_geared(engine)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
@@ -358,7 +359,7 @@ def _solve(find_error: Callable[[Array], Array], count: int) -> Array:
     return turn_deg
 
 
-def _find_first_rows(model: EngineFile, numbers: tuple[int, ...]) -> list[int]:
+def _find_first_rows(model: EngineFile, numbers: tuple[CylinderNumber, ...]) -> list[int]:
     """Return the row of the first cylinder of each bank."""
     cells = plan_cylinders(model).cells
     first = {cell.bank: cell.number for cell in sorted(cells, key=lambda cell: -cell.throw)}
@@ -465,6 +466,8 @@ def _list_entries(device: DeviceTable) -> Node:
     shapes = {key: _write(getattr(device, key)) for key in SHAPES if device.has(key)}
     if isinstance(device, Shaft) and device.role != "balancer":
         shapes["role"] = device.role
+    if isinstance(device, Counterweight) and device.engine is not None:
+        shapes = {"engine": device.engine, **shapes}
     return shapes | entries
 
 

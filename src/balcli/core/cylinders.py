@@ -146,6 +146,7 @@ class Device(NamedTuple):
         spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
             kg m2.
         axle: Axle of a locomotive that carries it; empty: the driving axle.
+        crank: Index of the crank to which it is geared, or that carries it.
     """
 
     order: int
@@ -157,6 +158,7 @@ class Device(NamedTuple):
     compensates: bool = False
     spin: Figure = 0.0
     axle: str = ""
+    crank: int = 0
 
 
 _STEPS = 720

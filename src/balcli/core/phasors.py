@@ -263,6 +263,13 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
     )
 
 
+def join_places(parts: Sequence[Phasors]) -> Phasors:
+    """Return the places along the trailing axis of several, in their order."""
+    noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
+    vectors = np.concatenate([p.vectors for p in parts], axis=-1)
+    return Phasors(parts[0].orders, vectors, np.concatenate(noises, axis=-1))
+
+
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:
     """Return the orders as a column that broadcasts with `like`."""
     return orders.reshape(-1, *(1,) * (like.ndim - 1))

@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from ..core.cylinders import Device
 from ..core.mechanisms import harmonics
 from ..core.mechanisms.linkage import STEPS, Articulated, Linkage, Rotary, revolution
 from ..core.mechanisms.motion import Motion
@@ -36,12 +37,13 @@ from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
 from ..file.fields import counted, join_words
-from ..file.model import EngineFile
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
-from .devices import build_devices, check_shafts
+from ..names import GEARED, import_name
+from .devices import build_device, build_devices, check_shafts
 from .engine import Bearings, Engine, Rating
-from .figures import FileFigures, column, divide
+from .figures import AS_GIVEN, FileFigures, column, divide
 from .layout import Plan, are_places_known
 from .numbering import check_numbering, list_inferred
 from .parts import Parts
@@ -74,6 +76,8 @@ def build(
         InputError: Tables do not fit together; the error lists the mistakes by path.
         BalcliError: A figure cannot vary because the file gives other figures instead.
     """
+    if model.engine:
+        return cast(Engine, import_name(GEARED)(model, varied, rank))
     parts = assemble(model, varied, rank=rank, gas=gas)
     figures, places = parts.figures, parts.places
     bore = figures.take_optional("piston.bore", model.piston.bore)
@@ -107,7 +111,7 @@ def build(
         places_known=are_places_known(model, parts.plan, varied or ()),
         gas=parts.gas,
         crank_inertia=divide(inertia, 1e6),
-        flywheel_inertia=None if model.flywheel is None else _find_wheel(figures, model.flywheel),
+        flywheel_inertia=None if model.flywheel is None else find_wheel(figures, model.flywheel),
         bearings=bearings,
         rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
         inferred=() if varied else tuple(list_inferred(parts)),
@@ -129,7 +133,28 @@ def assemble(
     return parts
 
 
-def _find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
+def build_fitted(
+    table: Counterweight | Shaft | Slider,
+    engine: Engine,
+    figures: FileFigures = AS_GIVEN,
+    path: str = "",
+) -> Device:
+    """Return a device of an engine, SI. Of geared engines a counterweight counts from the first
+    pin of the one that carries it, in that engine's sense; its z counts as that of the others.
+
+    Args:
+        table: Table of an engine file.
+        engine: Engine that has it.
+        figures: Figures of the file.
+        path: Dotted name of the table.
+    """
+    carrier = getattr(table, "engine", None)
+    row = [one.name for one in engine.placed].index(carrier) if carrier else 0
+    own = engine.placed[row].engine if engine.placed else engine
+    return build_device(table, own.first_axis_deg, figures, path)._replace(crank=row)
+
+
+def find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
     """Return the moment of inertia of the flywheel, kg m2."""
     inertia, mass, radius = (
         figures.take_optional(f"flywheel.{key}", getattr(table, key))
@@ -206,6 +231,14 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
         yield from one_end or check_rod_inertia(place, gear)
         if not place.articulated:
             yield from check_turning(place, gear, parts.find_radius(number))
+
+
+def check_carriers(parts: Parts) -> Iterator[Problem]:
+    """Check that no counterweight names an engine where there is one alone."""
+    for number, weight in enumerate(parts.model.counterweight, 1):
+        if weight.engine is not None:
+            told = f'"{weight.engine}": this file has no [[engine]]; leave it out'
+            yield Problem(f"counterweight.{number}.engine", told)
 
 
 def check_articulation(parts: Parts) -> Iterator[Problem]:
@@ -379,6 +412,7 @@ STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),
+    (check_carriers,),
     (check_knuckles, check_shafts),  # pins and balancer shafts
     (check_numbering,),  # firing angles
     (check_samples,),  # cylinders

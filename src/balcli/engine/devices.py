@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,14 +13,8 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import Figure, unit
 from ..errors import InputError, Problem
 from ..file.fields import shorten
-from ..file.model import (
-    Counterweight,
-    Sector,
-    Shaft,
-    Slider,
-    group_eccentrics,
-    label_table,
-)
+from ..file.model import Counterweight, Sector, Shaft, Slider
+from ..file.table import label_table
 from .figures import AS_GIVEN, FileFigures, divide, or_zero, place_in_plane, value_or
 
 if TYPE_CHECKING:
@@ -192,6 +186,21 @@ def find_sector(
 
 # ------------------------------------------------------------------ rules between entries
 _OF_SHAFT = ("inertia", "bearings", "gear", "drag")  # keys of a whole shaft
+
+
+def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft]]]:
+    """Return the entries of each balancer shaft, with their numbers in the file, from 1.
+
+    Args:
+        shafts: All [[shaft]] tables.
+
+    Returns: The name of each shaft, or `shaft 2` by its number, and its entries.
+    """
+    groups: dict[tuple[str, int], dict[int, Shaft]] = {}
+    for number, table in enumerate(shafts, 1):
+        key = table.name, 0 if table.name else number
+        groups.setdefault(key, {})[number] = table
+    return [(name or f"shaft {number}", entries) for (name, number), entries in groups.items()]
 
 
 def check_shafts(parts: Parts) -> Iterator[Problem]:

@@ -5,31 +5,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.cylinders import Cylinders, Device, DeviceKind, find_travel
 from ..core.phases import RPM
-from ..core.phasors import Array, Figure, Phasors
-from ..core.records import Node
+from ..core.phasors import Array, Complex, Figure, Phasors, unit
+from ..core.records import HIDDEN, Node, WrittenAs
 from ..core.speed_ripple import RippleLine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, check_type, wrong_type
 from ..file.doubts import find_suspicious
+from ..file.fields import join_words
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed, list_tables
-from ..names import EXPLORE, NOTEBOOK, VARY, import_name
-from .figures import find_first_largest
+from ..file.plain_tables import choose_assumed, join_assumed, list_tables
+from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
+from .figures import find_first_largest, place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
 if TYPE_CHECKING:
     from .gas import EngineGas
+
+
+CylinderNumber: TypeAlias = int | str  # 3; of geared engines with the engine's name: "upper.3"
 
 
 class Bearings(NamedTuple):
@@ -73,8 +77,86 @@ class SilentCylinders(NamedTuple):
         without_burning: Cylinders that compress and expand their charge, but burn nothing.
     """
 
-    without_gas: tuple[int, ...] = ()
-    without_burning: tuple[int, ...] = ()
+    without_gas: tuple[CylinderNumber, ...] = ()
+    without_burning: tuple[CylinderNumber, ...] = ()
+
+
+def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
+    """Return a place given in m."""
+    return tuple(1e3 * float(v) for v in place_m)
+
+
+def as_number(figure: Figure) -> float:
+    """Return a figure that does not vary as a plain number."""
+    return float(figure)
+
+
+class Placed(NamedTuple):
+    """An engine where it stands among others that are geared to it one to one.
+
+    Attributes:
+        engine: The engine alone, in its own axes, by its own crank angle and sense of rotation.
+        name: Its name in the file.
+        file: Its engine file.
+        ratio: 1: its crank turns as the first one; -1: against it. It is then its own mirror image
+            (y changed in sign).
+        phase_deg: Crank angle by which it leads the first, in its own sense of rotation.
+        turn_deg: How far it is turned about z.
+        at_m: Place of its origin (its crank axis at its z = 0).
+        load: Whether its crank drives the load.
+        load_sense: Sense of the crank that takes its torque to the load: that of the load's crank,
+            or its own where each has a load.
+    """
+
+    engine: Annotated[Engine, HIDDEN]
+    name: str = ""
+    file: str = ""
+    ratio: int = 1
+    phase_deg: Annotated[Figure, WrittenAs(as_number)] = 0.0
+    turn_deg: Annotated[Figure, WrittenAs(as_number)] = 0.0
+    at_m: Annotated[tuple[Figure, ...], WrittenAs(place_in_mm, "at_mm")] = (0.0, 0.0, 0.0)
+    load: bool = True
+    load_sense: Annotated[int, HIDDEN] = 1
+
+    def turn(self, vector: complex | Complex) -> Complex:
+        """Return a vector of its own axes in those of all."""
+        seen = vector if self.ratio > 0 else np.conj(vector)
+        turned: Complex = unit(self.turn_deg) * seen
+        return turned
+
+    def find_own_unbalance(self, seen: complex) -> complex:
+        """Return an unbalance on its crank in its own axes at its own crank angle 0, from what all
+        see when the first crank is at 0, kg m.
+        """
+        back = np.conj(unit(self.turn_deg)) * seen
+        own = back if self.ratio > 0 else np.conj(back)
+        return complex(np.conj(unit(self.phase_deg)) * own)
+
+    def turn_axial(self, vector: complex | Complex) -> Complex:
+        """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
+        return self.ratio * self.turn(vector)
+
+    def find_place(self, own: complex | Complex) -> Complex:
+        """Return a point x + iy of its own axes in those of all, m."""
+        return self.turn(own) + place_in_plane(*self.at_m[:2])
+
+    def find_device(self, own: Device) -> Device:
+        """Return a device of its own axes and crank angle in those of all."""
+        lead = unit(own.order * self.phase_deg)
+        forward, backward = lead * own.forward, np.conj(lead) * own.backward
+        if self.ratio < 0:  # a mirrored vector turns the other way
+            forward, backward = backward, forward
+        return own._replace(
+            forward=self.turn(forward),
+            backward=self.turn(backward),
+            place=self.find_place(own.place),
+            z=own.z + self.at_m[2],
+        )
+
+    def find_own_place(self, place: complex | Complex) -> Complex:
+        """Return a point x + iy of the axes of all in its own, m."""
+        back: Complex = np.conj(unit(self.turn_deg)) * (place - place_in_plane(*self.at_m[:2]))
+        return back if self.ratio > 0 else np.conj(back)
 
 
 NONE_SILENT = SilentCylinders()
@@ -120,11 +202,13 @@ class Engine:
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
+        placed: Engines that are geared together, of which this is the whole: `cylinders` and what
+            is derived from them are then those of the first. Empty for an ordinary engine.
     """
 
     name: str
     source: str
-    numbers: tuple[int, ...]
+    numbers: tuple[CylinderNumber, ...]
     cylinders: Cylinders
     fires_deg: Mapping[int, Figure]
     strokes: int
@@ -147,6 +231,7 @@ class Engine:
     up_deg: float | None = None
     inferred: tuple[str, ...] = ()
     model: EngineFile | None = None
+    placed: tuple[Placed, ...] = ()
 
     # -------------------------------------------------------------- the file and its variants
     def vary(
@@ -205,12 +290,18 @@ class Engine:
     def unlikely(self) -> tuple[str, ...]:
         """Warnings of figures in the file that are allowed but unlikely."""
         of_gas = () if self.gas is None else self.gas.doubts
+        if self.placed:
+            each = ((one.file, doubt) for one in self.placed for doubt in one.engine.unlikely)
+            return tuple(dict.fromkeys(f"{file}: {doubt}" for file, doubt in each))
         if self.model is None:
             return of_gas
         return (*find_suspicious(self.model), *doubt_firing(self.model), *of_gas)
 
     def doubt_speeds(self, speeds_rpm: ArrayLike) -> tuple[str, ...]:
         """Return a warning if the file does not give the gas at some of these speeds."""
+        if self.placed:
+            each = ((one.file, one.engine.doubt_speeds(speeds_rpm)) for one in self.cranks)
+            return tuple(dict.fromkeys(f"{file}: {told}" for file, own in each for told in own))
         law = None if self.gas is None else self.gas.law
         return () if law is None else tuple(law.list_doubts(speeds_rpm))
 
@@ -230,6 +321,12 @@ class Engine:
                 mount, flywheel.
             without: Keys to omit.
         """
+        if self.placed:
+            of_each = {
+                one.name: one.engine.list_assumed(*chapters, without=without) or ()
+                for one in self.cranks
+            }
+            return join_assumed(of_each) or None
         chapters = (*chapters, "flywheel") if self.ripple else chapters
         given = () if self.speed_assumed else ("operation.speed",)
         steady = () if self.ripple or "flywheel" in chapters else ("crank.inertia",)
@@ -252,6 +349,21 @@ class Engine:
         if isinstance(self.speed_rpm, float):
             words.append(f"{self.speed_rpm:g} rpm")
         return f'"{self.name}": {", ".join(words)}' if self.name else ", ".join(words)
+
+    # -------------------------------------------------------------- several cranks
+    @cached_property
+    def cranks(self) -> tuple[Placed, ...]:
+        """Engines that are geared together, each with the speed, devices and point of reference of
+        the whole in its own terms; an ordinary engine is one that stands where it is.
+        """
+        return tuple(import_name(CRANKS)(self)) if self.placed else (Placed(self),)
+
+    @property
+    def every_device(self) -> tuple[Device, ...]:
+        """Devices of all cranks and of the whole, in the axes of all."""
+        if not self.placed:
+            return self.devices
+        return tuple(one.find_device(own) for one in self.cranks for own in one.engine.devices)
 
     # -------------------------------------------------------------- motion
     @property
@@ -280,6 +392,10 @@ class Engine:
             beyond_pins: Whether to leave out the throw masses in `crank.inertia`, which count with
                 the pins.
         """
+        if self.placed:
+            each = [one.engine.find_turning_inertia(beyond_pins=beyond_pins) for one in self.cranks]
+            momenta = (one.ratio * own.momentum for one, own in zip(self.cranks, each, strict=True))
+            return TurningInertia(sum(momenta), sum(own.energy for own in each))
         crank = None if self.rotary else self.crank_inertia
         on_crank: Figure = 0.0
         for inertia in (crank, self.flywheel_inertia):
@@ -308,6 +424,8 @@ class Engine:
     @property
     def displacement_m3(self) -> Figure:
         """Swept volume, m3, of all cylinders except dummies, which the firing order leaves out."""
+        if self.placed:
+            return sum(one.engine.displacement_m3 for one in self.placed)
         stroke = find_travel(self.cylinders).stroke
         burning = [row for row, n in enumerate(self.numbers) if n in (self.fires_deg or {n})]
         volume: Array = math.pi / 4 * self.bore_m**2 * stroke[burning].sum(axis=0)
@@ -319,7 +437,7 @@ class Engine:
         linkage.
         """
         c = self.cylinders
-        return c.linkage is not None and c.linkage.turning
+        return c.linkage is not None and c.linkage.turning and not self.placed
 
     @property
     def equal(self) -> bool:
@@ -330,12 +448,20 @@ class Engine:
         )
 
     @property
+    def rising_numbers(self) -> list[CylinderNumber]:
+        """Numbers of the cylinders in rising order; of geared engines one engine after another."""
+        if not self.placed:
+            return sorted(self.numbers)
+        each = ((one.name, sorted(one.engine.numbers)) for one in self.placed)
+        return [f"{name}.{number}" for name, numbers in each for number in numbers]
+
+    @property
     def first_axis_deg(self) -> Figure:
         """Axis of cylinder 1, deg; its crank pin points along it at crank angle 0."""
         return self.cylinders.axis_deg[self.cylinders.first]
 
     @property
-    def pins_deg(self) -> dict[int, Figure]:
+    def pins_deg(self) -> dict[CylinderNumber, Figure]:
         """Angle of each cylinder's crank pin from that of cylinder 1, deg, by cylinder number."""
         return dict(zip(self.numbers, self.cylinders.pin_deg, strict=True))
 
@@ -350,7 +476,7 @@ class Engine:
         not its throw.
         """
         c, z = self.cylinders, np.ravel(self.pins_m)
-        if self.rotary or not self.places_known:
+        if self.rotary or self.placed or not self.places_known:
             return tuple((throw,) for throw in range(len(z)))
         turned = np.round(np.stack([np.ravel(c.pin_deg), np.ravel(c.axis_of_each_deg)]), 6) % 360
         of_row = np.array([masses.throw for masses in self.weighed])
@@ -416,7 +542,8 @@ class Engine:
         """Cylinders that do not fire; none for an engine without [gas]."""
         if self.gas is None:
             return NONE_SILENT
-        each = sorted(zip(self.numbers, self.gas.cylinders, strict=True))
+        by_number = dict(zip(self.numbers, self.gas.cylinders, strict=True))
+        each = [(number, by_number[number]) for number in self.rising_numbers]
         return SilentCylinders(
             tuple(number for number, own in each if not own.share),
             tuple(number for number, own in each if own.share and own.heat == 0),
@@ -447,6 +574,18 @@ def check_engine(function: str, value: object) -> Engine:
     return value
 
 
+def refuse_geared(subject: Engine | EngineFile) -> None:
+    """Raise an error for engines that are geared together, where one crank alone is looked at.
+
+    Raises:
+        BalcliError: The engine, or its file, is made of several.
+    """
+    geared = subject.placed if isinstance(subject, Engine) else subject.engine
+    if geared:
+        files = join_words([one.file or one.name for one in geared])
+        raise BalcliError(f"{files} are geared together; run this on one of them")
+
+
 def take_model(engine: Engine) -> EngineFile:
     """Return the engine file of an engine.
 
@@ -459,7 +598,19 @@ def take_model(engine: Engine) -> EngineFile:
     return engine.model
 
 
-def find_row(engine: Engine, number: int) -> int:
+def find_crank(engine: Engine, number: CylinderNumber) -> tuple[Placed, int]:
+    """Return the engine of a cylinder, one of several or the only one, and its row in that engine's
+    arrays; arguments and errors as of `find_row`.
+    """
+    row = find_row(engine, number)
+    for one in engine.cranks:
+        if row < len(one.engine.numbers):
+            break
+        row -= len(one.engine.numbers)
+    return one, row
+
+
+def find_row(engine: Engine, number: CylinderNumber) -> int:
     """Return the row of a cylinder in the arrays of its engine.
 
     Args:
@@ -470,8 +621,9 @@ def find_row(engine: Engine, number: int) -> int:
         BalcliError: The engine has no such cylinder.
     """
     if number not in engine.numbers:
-        last = max(engine.numbers)
-        some = f"cylinders 1 to {last}" if last > 1 else "only cylinder 1"
-        name = engine.name or "the engine"
+        name, numbers = engine.name or "the engine", engine.rising_numbers
+        some = f"cylinders 1 to {numbers[-1]}" if len(numbers) > 1 else "only cylinder 1"
+        if engine.placed:
+            some = f"cylinders {', '.join(map(str, numbers))}"
         raise BalcliError(f"there is no cylinder {number}: {name} has {some}")
     return engine.numbers.index(number)

@@ -134,6 +134,19 @@ def _find_rivals(
         yield from (f"{start}.{other}" for other in displaced)
 
 
+def select_varied(varied: Mapping[str, Figure], number: int) -> Iterator[tuple[str, Figure]]:
+    """Yield the figures of the file of one engine (from 1) that vary, by their names in it: all
+    turn at the speed of the whole.
+    """
+    start = f"engine.{number}."
+    for path, value in varied.items():
+        own = path.removeprefix(start)
+        if own != path and "." in own and not own.startswith("at."):
+            yield own, value
+        elif path == "operation.speed" or (number == 1 and path.startswith("operation.")):
+            yield path, value
+
+
 AS_GIVEN = FileFigures()  # nothing varies
 
 

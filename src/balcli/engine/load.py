@@ -12,13 +12,13 @@ import numpy as np
 from ..core.records import Node
 from ..core.vibration import Real
 from ..errors import InputError, naming_file, wrong_type
-from ..file.examples import text
+from ..file.examples import locate
 from ..file.model import EngineFile
 from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .parse import parse, parse_dict, parse_tables
+from .parse import parse_dict, parse_tables, read
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Gas
@@ -92,7 +92,7 @@ def load_example(name: str) -> Engine:
     """
     if not isinstance(name, str):
         raise wrong_type("load_example", name, 'give the name of an example, such as "i4"')
-    return build(parse(text(name), name))
+    return build(read(locate(name)))
 
 
 # ------------------------------------------------------------------ variants of an engine
@@ -120,6 +120,8 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
     try:
         return build_with(changes)
     except InputError as error:
+        if model.engine:
+            raise
         needed = model.crank.throws is None or model.gas is not None
         named = _NO_FIRING_ORDER.keys() & changes.keys()
         if needed or named or model.layout.firing_order is None:
@@ -147,7 +149,7 @@ def concerns_gas(path: str, gas: Gas | None = None) -> bool:
         gas: Table of the file; if it depends on the speed, the speed is such a figure.
     """
     of_speed = path == SPEED and gas is not None and gas.speeds
-    return bool(of_speed or re.fullmatch(_OF_GAS, path))
+    return bool(of_speed or re.fullmatch(rf"(engine\.\d+\.)?({_OF_GAS})", path))
 
 
 Key = TypeVar("Key")

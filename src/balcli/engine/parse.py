@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from ..errors import InputError, Problem
 from ..file.model import EngineFile
 from ..file.plain_tables import normalize_tables
 from ..file.read import Draft, check_tables, read_tables, refuse
 from ..file.toml import name_file, read_bytes
+from ..names import READ_GEARED, import_name
 from .build import list_contradictions
 from .numbering import infer_numbering
 
@@ -68,6 +70,23 @@ def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> Engi
 
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
+    draft = join_engines(draft)
     if not draft.problems:
-        return infer_numbering(draft.model)
+        return draft.model if draft.model.engine else infer_numbering(draft.model)
     raise refuse([*draft.problems, *list_contradictions(draft)], name)
+
+
+def join_engines(draft: Draft) -> Draft:
+    """Return the readable part of a file; with [[engine]] also of the files of its engines."""
+    if not draft.model.engine:
+        return draft
+    whole: Draft = import_name(READ_GEARED)(draft, _parse_one)
+    return whole
+
+
+def _parse_one(text: bytes, name: str) -> EngineFile:
+    draft = read_tables(text, name)
+    if draft.model.engine:
+        told = "has [[engine]] itself; name files of single engines"
+        raise InputError([Problem("", told)], name)
+    return _refuse_mistakes(draft, name)

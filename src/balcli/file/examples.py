@@ -9,6 +9,7 @@ for runs of a rotor, and for a chain of shafts.
 from __future__ import annotations
 
 import re
+import tomllib
 from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
@@ -96,6 +97,19 @@ def text(name: str) -> str:
     near = get_close_matches(name.lower()[:100], known, 3)
     hint = f" Did you mean {' or '.join(near)}?" if near else ""
     raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
+
+
+def locate(name: str) -> Path:
+    """Return the file of an example; errors as of `text`."""
+    text(name)
+    return _find_paths()[name]
+
+
+def list_engine_files(name: str) -> dict[str, str]:
+    """Return the text of each file of an engine that an example with [[engine]] names."""
+    named = tomllib.loads(text(name)).get("engine", ())
+    place = locate(name).parent
+    return {one["file"]: (place / one["file"]).read_text(encoding="utf-8") for one in named}
 
 
 def folder() -> Path:

@@ -35,6 +35,9 @@ DEVICES: dict[str, type[FileTable]] = {
     "slider": model.Slider,
 }
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
+# What may stand in a file with [[engine]]; the rest stands in the files of its engines
+_OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")
+BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
 
 def import_table(key: str) -> type[FileTable]:

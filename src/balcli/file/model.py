@@ -8,7 +8,7 @@ that a file has. The string below a key documents it (`table.document_keys`).
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..limits import MOST_RIPPLES
-from .fields import Choice, FileName, OneOf, counted, join_words, parse_firing_order
+from .fields import Choice, FileName, Label, OneOf, counted, join_words, parse_firing_order
 from .table import (
     INTERVAL_TOLERANCE_DEG,
     Angle,
@@ -55,9 +55,11 @@ from .table import (
     Switch,
     Triple,
     Unbalance,
+    label_table,
 )
 
 if TYPE_CHECKING:
+    from .engine_tables import Engine
     from .gas_tables import Bearing, Flywheel, Gas
     from .locomotive_tables import Axle, Locomotive
     from .mount_tables import Body, Mount, Point
@@ -423,6 +425,8 @@ class Counterweight(Device):
 
     angle: Angle = 0.0
     """Angle at crank angle 0, from cylinder 1's crank pin. Example: 180"""
+    engine: Annotated[str, Label()] | None = None
+    """With [[engine]]: the engine whose crank carries it; left out: the first. Example: 'lower'"""
     axle: Name | None = None
     """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
     inertia: Inertia = 0.0
@@ -504,34 +508,6 @@ class Slider(Device):
     """x, y of its middle. Example: [0, 0]"""
 
 
-def label_table(table: FileTable, number: int) -> str:
-    """Return the part of a dotted name that stands for a table in a list: its name with `_` for
-    spaces, if that is an identifier; else its number.
-
-    Args:
-        table: Table, which may have a name.
-        number: Number of the table, from 1.
-    """
-    # Balancer shafts are numbered: `shaft.NAME` is a shaft of [torsion].
-    name = "" if isinstance(table, Shaft) else getattr(table, "name", "").replace(" ", "_")
-    return name if name.isidentifier() else str(number)
-
-
-def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft]]]:
-    """Return the entries of each balancer shaft, with their numbers in the file, from 1.
-
-    Args:
-        shafts: All [[shaft]] tables.
-
-    Returns: The name of each shaft, or `shaft 2` by its number, and its entries.
-    """
-    groups: dict[tuple[str, int], dict[int, Shaft]] = {}
-    for number, table in enumerate(shafts, 1):
-        key = table.name, 0 if table.name else number
-        groups.setdefault(key, {})[number] = table
-    return [(name or f"shaft {number}", entries) for (name, number), entries in groups.items()]
-
-
 class EngineFile(FileTable):
     """One engine: crank, rods, pistons, layout, and the devices that balance it."""
 
@@ -561,6 +537,8 @@ class EngineFile(FileTable):
     """Balancer shafts."""
     slider: tuple[Slider, ...] = ()
     """Reciprocating balance masses."""
+    engine: "tuple[Engine, ...]" = ()
+    """Several engines that are geared together."""
     body: "Body | None" = None
     mount: "tuple[Mount, ...]" = ()
     """Mounts of the body."""
@@ -570,11 +548,33 @@ class EngineFile(FileTable):
     """Coupled axles of a locomotive."""
 
     _folder: Path = PrivateAttr(Path())
+    _cranks: tuple["EngineFile", ...] = PrivateAttr(())
 
     @property
     def folder(self) -> Path:
         """Folder of the file and of the files that it names."""
         return self._folder
+
+    @property
+    def cranks(self) -> "tuple[EngineFile, ...]":
+        """The files of the engines that are geared together; an ordinary file is its own."""
+        return self._cranks or (self,)
+
+    def with_cranks(self, cranks: Sequence["EngineFile"]) -> Self:
+        """Return a copy of this file, which has [[engine]], with these files of its engines."""
+        copy = self.model_copy()
+        copy._cranks = tuple(cranks)
+        return copy
+
+    @property
+    def crank_names(self) -> tuple[str, ...]:
+        """Names of the engines of [[engine]]: their own, or letters."""
+        return tuple(one.name or chr(ord("A") + k) for k, one in enumerate(self.engine))
+
+    @property
+    def has_gas(self) -> bool:
+        """Whether the engine has [gas], or one of several that are geared together."""
+        return any(crank.gas is not None for crank in self.cranks)
 
     def with_table(self, key: str, **values: object) -> Self:
         """Return a copy of this file with other values in one table; they are not checked."""

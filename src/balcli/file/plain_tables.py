@@ -16,8 +16,8 @@ from ..core.records import Node
 from ..errors import InputError, Problem, wrong_type
 from ..limits import MOST_KEY_VALUES
 from .fields import RIGID
-from .model import EngineFile, label_table
-from .table import FileTable
+from .model import EngineFile
+from .table import FileTable, label_table
 from .toml import name_file, parse_toml, read_bytes
 
 
@@ -168,7 +168,7 @@ def list_chapter_defaults(model: EngineFile) -> Iterator[str]:
     left_out = {
         "torsion.loss = 0": undamped,
         "body.gravity = [-1, 0, 0]": body is not None and not body.has("gravity"),
-        "body.carries_load = false": body and model.gas and not body.has("carries_load"),
+        "body.carries_load = false": body and model.has_gas and not body.has("carries_load"),
         "mount.loss = 0": not all(one.has("loss") or one.has("damping") for one in mounts),
         "mount.dynamic_factor = 1": not all(one.has("dynamic_factor") for one in mounts),
     }
@@ -190,3 +190,11 @@ def choose_assumed(
     idle = _OF_CHAPTERS.difference(chapters).union(without)
     keys = ((line, line.partition(" =")[0]) for line in inferred)
     return tuple(line for line, key in keys if not {key, key.partition(".")[0]} & idle)
+
+
+def join_assumed(each: Mapping[str, Collection[str]]) -> tuple[str, ...]:
+    """Return what several engines assume, by their names: first what all do, then single ones'."""
+    lists = [*each.values()]
+    common = [line for line in lists[0] if all(line in lines for lines in lists)]
+    own = (f"{name}.{x}" for name, lines in each.items() for x in lines if x not in common)
+    return (*common, *own)

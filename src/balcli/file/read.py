@@ -19,6 +19,7 @@ from ..limits import LONGEST_NAME, MOST_LIST_VALUES, MOST_MISTAKES_SHOWN, MOST_P
 from ..names import CHAPTER_LISTS
 from .fields import printable, shorten
 from .messages import (
+    BESIDE_ENGINES,
     DEVICES,
     ENGINE,
     INSTEAD,
@@ -144,7 +145,8 @@ class TableReader:
             self.problems.append(Problem(place, "unknown key", meant=""))
             return
         hint, near = suggest(key, own or (), is_engine=self._is_engine)
-        table, meant = printable(format_heading(path)), join_path(path, [near]) if near else ""
+        heading = f"[{path}]" if own is None else format_heading(path)
+        table, meant = printable(heading), join_path(path, [near]) if near else ""
         message = f"unknown key in {table if path else self._file_kind}"
         is_table = isinstance(value, Mapping) and key in KNOWN and key not in TEXTS
         if self._is_engine and path and is_table:
@@ -235,23 +237,31 @@ def check_tables(
         InputError: The file is of another kind.
     """
     refuse_other_kind(data, name, ENGINE)
-    body_alone = "body" in data and not any(key in data for key in REQUIRED)
+    inner = data.get("engine")
+    slip = isinstance(inner, Mapping) and "file" not in inner  # a heading for what has none
+    geared = bool(inner) and not slip
+    body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
         message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
-    for key in filter(lambda key: key not in KNOWN, data):
+    known = [key for key in KNOWN if key != "engine" or not slip]
+    for key in filter(lambda key: key not in known, data):
         inside = data[key]
-        if not isinstance(inside, Mapping) or not inside or suggest(key, KNOWN)[1]:
-            reader.refuse_key("", key, KNOWN, inside)
+        if not isinstance(inside, Mapping) or not inside or suggest(key, known)[1]:
+            reader.refuse_key("", key, known, inside)
             continue
         for inner, value in inside.items():  # keys of an unknown table
             reader.refuse_key(printable(key), inner, None, value)
     for key, example in REQUIRED.items():
-        if key not in data and not body_alone:
+        if key not in data and not (body_alone or geared):
             hint = f'an engine needs it, such as "[{key}]" and "{example}" below it'
             reader.problems.append(Problem.of_missing(key, hint))
-    parts = {key: _read_part(reader, key, data[key]) for key in KNOWN if key in data}
+    foreign = set(KNOWN).difference(BESIDE_ENGINES) if geared else ()
+    for key in filter(foreign.__contains__, data):
+        reader.add(key, "a file with [[engine]] takes this from its engine files")
+    there = [key for key in known if key in data and key not in foreign]
+    parts = {key: _read_part(reader, key, data[key]) for key in there}
     broken = {key for key in REQUIRED if key not in parts}
     broken |= {problem.meant for problem in reader.problems if problem.meant}
     for key, part in parts.items():

@@ -132,6 +132,7 @@ class FileTable(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
+    by_number: ClassVar[bool] = False  # whether dotted names count such tables, whatever their name
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
@@ -212,3 +213,16 @@ def _read_documents(table: type[FileTable]) -> dict[str, KeyDocument]:
                 read = tomllib.loads(f"example = {example}")["example"] if example else None
                 found[name] = KeyDocument(lower, read)
     return found
+
+
+def label_table(table: FileTable, number: int) -> str:
+    """Return the part of a dotted name that stands for a table in a list: its name with `_` for
+    spaces, if that is an identifier; else its number.
+
+    Args:
+        table: Table, which may have a name.
+        number: Number of the table, from 1.
+    """
+    # Balancer shafts are numbered: `shaft.NAME` is a shaft of [torsion].
+    name = "" if table.by_number else getattr(table, "name", "").replace(" ", "_")
+    return name if name.isidentifier() else str(number)

@@ -153,9 +153,9 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
 
 def find_crank_loads(engine: Engine) -> CrankLoads | None:
     """Return the largest inertia loads in the crankshaft of an engine with its counterweights; None
-    if positions are not known, for rotary engines, and if there are too many loads.
+    if positions are not known, for rotary and geared engines, and if there are too many loads.
     """
-    if not engine.places_known or engine.rotary:
+    if not engine.places_known or engine.rotary or engine.placed:
         return None
     try:
         found = compute_inner_loads(engine)

@@ -10,8 +10,10 @@ Gas: torque of all cylinders on the crank over the cycle, with and without the i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import reduce
+from operator import add
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -22,9 +24,9 @@ from ..core.mechanisms import slidercrank as sc
 from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Complex, unit
 from ..core.piecewise import Function, PiecewiseCurve, resolved
-from ..engine.engine import Engine, find_row
+from ..engine.engine import CylinderNumber, Engine, find_row
 from ..errors import BalcliError
-from ..file.model import Override
+from ..file.model import EngineFile, Override
 from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
@@ -67,7 +69,13 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
         engine: Engine without trailing axes.
         crank_deg: Crank angles, deg, shape (angles,).
     """
-    return _torque_of_cylinders(EngineMotion(engine, crank_deg)).sum(axis=0)
+    motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
+    return sum_curves(_torque_of_cylinders(motion).sum(axis=0) for motion in motions)
+
+
+def sum_curves(curves: Iterable[Array]) -> Array:
+    """Return the sum of curves, at least one."""
+    return reduce(add, curves)
 
 
 def compute_piecemeal(
@@ -212,6 +220,9 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
+    # A two-stroke engine's cycle comes twice in the one of a four-stroke engine geared to it
+    twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
+    cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
     inertia = find_inertia_torque(engine)
     total = resolved(lambda angle: once.at(angle) + inertia(angle), once.breaks)
@@ -223,6 +234,8 @@ def count_repeats(engine: Engine) -> int:
     fire exactly evenly, else once. (One interval is computed faster than a cycle.)
     """
     gas, c = take_gas(engine), engine.cylinders
+    if engine.placed:
+        return 1
     columns = (c.radius, c.offset, c.lam, c.eps, c.reciprocating, c.rotating, c.couple)
     gas_is_equal = len(gas.group_equal()) == len(set(gas.shares.tolist())) == 1
     if not gas_is_equal or c.linkage is not None or any(len(column) > 1 for column in columns):
@@ -249,6 +262,11 @@ def find_moving_inertia(engine: Engine) -> Function:
     function of crank angles (rad) of any shape. Throw masses are omitted if the file gives the
     crankshaft's inertia, which includes them, and in rotary engines, where they are at rest.
     """
+    if engine.placed:
+        cranks = [
+            (find_moving_inertia(one.engine), np.radians(one.phase_deg)) for one in engine.cranks
+        ]
+        return lambda angle: sum_curves(moving(angle + lead) for moving, lead in cranks)
     if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
         throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
@@ -268,7 +286,7 @@ def find_constant_inertia(engine: Engine) -> float | None:
     return found if is_given else None
 
 
-def silence(engine: Engine, number: int) -> Engine:
+def silence(engine: Engine, number: CylinderNumber) -> Engine:
     """Return the engine without the gas of one cylinder.
 
     Args:
@@ -282,10 +300,20 @@ def silence(engine: Engine, number: int) -> Engine:
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
     model = engine.model
     if model is not None:
-        table = model.cylinder.get(number, Override.model_construct())
-        own = table.model_copy(update={"gas": 0.0})
-        model = model.model_copy(update={"cylinder": {**model.cylinder, number: own}})
+        model = _silence_in_file(model, number)
     return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=model)
+
+
+def _silence_in_file(model: EngineFile, number: CylinderNumber) -> EngineFile:
+    """Return a file without the gas of one cylinder; with [[engine]], that of its engine."""
+    if isinstance(number, str):
+        name, _, own = number.rpartition(".")
+        cranks, k = list(model.cranks), model.crank_names.index(name)
+        cranks[k] = _silence_in_file(cranks[k], int(own))
+        return model.with_cranks(cranks)
+    table = model.cylinder.get(number, Override.model_construct())
+    silent = table.model_copy(update={"gas": 0.0})
+    return model.model_copy(update={"cylinder": {**model.cylinder, number: silent}})
 
 
 def _at_radians(engine: Engine, compute: Callable[[Engine, Array], Array]) -> Function:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.phasors import Array, Phasors
 from ..engine.build import build
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..engine.load import FiguresOfVariants
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import EngineFile
@@ -61,6 +61,7 @@ def compute_guide_moments(
         orders: Orders, ascending, shape (orders,); default: those worth showing.
         height_m: Height of the guide's middle above the crankshaft; default: each rod's length.
     """
+    refuse_geared(engine)
     z_ref = engine.reference_m[2]
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
@@ -92,6 +93,8 @@ def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of an engine's quantities, with N for the order."""
+    if model.engine:
+        return
     yield "guide.N.H"
     if _find(model).x is not None:
         yield "guide.N.X"

@@ -31,8 +31,8 @@ from ..core.cylinders import Device
 from ..core.loads import Loads, find_device_force, find_needed_series
 from ..core.mechanisms.closed_form import select_cylinders, select_orders
 from ..core.phases import ANGLE, SUM, Phases, SeparatePhases
-from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, unit
-from ..engine.engine import Engine
+from ..core.phasors import EPS, Array, Complex, Phasors, join_orders, join_places, unit
+from ..engine.engine import Engine, Placed
 from ..engine.figures import place_in_plane
 from ..errors import NO_GAS, BalcliError, check_number, list_values, wrong_type
 from ..file.fields import shorten
@@ -144,6 +144,8 @@ def compute_spectra(
             MOST_LOADS_APART.
     """
     wanted = np.asarray(orders, float)
+    if engine.placed:
+        return _add_cranks(engine, wanted, kinds, each=each)
     if each:
         refuse_too_many_loads(engine, len(wanted), engine.cylinders.count)
         engine = replace(engine, devices=())
@@ -153,6 +155,62 @@ def compute_spectra(
         found["gas"] = compute_gas_torque(engine, wanted, each=each)
     sums = {name: add_parts(EVERY_KIND[name], found).drop_noise() for name in kinds}
     return Spectra(wanted, engine.up_deg, **sums)
+
+
+def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: bool) -> Spectra:
+    """Return the spectra of engines that are geared together; arguments as of `compute_spectra`."""
+    if not GAS_KINDS.keys().isdisjoint(kinds) and engine.gas_of_variants is None:
+        take_gas(engine)
+    every = [place_spectra(one, orders, kinds, each=each) for one in engine.cranks]
+    found = {}
+    for name in kinds:
+        parts = [one[name] for one in every]
+        found[name] = (join_places(parts) if each else reduce(add, parts)).drop_noise()
+    return Spectra(orders, engine.up_deg, **found)
+
+
+def place_spectra(
+    one: Placed, orders: Array, kinds: Collection[str], *, each: bool = False
+) -> dict[str, Phasors]:
+    """Return phasors of an engine where it stands among others, by the crank angle of the first.
+
+    A crank that turns against the first makes its engine a mirror image (y changes its sign): a
+    force becomes its conjugate, and moment and couple change their sign as well. Kinetic energies
+    add, so that a torque counts as it is, whichever way its crank turns; the frame does not bear
+    what the load takes: the roll is the couple less the torque in the sense of the load.
+
+    Args:
+        one: The engine, about the point of reference of all.
+        orders: Orders, shape (orders,).
+        kinds: Names of the kinds.
+        each: Phasors of each of its cylinders, as of `compute_spectra`.
+    """
+    fires = one.engine.gas is not None or one.engine.gas_of_variants is not None
+    parts = {part for name in kinds for part in EVERY_KIND[name].parts}
+    own = compute_spectra(one.engine, orders, parts if fires else parts - {"gas"}, each=each)
+    seen = {kind.name: _see(one, kind, phasors) for kind, phasors in own.items()}
+    if "gas" in parts and not fires:
+        shape = (len(orders), *(one.engine.cylinders.count,) * each)
+        seen["gas"] = Phasors(orders, np.zeros((2, *shape), complex), np.zeros(shape))
+    borne = {part: one.load_sense * seen[part] for part in ("torque", "gas") if part in seen}
+    return {
+        name: add_parts(EVERY_KIND[name], seen | (borne if EVERY_KIND[name].minus else {}))
+        for name in kinds
+    }
+
+
+def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
+    """Return the phasors of a kind as all see them, from those of an engine alone."""
+    n = own.orders.reshape(-1, *(1,) * (own.forward.ndim - 1))
+    lead = unit(n * one.phase_deg)
+    forward, backward = lead * own.forward, np.conj(lead) * own.backward
+    noise = own.noise + (SUM + ANGLE * n) * (np.abs(own.forward) + np.abs(own.backward))
+    if one.ratio < 0 and kind.name not in ("torque", "gas"):
+        sign = 1.0 if kind.dimension == "force" else -1.0
+        ahead, against, mean = sign * forward.conj(), sign * backward.conj(), n == 0
+        forward, backward = np.where(mean, ahead, against), np.where(mean, 0, ahead)
+    turn = unit(one.turn_deg) if kind.vector else 1.0
+    return Phasors.of(own.orders, turn * forward, turn * backward, noise)
 
 
 def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
@@ -176,6 +234,8 @@ def count_engine_samples(engine: Engine) -> int:
     """Return about how many samples of a revolution the mechanisms of an engine (or of variants)
     need.
     """
+    if engine.placed:
+        return sum(count_engine_samples(one.engine) for one in engine.cranks)
     c = engine.cylinders
     sampled = c.linkage is not None or np.count_nonzero(c.eps)
     return c.count_all_samples()[1] if sampled else 0
@@ -349,6 +409,8 @@ def find_relevant_orders(engine: Engine) -> Array:
     """Return the orders 1 .. n, shape (orders,); above n, all orders are rounding errors. At uneven
     speed, return 0 .. n, with half orders if the speed has some.
     """
+    if engine.placed:
+        return merge_orders(*(find_relevant_orders(one.engine) for one in engine.cranks))
     of_devices = [device.order for device in engine.devices]
     highest = max([engine.cylinders.find_highest_order(), *of_devices])
     if not engine.ripple:
@@ -365,6 +427,9 @@ def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) 
         engine: Engine with gas.
         highest: Highest order, except for the order of firing and its double.
     """
+    if engine.placed:
+        fired = (one.engine for one in engine.cranks if one.engine.gas is not None)
+        return merge_orders(*(list_gas_orders(own, highest) for own in fired))
     step = 2 / engine.strokes
     firing = step * len(engine.fires_deg or engine.numbers)
     higher = [firing, 2 * firing] if firing > highest else []

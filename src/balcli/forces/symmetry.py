@@ -147,7 +147,7 @@ def find_textbook_units(engine: Engine, orders: Array) -> TextbookUnits:
         force=mass * float(c.radius_of_each[row]) * float(engine.omega) ** 2,
         arm=float(gaps.min()) if gaps.size else float("nan"),
         ratios=np.abs(series.c[:, 0]),
-        cylinder=engine.numbers[row],
+        cylinder=int(engine.numbers[row]),
         equal=engine.equal,
     )
 

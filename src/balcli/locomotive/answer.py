@@ -28,7 +28,7 @@ from ..core.cylinders import DeviceKind
 from ..core.peaks import find_longest
 from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import HIDDEN, INLINE, Polar, angle_deg
-from ..engine.engine import Engine, check_engine, take_model
+from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, Problem
 from ..file.fields import Number
 from ..file.locomotive_tables import FACTOR, Axle, Locomotive
@@ -224,6 +224,7 @@ def analyze_locomotive_of_engine(
         >>> analyze_locomotive(load_example("locomotive2"), 2 / 3).axles[0].wheels[0].hammer_blow_N
     """
     model = take_model(check_engine("analyze_locomotive", engine))
+    refuse_geared(model)
     table = _take_table(engine, model, speed_given=speed is not None)
     axles = table.list_axles(model.axle)
     rpm = float(engine.speed_rpm) if speed is None else _read_speed(table, speed)

@@ -19,6 +19,7 @@ from ..engine.build import list_contradictions
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..engine.load import build_named
+from ..engine.parse import join_engines
 from ..errors import InputError, Problem
 from ..file.doubts import doubt_losses
 from ..file.fields import printable, shorten
@@ -262,8 +263,9 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
     Raises:
         InputError: The file has mistakes; the error lists all of them.
     """
+    draft = join_engines(draft)
     faults = list(find_mounting_faults(draft.model, draft.readable))
-    has_engine = any(key in draft.model.model_fields_set for key in REQUIRED)
+    has_engine = any(key in draft.model.model_fields_set for key in (*REQUIRED, "engine"))
     if draft.problems or faults:
         contradictions = list_contradictions(draft) if draft.problems else []
         raise refuse([*draft.problems, *contradictions, *faults], name)

@@ -138,6 +138,18 @@ class BodyLoads:
         return np.any(self.at(np.array([self.omega, *nodes])) != 0, axis=(1, 2))
 
 
+def list_gas_kinds(engine: Engine) -> list[str]:
+    """Return the kinds by which `find_gas_reaction` is known."""
+    return ["roll", "roll_total"] if engine.placed else ["gas"]
+
+
+def find_gas_reaction(found: Spectra) -> Phasors:
+    """Return the torque of the gas that the load takes from the frame, N m: of geared engines in
+    the sense of the load, which is not that of the first crank everywhere.
+    """
+    return found["gas"] if found.gas is not None else found["roll"] - found["roll_total"]
+
+
 def find_loads(
     engine: Engine, centre: Real, orders: Real | None = None, gas_orders: Real | None = None
 ) -> BodyLoads:
@@ -159,7 +171,8 @@ def find_loads(
     usual = merge_orders(find_relevant_orders(engine), of_gas if fired else ())
     wanted = np.array(usual if orders is None else orders, np.float64)
     wanted = wanted[wanted > 0]
-    kinds = ("force", "moment", "roll", *["gas"] * fired)
+    of_engine = ("force", "moment", "roll")
+    kinds = tuple(dict.fromkeys((*of_engine, *list_gas_kinds(engine) * fired)))
     found, turns = compute_spectra_in_time(engine, wanted, kinds)
     if orders is None:
         each = (engine.at_speed(rpm) for rpm in (engine.gas.nodes_rpm if engine.gas else ()) if rpm)
@@ -174,11 +187,12 @@ def find_loads(
     if fired:
 
         def find_torque(own: Engine) -> NDArray[np.complex128]:
-            torque = compute_spectra_in_time(own, found.orders, ("gas",))[0]["gas"]
-            return np.asarray(torque.drop_noise().x, complex)
+            gas, _ = compute_spectra_in_time(own, found.orders, list_gas_kinds(own))
+            return np.asarray(find_gas_reaction(gas).drop_noise().x, complex)
 
         by_speed = follow_gas(engine, find_torque)
-        indicated = float(compute_spectra(engine, [0.0], ["gas"])["gas"].x[0].real)
+        still = compute_spectra(engine, [0.0], list_gas_kinds(engine))
+        indicated = float(find_gas_reaction(still).x[0].real)
         mean, silent = -(engine.mechanical_efficiency or 1.0) * indicated, engine.silent
     omega = turns * float(engine.omega)
     loads = BodyLoads(found.orders, inertia, omega, turns, by_speed, mean, silent)

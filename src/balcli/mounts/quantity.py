@@ -11,8 +11,9 @@ import numpy as np
 from ..core.phases import RPM
 from ..engine.load import EngineVariants, choose_speeds
 from ..errors import BalcliError
-from ..file.model import EngineFile, label_table
+from ..file.model import EngineFile
 from ..file.read import change_figures
+from ..file.table import label_table
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from .answer import choose_mount_speeds
 from .build import BodyMode, build_mounted_body, find_mounted_modes, settle
@@ -67,7 +68,7 @@ class Variants:
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
         self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
         # Whether the mean gas torque, minus friction, loads the mounts at rest.
-        self._leans = model.gas is not None and any(q.part == "static" for q in quantities)
+        self._leans = model.has_gas and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:

@@ -15,6 +15,7 @@ import numpy as np
 from ..core.phases import RPM
 from ..core.records import HIDDEN, Axes
 from ..core.vibration import Complex, Real
+from ..engine.engine import CylinderNumber
 from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy
@@ -190,8 +191,8 @@ class BodyResponse:
         body: Motion of the centre of gravity, m and rad, shape (orders, speeds, 6).
     """
 
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
+    no_gas_in: tuple[CylinderNumber, ...] | None = None
+    no_burning_in: tuple[CylinderNumber, ...] | None = None
     orders: list[float]
     speeds_rpm: Real
     imep_Pa: Real | None = None

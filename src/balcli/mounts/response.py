@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.extrema import find_highest
 from ..core.peaks import find_longest, largest_of_ellipse
@@ -30,7 +31,7 @@ from ..forces.spectrum import compute_spectra, follow_gas, list_gas_orders
 from ..limits import HIGHEST_GAS_ORDER_UNASKED, HIGHEST_ORDER_UNASKED, MOST_MOUNT_RESULTS
 from ..show.figures import silent_entries
 from .build import BodyModes, MountedBody
-from .loads import BodyLoads, find_loads
+from .loads import BodyLoads, find_gas_reaction, find_loads, list_gas_kinds
 from .records import (
     BodyResponse,
     ForceOfOrder,
@@ -111,7 +112,12 @@ class RunningBody(NamedTuple):
         rows = np.linspace(0, len(omega) - 1, _LOOKED_AT).round().astype(int)
         some = np.unique(omega[rows])
         own = largest_of_ellipse(running.read(running.move(some)[..., None, :])).max(axis=0)
-        gas = follow_gas(engine, lambda own: compute_spectra(own, every, ["gas"])["gas"].x)
+
+        def find_torque(own: Engine) -> NDArray[np.complex128]:
+            found = compute_spectra(own, every, list_gas_kinds(own))
+            return np.asarray(find_gas_reaction(found).x, complex)
+
+        gas = follow_gas(engine, find_torque)
         sizes = np.abs(gas.torque(some / RPM))[..., None] * running.bound_response(every, some)
         beyond = sizes[::-1].cumsum(axis=0)[::-1]  # sum of an order and all higher ones
         needed = (beyond > _BEYOND * own).any(axis=(1, 2))

@@ -80,6 +80,8 @@ _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
+    if engine.placed:
+        return "it has several cranks"
     if isinstance(engine.cylinders.linkage, Rotary):
         return "its cylinders turn"
     if engine.cylinders.linkage is not None:
@@ -222,7 +224,7 @@ def make_examples() -> Node:
     engines = {}
     for name in examples.names():
         written = examples.text(name)
-        model = parse(written, name)
+        model = parse(written, str(examples.locate(name)))
         engine = build(model)
         if not explain_still(engine):
             engines[name] = describe_engine(model, engine, written)

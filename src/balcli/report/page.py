@@ -273,7 +273,12 @@ def page(
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
-    panels = (*alone, *beside, *_choose_panels(now, _STILL, told))
+    drawn, still = None, _choose_panels(now, _STILL, told)
+    if result.engine.placed:  # no mechanism is shown
+        still = []
+    else:
+        drawn = scene(result, _list_variants(result, balanced), system)
+    panels = (*alone, *beside, *still)
     pictures = []
     for panel in panels:
         pictures.append(draw_panel(*panel))
@@ -288,12 +293,12 @@ def page(
         verdict=next((part for part in own.parts if part.title == "Verdict"), None),
         figures=[part for part in own.parts[1:] if part.title != "Verdict"],
         remedy=remedy.parts,
-        scene=scene(result, _list_variants(result, balanced), system),
+        scene=drawn,
         pictures=pictures[: len(alone)],
         piston=None if cylinder is None else _draw_piston(now, cylinder),
         compared=pictures[len(alone) : len(alone) + len(beside)],
         loci=pictures[len(alone) + len(beside) :],
-        running=None if turning is None else running(turning, system),
+        running=running(turning, system) if turning and drawn else None,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),

@@ -13,7 +13,7 @@ import numpy as np
 from ..analysis.answer import Analysis, analyze, find_inner_loads
 from ..balancing.answer import balance_engine as balance
 from ..core.phasors import Array, Phasors, unit
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..errors import BalcliError
 from ..forces.crankshaft import InnerLoads
 from ..forces.kinds import VECTORS
@@ -29,6 +29,7 @@ from .names import OF_GAS, OF_PARTS
 
 FACTORS = tuple(k / 50 for k in range(51))
 _NO_RADIUS = 1e-9  # share of the largest force below which one counts as 0
+_OF_ONE_CRANK = ("bank", "factor", "inner", "pressure", "p-v", "pin", "main", *OF_PARTS)
 _ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages of the engine without a scheme
 
 
@@ -122,6 +123,8 @@ def compute_study(
         BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page, or "bank"
             is requested for an engine that is not a vee.
     """
+    if what in _OF_ONE_CRANK:
+        refuse_geared(engine)
     if what == "factor":
         return Study(analyze(engine, orders), factors=_sweep_factors(engine, scheme, options))
     asked = options or SchemeOptions()

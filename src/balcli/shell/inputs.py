@@ -25,6 +25,7 @@ from ..errors import (
 )
 from ..file.toml import find_near_file, name_file, read_bytes
 from .options import WORDS_OF_ONLY
+from .values import parse_cylinder
 
 if TYPE_CHECKING:
     from ..engine.engine import Engine
@@ -200,12 +201,12 @@ def require_gas(engine: Engine, path: str) -> None:
         raise BalcliError(f"{name_file(path)}: {NO_GAS}")
 
 
-def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> Engine:
+def silence_cylinders(engine: Engine, numbers: Collection[str], path: str) -> Engine:
     """Return the engine without the gas of some cylinders.
 
     Args:
         engine: Engine with gas.
-        numbers: Numbers of the cylinders.
+        numbers: Numbers of the cylinders, as typed.
         path: File of the engine, for messages.
 
     Raises:
@@ -217,7 +218,7 @@ def silence_cylinders(engine: Engine, numbers: Collection[int], path: str) -> En
     from ..forces.curves import silence  # rarely needed
 
     for number in numbers:
-        engine = silence(engine, number)
+        engine = silence(engine, parse_cylinder(number))
     return engine
 
 

@@ -116,9 +116,9 @@ Whole = Annotated[
     bool, typer.Option("--all", help="Show every table and every order above rounding errors.")
 ]
 Misfire = Annotated[
-    list[int] | None,
+    list[str] | None,
     optional(
-        "N",
+        "N|NAME.N",
         "Cylinder without gas pressure; may be given again. If it still compresses, give "
         "[cylinder.N] heat = 0 in the file.",
     ),

@@ -229,5 +229,6 @@ def _list_named_files(source: Path) -> list[Path]:
 
 def _list_names(data: Node) -> Iterator[str]:
     """Yield the file names in an engine file's tables."""
+    yield from (one["file"] for one in data.get("engine", ()) if "file" in one)
     for table in (data.get("gas", {}), *data.get("cylinder", {}).values()):
         yield from (table[key] for key in ("indicator", "harmonics") if key in table)

@@ -194,6 +194,11 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
     return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
 
 
+def parse_cylinder(text: str) -> int | str:
+    """Return a cylinder as an engine names it: `3`, or of geared engines `upper.3`."""
+    return int(text) if text.isascii() and text.isdecimal() and len(text) < 6 else text
+
+
 Speeds = Annotated[
     str | None,
     optional(

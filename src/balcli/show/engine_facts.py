@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from ..core.cylinders import find_travel
 from ..core.phasors import Figure
-from ..engine.engine import Engine, SilentCylinders
+from ..engine.engine import Engine, Placed, SilentCylinders
 from ..engine.layout import plan_cylinders
 from ..engine.numbering import list_numbers, write_rows
 from ..file.fields import count_lambda_digits, join_words
@@ -57,6 +57,8 @@ def engine_facts(
         higher: Whether there may be orders above the default range.
         speeds_rpm: Ascending speeds of the figures, if there are several.
     """
+    if engine.placed:
+        return _geared_facts(engine, system, speeds_rpm, whole=whole)
     about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
     reference = f"moments about x, y, z = {about} {system.length.name}"
     if not engine.places_known:
@@ -84,6 +86,47 @@ def engine_facts(
         ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _geared_facts(
+    engine: Engine, system: System, speeds_rpm: Sequence[float], *, whole: bool
+) -> Facts:
+    """Return the facts of several engines: each in a line, then what they have in common."""
+    volume = "" if math.isnan(engine.displacement_m3) else f", {_volume(engine, system)}"
+    cylinders = f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
+    own = sum(len(one.engine.devices) for one in engine.placed) + len(engine.devices)
+    reference = f"moments about {tell_place(engine.reference_m, system)}"
+    if not engine.places_known:
+        reference = "moments are not known: crank.spacing is missing"
+    pairs = (
+        ("cylinders", cylinders),
+        *((one.name, _tell_placed(one, system)) for one in engine.placed),
+        *list_silent(engine.silent),
+        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
+        ("devices", f"{own} of the files included" if own else ""),
+        ("reference", reference),
+        ("assumed", tell_assumed(engine.list_assumed("gas") or ())),
+        ("source", engine.source if whole else ""),
+    )
+    return Facts(tuple((name, value) for name, value in pairs if value))
+
+
+def _tell_placed(one: Placed, system: System) -> str:
+    """Return an engine's file, where it stands and how it turns."""
+    words = {
+        f"at {tell_place(one.at_m, system)}": True,
+        f"turned by {given(float(one.turn_deg))} deg": one.turn_deg,
+        f"leads by {given(float(one.phase_deg))} deg": one.phase_deg,
+        "turns against the first": one.ratio < 0,
+        "drives the load": one.load,
+    }
+    return ", ".join([one.file, *(word for word, counts in words.items() if counts)])
+
+
+def tell_place(point: Iterable[Figure], system: System) -> str:
+    """Return a point in words: "x, y, z = 0, 0, 100 mm"."""
+    unit = system.length
+    return f"x, y, z = {', '.join(number(unit.of(float(v))) for v in point)} {unit.name}"
 
 
 def _tell_inferred(engine: Engine) -> str:
@@ -157,9 +200,13 @@ def _bore(engine: Engine, system: System) -> str:
         nominal = number(unit.of(2 * float(engine.cylinders.radius[0])))
         true = number(unit.of(float(find_travel(engine.cylinders).stroke[first])))
         stroke += f" (true stroke {true} {unit.name})" * (true != nominal)
-    volume = system.volume.fit(float(engine.displacement_m3))
-    size = f"{number(volume.of(float(engine.displacement_m3)))} {volume.name}"
-    return f", bore × stroke {bore} × {stroke}, {size}"
+    return f", bore × stroke {bore} × {stroke}, {_volume(engine, system)}"
+
+
+def _volume(engine: Engine, system: System) -> str:
+    volume = float(engine.displacement_m3)
+    unit = system.volume.fit(volume)
+    return f"{number(unit.of(volume))} {unit.name}"
 
 
 def _crank(engine: Engine, system: System) -> str:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
 from ..core.records import INLINE, Node, Reached, write_each
-from ..engine.engine import Engine, SilentCylinders
+from ..engine.engine import CylinderNumber, Engine, Placed, SilentCylinders, place_in_mm
 from ..file.fields import order_number
 from ..file.model import EngineFile
 from ..forces.kinds import FORCE, MOMENT, Kind
@@ -154,11 +154,13 @@ class EngineSize(NamedTuple):
         name: Name of the engine.
         cylinders: Number of cylinders.
         displacement_m3: Displacement; null if the file gives no bore.
+        engines: Engines that are geared together, of a file that has several.
     """
 
     name: str
     cylinders: int
     displacement_m3: float
+    engines: tuple[Placed, ...] | None = None
 
 
 class EngineName(NamedTuple):
@@ -183,8 +185,8 @@ class EngineState:
     """
 
     speed_rpm: float
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
+    no_gas_in: tuple[CylinderNumber, ...] | None = None
+    no_burning_in: tuple[CylinderNumber, ...] | None = None
     reference_mm: tuple[float, ...]
 
 
@@ -206,7 +208,7 @@ class OrdersAndPeaks(Protocol):
 class FigureRow(NamedTuple):
     """One figure of a result. Cylinder 0 is the engine; order None means all orders together."""
 
-    cylinder: int
+    cylinder: CylinderNumber
     quantity: str
     order: float | None
     figure: str
@@ -221,17 +223,13 @@ def find_peaks(spectra: Spectra) -> Peaks:
 
 def measure_engine(engine: Engine) -> EngineSize:
     """Return name and size of a single engine (no trailing axes)."""
-    return EngineSize(engine.name, engine.cylinders.count, float(engine.displacement_m3))
+    count, volume = len(engine.numbers), float(engine.displacement_m3)
+    return EngineSize(engine.name, count, volume, engine.placed or None)
 
 
 def name_engine(engine: Engine | EngineFile) -> EngineName:
     """Return the name of an engine, or of its file."""
     return EngineName(engine.name)
-
-
-def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
-    """Return a position in m converted to mm."""
-    return tuple(1e3 * float(v) for v in place_m)
 
 
 def describe_state(engine: Engine) -> EngineState:
@@ -260,7 +258,7 @@ def list_assumed(
     return (*common, *(f"{name}: {keys}" for name, keys in others if keys)) or None
 
 
-def silent_entries(silent: SilentCylinders) -> dict[str, tuple[int, ...]]:
+def silent_entries(silent: SilentCylinders) -> dict[str, tuple[CylinderNumber, ...]]:
     """Return the cylinders without gas, and those that compress but burn nothing, by number."""
     each = {"no_gas_in": silent.without_gas, "no_burning_in": silent.without_burning}
     return {key: numbers for key, numbers in each.items() if numbers}
@@ -355,7 +353,9 @@ def phase_deg(c: complex | Complex) -> Array:
 
 # ------------------------------------------------------------------ as a list
 def figure_rows(
-    result: OrdersAndPeaks, system: System, shares: Mapping[int, Spectra] = MappingProxyType({})
+    result: OrdersAndPeaks,
+    system: System,
+    shares: Mapping[CylinderNumber, Spectra] = MappingProxyType({}),
 ) -> Iterator[FigureRow]:
     """Yield one row for each figure of the orders and peaks; unknown moments have no rows.
 
@@ -390,7 +390,7 @@ def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]
 
 
 def order_rows(
-    quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: int = 0
+    quantity: str, order: float, entry: Node, unit: ShownUnit, cylinder: CylinderNumber = 0
 ) -> Iterator[FigureRow]:
     """Yield all figures of one order.
 

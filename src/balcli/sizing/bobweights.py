@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 
 from ..core.records import HIDDEN, INLINE, Node, Polar
-from ..engine.engine import Engine
+from ..engine.engine import CylinderNumber, Engine
 from ..engine.rods import CylinderMasses
 from ..file.model import PISTON_PARTS
 from .planes import measure_direction
@@ -72,7 +72,7 @@ class Bobweight:
     """
 
     throw: int
-    cylinders: tuple[int, ...]
+    cylinders: tuple[CylinderNumber, ...]
     factor: float
     piston_g: float
     small_end_g: float

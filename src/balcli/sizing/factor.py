@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 from itertools import compress
 from typing import NamedTuple
 
@@ -18,15 +19,15 @@ from ..core.loads import share_by_lever
 from ..core.peaks import find_largest, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
-from ..engine.engine import Engine
+from ..engine.engine import CylinderNumber, Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
-from .bobweights import DEFINITION, NO_THROW, FactorPeaks, PlaneNeed, fill_card
+from .bobweights import DEFINITION, NO_THROW, Bobweight, FactorPeaks, PlaneNeed, fill_card
 from .fitting import LEFT, Fitting, Slot
 from .options import SchemeOptions
-from .planes import SAME_PLACE, find_unbalance, read_planes
+from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
 _NEARLY = 0.05  # share of one cylinder's mass; weighed pistons of an engine differ by less
@@ -41,7 +42,7 @@ class _Pin(NamedTuple):
     included) at crank angle 0, kg m; centre of these masses along z, m.
     """
 
-    cylinders: tuple[int, ...]
+    cylinders: tuple[CylinderNumber, ...]
     unbalance: complex
     z: float
 
@@ -74,6 +75,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
         BalcliError: A factor is out of range, planes are given but moments are not known, or the
             engine is rotary.
     """
+    if engine.placed:
+        return _size_each(engine, options)
     if engine.rotary:
         raise BalcliError(
             "scheme factor: crank pins that stand still have no rotating mass; use auto"
@@ -402,6 +405,25 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
     parts = np.abs(of_pins) @ np.abs(unbalances) + np.abs(of_weights) @ np.abs(weights)
     needs = np.stack([wanted, present, wanted - present])
     return _Planes(z, np.where(np.abs(needs) <= LEFT * parts, 0, needs), sets)
+
+
+def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
+    """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
+    if options.measured is not None or len(options.factor or ()) > 1:
+        raise BalcliError("factor of geared engines: give one --factor, or run this on one of them")
+    remedy, cards, needs = Remedy("factor", 1), list[Bobweight](), list[PlaneNeed]()
+    for one in map(move_along, engine.cranks):
+        own = size_by_factor(one.engine, options)
+        weights = [w.model_copy(update={"engine": one.name}) for w in own.counterweights]
+        for weight, reason in zip(weights, own.reasons, strict=True):
+            remedy = remedy.add_devices([weight], f"{one.name}: {reason}")
+        names = {number: f"{one.name}.{number}" for number in one.engine.numbers}
+        cards += (
+            replace(pin, cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
+        )
+        needs += own.needs
+    details = {key: own.details[key] for key in ("factor", "definition")}
+    return remedy._replace(details=details, card=tuple(cards), needs=tuple(needs))
 
 
 def _find_counterweights(engine: Engine) -> tuple[Array, Complex]:

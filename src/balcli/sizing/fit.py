@@ -13,8 +13,8 @@ import numpy as np
 
 from ..core import least_squares
 from ..core.phasors import Array, unit
-from ..engine.devices import build_device
-from ..engine.engine import Engine
+from ..engine.build import build_fitted
+from ..engine.engine import Engine, refuse_geared
 from ..errors import MOMENTS_UNKNOWN, NO_GAS, BalcliError
 from ..file.fields import join_words
 from ..file.model import EngineFile
@@ -79,6 +79,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
     Raises:
         BalcliError: A target is unknown, or the file does not determine it.
     """
+    refuse_geared(engine)
     chosen, named = _check_targets(engine, targets), list_to_fit(model)
     found: dict[str, DeviceTable] = {}
     notes: list[str] = []
@@ -148,7 +149,7 @@ def _set_up(
     for table in tables:
         angles = (table.angle,) if "angle" in table.model_fields_set else (0.0, 90.0)
         turned = [table.model_copy(update={"unbalance": 1e6, "angle": angle}) for angle in angles]
-        devices = [build_device(one, engine.first_axis_deg) for one in turned]
+        devices = [build_fitted(one, engine) for one in turned]
         of_one = find_effects(devices, parts, residual.reference)
         effects.append(np.array(weights)[:, None] * of_one)
     return effects, -np.array(weights) * np.array(there, complex).view(float)

@@ -26,7 +26,8 @@ from ..core.cylinders import Device, DeviceKind
 from ..core.phasors import EPS, Array, unit
 from ..core.records import Node
 from ..engine.devices import build_device
-from ..engine.engine import Engine
+from ..engine.engine import Engine, Placed
+from ..engine.figures import place_in_plane
 from ..errors import BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from ..forces.kinds import ROLL_TOTAL
@@ -41,7 +42,6 @@ from .planes import (
 )
 from .remedy import Remedy, fit_devices
 from .residual import (
-    BACKWARD,
     BACKWARD_MOMENT,
     FORCE,
     FORWARD,
@@ -54,6 +54,7 @@ from .residual import (
     ResidualPart,
     find_residual,
     hold_steady,
+    list_parts,
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
@@ -77,6 +78,7 @@ class Slot(NamedTuple):
         z, place: Position along the crank, m; position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
         role: Role of a shaft.
+        carrier: Of geared engines, the one whose crank carries a counterweight.
     """
 
     kind: Literal["counterweight", "shaft", "slider"]
@@ -86,9 +88,21 @@ class Slot(NamedTuple):
     place: complex = 0j
     direction_deg: float = 0.0
     role: str = "balancer"
+    carrier: Placed | None = None
+
+    @classmethod
+    def on_crank(cls, one: Placed, z: float) -> Slot:
+        """Return the place of a counterweight on a crank: of the engine, or of one of several."""
+        if not one.name:
+            return cls("counterweight", 1, 1, z)
+        place = complex(place_in_plane(*one.at_m[:2]))
+        return cls("counterweight", 1, one.ratio, z, place, carrier=one)
 
     def make_device(self, unbalance: complex) -> Device:
         """Return the device of this unbalance (kg m) in this slot, as rotating vectors."""
+        if self.carrier is not None:
+            both = (unbalance, 0j) if self.sense > 0 else (0j, unbalance)
+            return Device(1, *both, self.place, self.z, DeviceKind.COUNTERWEIGHT)
         return build_device(self.make_table(unbalance, 0.0), 0.0)
 
     def make_table(self, unbalance: complex, first_axis_deg: float) -> DeviceTable:
@@ -100,10 +114,15 @@ class Slot(NamedTuple):
                 counterweight counts.
         """
         on_crank = self.kind == "counterweight"
+        carrier = self.carrier
+        if carrier is not None:
+            first_axis_deg = float(carrier.engine.first_axis_deg)
+            unbalance = carrier.find_own_unbalance(unbalance)
         angle = measure_direction(unbalance, first_axis_deg if on_crank else 0.0)
         values: Node = {"unbalance": abs(unbalance) * 1e6, "angle": angle}
         x, y, values["position"] = map(as_millimetres, (self.place.real, self.place.imag, self.z))
         if on_crank:
+            values |= {} if carrier is None else {"engine": carrier.name}
             return Counterweight.model_construct(**values)
         values["at"] = (x, y)
         if self.kind == "shaft":
@@ -238,8 +257,7 @@ class Fitting(NamedTuple):
         masses.
         """
         first_axis_deg = float(self.engine.first_axis_deg)
-        masses = [float(w.rotating + w.share + w.reciprocating) for w in self.engine.weighed]
-        dust = LEFT * float(masses @ self.engine.cylinders.radius_of_each)
+        dust = LEFT * sum(_sum_unbalances(one.engine) for one in self.engine.cranks)
         tables = [
             slot.make_table(unbalance, first_axis_deg)
             for slot, unbalance in zip(slots, unbalances, strict=True)
@@ -285,7 +303,7 @@ class Fitting(NamedTuple):
                 than these masses.
         """
         engine, residual = self.engine, self.find_residual(1)
-        if engine.rotary:
+        if engine.rotary or engine.placed:
             return self
         masses = np.array([float(weighed.rotating + weighed.share) for weighed in engine.weighed])
         directions = unit(engine.first_axis_deg + engine.cylinders.pin_deg)
@@ -325,18 +343,25 @@ class Fitting(NamedTuple):
         return self._replace(remedy=self.remedy.add_details(group, **figures))
 
 
+def _sum_unbalances(engine: Engine) -> float:
+    """Return the sum of all moving masses times their crank radii, kg m."""
+    masses = [float(w.rotating + w.share + w.reciprocating) for w in engine.weighed]
+    return float(masses @ engine.cylinders.radius_of_each)
+
+
 def _size_total_roll(engine: Engine, order: int) -> float:
     """Return the amplitude of an order of the roll of inertia and gas, N m."""
     return float(compute_spectra(engine, [order], (ROLL_TOTAL.name,))[ROLL_TOTAL.name].major[0])
 
 
-def explain_counterweights(residual: Residual) -> str:
-    """Return the reason for counterweights against the part of order 1 that turns with the
-    crank.
+def explain_counterweights(residual: Residual, sense: int = 1) -> str:
+    """Return the reason for counterweights against the part of order 1 that turns with a crank, in
+    the sense of the first one or against it.
     """
-    both = "both" if residual.force(1) and residual.moment(1) else "it"
+    both = "both" if residual.force(sense) and residual.moment(sense) else "it"
     turn = "counterweights turn with it too and cancel"
-    return f"{_name(residual, 1)} turning with the crank: {turn} {both}"
+    crank = "with the crank" if sense > 0 else "with the crank that turns against the first"
+    return f"{_name(residual, sense)} turning {crank}: {turn} {both}"
 
 
 def explain_shaft(
@@ -382,7 +407,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
 
 def _name(residual: Residual, sense: int) -> str:
     """Return the order and the kinds of its parts that turn in this sense, in words."""
-    kinds = [part.kind for part in (FORWARD if sense > 0 else BACKWARD) if residual.parts[part]]
+    kinds = [part.kind for part in list_parts(sense) if residual.parts[part]]
     return f"Order {residual.order} {' and '.join(kinds)}"
 
 

@@ -26,17 +26,16 @@ from ..forces.spectrum import compute_spectra, find_relevant_orders, merge_order
 from ..limits import SMALL, WORTH_A_SHAFT
 from .fitting import LEFT, Fitting, Slot, explain_counterweights, explain_shaft, size_unbalances
 from .options import check_small
-from .planes import find_ends, find_planes, find_unbalance
+from .planes import find_carrier, find_ends, find_planes, find_unbalance
 from .remedy import Remedy, fit_devices
 from .residual import (
-    BACKWARD,
     FORWARD,
     Residual,
-    ResidualPart,
     Scales,
     find_scales,
     find_size,
     is_small,
+    list_parts,
 )
 
 AS_DRAWN = "as drawn"
@@ -199,12 +198,20 @@ def add_at_throws(fitting: Fitting) -> Fitting:
     return fitting.add(slots, unbalances.tolist(), _AT_THROWS)
 
 
-def add_at_ends(fitting: Fitting, first: Residual) -> Fitting:
-    """Return the fitting with counterweights in the end planes for the part of order 1 (residual
-    `first`) that turns with the crank.
+def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
+    """Return the fitting with weights in the end planes for the part that turns with the crank; of
+    geared engines on the first crank that turns in this sense.
     """
-    slots = [Slot("counterweight", 1, 1, z) for z in find_ends(fitting.engine)]
-    return fitting.cancel(slots, FORWARD, explain_counterweights(first), first)
+    one = find_carrier(fitting.engine, sense)
+    if one is None:
+        return fitting
+    slots = [Slot.on_crank(one, z) for z in find_ends(one.engine)]
+    return fitting.cancel(slots, list_parts(sense), explain_counterweights(first, sense), first)
+
+
+def list_senses(engine: Engine) -> list[int]:
+    """Return the senses in which cranks turn: 1, and -1 where a crank turns against the first."""
+    return [sense for sense in (1, -1) if find_carrier(engine, sense) is not None]
 
 
 def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> Fitting:
@@ -214,13 +221,9 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
     for sense in senses:
         planes = find_planes(fitting.engine, residual, sense)
         slots = [Slot("shaft", residual.order, sense, z) for z in planes]
-        parts, reason = _parts(sense), explain_shaft(residual, sense, len(slots))
+        parts, reason = list_parts(sense), explain_shaft(residual, sense, len(slots))
         fitting = fitting.cancel(slots, parts, reason, residual)
     return fitting
-
-
-def _parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
-    return FORWARD if sense > 0 else BACKWARD
 
 
 def ignore_compensators(engine: Engine) -> Engine:
@@ -230,7 +233,7 @@ def ignore_compensators(engine: Engine) -> Engine:
     *_, z = engine.reference_m
     opposite = [
         device._replace(forward=-device.forward, backward=-device.backward, z=float(z), spin=0.0)
-        for device in engine.devices
+        for device in engine.every_device
         if device.compensates
     ]
     return replace(engine, devices=(*engine.devices, *opposite)) if opposite else engine
@@ -240,9 +243,12 @@ def size_complete(engine: Engine) -> Remedy:
     """Return devices that cancel all of orders 1 and 2, however small."""
     fitting = Fitting.start(ignore_compensators(engine), "complete")
     first, second = fitting.find_residual(1), fitting.find_residual(2)
-    if any(first.parts[part] for part in FORWARD):
-        fitting = add_at_ends(fitting, first)
-    return add_shafts(add_shafts(fitting, first, [-1]), second, [1, -1]).remedy
+    senses = list_senses(engine)
+    for sense in senses:
+        if any(first.parts[part] for part in list_parts(sense)):
+            fitting = add_at_ends(fitting, first, sense)
+    others = [sense for sense in (-1,) if sense not in senses]
+    return add_shafts(add_shafts(fitting, first, others), second, [1, -1]).remedy
 
 
 # ------------------------------------------------------------------ steps
@@ -261,7 +267,9 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
     auto = steps[-1].step
-    for name, residual, senses in ((SHAFT, first, (-1,)), (SHAFTS, second, (1, -1))):
+    carried = list_senses(engine)
+    others = tuple(sense for sense in (-1,) if sense not in carried)
+    for name, residual, senses in ((SHAFT, first, others), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
         if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:
             fitting = add_shafts(fitting, residual, due)
@@ -287,10 +295,11 @@ def _list_weights(
         scales: Force, moment and roll of one cylinder.
         small: Share of one cylinder below which a part is left.
     """
-    turning = find_size(first, 1, scales)
+    turning = {sense: find_size(first, sense, scales) for sense in list_senses(engine)}
     fitting, steps, left_out = drawn, [_make_step(AS_DRAWN, engine, drawn)], []
-    if not is_small(turning, small):
-        fitting = add_at_ends(drawn, first)
+    if due := [sense for sense, size in turning.items() if not is_small(size, small)]:
+        for sense in due:
+            fitting = add_at_ends(fitting, first, sense)
         steps.append(_make_step(WEIGHTS, engine, fitting))
     inside = steps[0].inner_moment_Nm is not None
     if inside and len(set(engine.joined_throws_m.tolist())) > 2:
@@ -303,8 +312,8 @@ def _list_weights(
             steps.append(step)
         elif step.counterweights:
             left_out.append(_leave_out(WEIGHTS_AT_THROWS, engine, first, [1], fall))
-    if turning and len(steps) == 1:
-        left_out.insert(0, _leave_out(WEIGHTS, engine, first, [1]))
+    if any(turning.values()) and len(steps) == 1:
+        left_out.insert(0, _leave_out(WEIGHTS, engine, first, turning))
     return steps, left_out, fitting
 
 
@@ -316,7 +325,7 @@ def _leave_out(
     main_bearing: float | None = None,
 ) -> LeftOut:
     """Return an omitted step with the largest parts that it would cancel."""
-    forces, moments = zip(*(map(residual.size, _parts(sense)) for sense in senses), strict=True)
+    forces, moments = zip(*(map(residual.size, list_parts(sense)) for sense in senses), strict=True)
     return LeftOut(
         step=step,
         force_N=max(forces),

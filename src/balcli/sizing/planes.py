@@ -8,13 +8,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..core.phasors import EPS, wrap_degrees
-from ..engine.engine import Engine
+from ..engine.engine import Engine, Placed
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..file.model import Counterweight, Shaft, Slider
 from .options import SchemeOptions
@@ -30,7 +31,8 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     """Return z of the end planes, m: the first and the last throw. If all throws are in one plane,
     the end planes are half a bore (without a bore: the crank radius) on either side of it.
     """
-    low, high = _find_reach(engine.joined_throws_m)
+    throws = [move_along(one).engine.joined_throws_m for one in engine.cranks]
+    low, high = _find_reach(np.concatenate(throws))
     if low < high:
         return low, high
     bore = float(engine.bore_m)
@@ -38,9 +40,28 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     return low - half, high + half
 
 
+def find_carrier(engine: Engine, sense: int) -> Placed | None:
+    """Return the first crank that turns in this sense (1 as the first one), along z where it
+    stands; None: there is none.
+    """
+    return next(map(move_along, (one for one in engine.cranks if one.ratio == sense)), None)
+
+
+def move_along(one: Placed) -> Placed:
+    """Return an engine whose places along z count as those of the engines to which it is geared."""
+    own, z = one.engine, float(one.at_m[2])
+    if not z:
+        return one
+    cylinders = replace(own.cylinders, z=own.cylinders.z + z)
+    devices = tuple(device._replace(z=device.z + z) for device in own.devices)
+    moved = replace(own, throws_m=own.throws_m + z, pins_m=own.pins_m + z, devices=devices)
+    return one._replace(engine=replace(moved, cylinders=cylinders))
+
+
 def find_length(engine: Engine) -> tuple[float, float]:
     """Return z of the first and the last throw or cylinder, m."""
-    return _find_reach([*engine.throws_m, *np.ravel(engine.cylinders.z)])
+    engines = [move_along(one).engine for one in engine.cranks]
+    return _find_reach([z for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))])
 
 
 def find_crank_middle(engine: Engine) -> float:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..core.cylinders import Device, DeviceKind
-from ..engine.devices import build_device
+from ..engine.build import build_fitted
 from ..engine.engine import Engine
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from .planes import KINDS, DeviceTable, find_free, name_kind
@@ -95,7 +95,7 @@ class Remedy(NamedTuple):
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
     """Return the engine with the devices of a remedy added, in the order of its file's tables."""
-    new = (build_device(table, engine.first_axis_deg) for table in remedy.devices)
+    new = (build_fitted(table, engine) for table in remedy.devices)
     everything = (*engine.devices, *new, *remedy.beyond)
     devices = tuple(sorted(everything, key=lambda device: device.kind))
     return replace(engine, devices=devices, model=_fit_model(engine.model, remedy))

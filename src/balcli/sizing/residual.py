@@ -38,6 +38,11 @@ FORCE, MOMENT = (FORWARD_FORCE, BACKWARD_FORCE), (FORWARD_MOMENT, BACKWARD_MOMEN
 ROLL = ResidualPart("roll", 0)
 
 
+def list_parts(sense: int) -> tuple[ResidualPart, ResidualPart]:
+    """Return force and moment that turn in a sense: 1 with the crank, -1 against it."""
+    return FORWARD if sense > 0 else BACKWARD
+
+
 class ReferencePoint(NamedTuple):
     """A point about which moments are taken: x + iy and z, m."""
 
@@ -104,7 +109,11 @@ class Scales(NamedTuple):
 
 
 def find_scales(engine: Engine) -> Scales:
-    """Return the scales of an engine at its speed."""
+    """Return the scales of an engine at its speed; of geared engines the largest."""
+    if engine.placed:
+        return Scales(
+            *map(max, zip(*(find_scales(one.engine) for one in engine.cranks), strict=True))
+        )
     radius = np.ravel(engine.cylinders.radius).astype(float)
     masses = np.array([float(each.reciprocating) for each in engine.weighed])
     z = np.ravel(engine.cylinders.z)
@@ -117,7 +126,7 @@ def find_size(residual: Residual, sense: int, scales: Scales) -> float:
     """Return the size of the parts that turn in a sense (1 with the crank, -1 against it): the
     larger of force and moment as shares of one cylinder's.
     """
-    return max(find_share(residual, part, scales) for part in (FORWARD if sense > 0 else BACKWARD))
+    return max(find_share(residual, part, scales) for part in list_parts(sense))
 
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:

@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Callable
 
 from ..core.phasors import wrap_degrees
-from ..engine.engine import Engine
+from ..engine.engine import Engine, Placed, refuse_geared
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from .factor import size_by_factor
 from .fitting import (
@@ -21,6 +21,7 @@ from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
     choose_plane,
+    find_carrier,
     find_ends,
     find_length,
     measure_direction,
@@ -30,13 +31,13 @@ from .remedy import Remedy
 from .residual import (
     BACKWARD,
     FORCE,
-    FORWARD,
     FORWARD_FORCE,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
     choose_residual,
     find_residual,
+    list_parts,
 )
 from .shafts import (
     size_compensator,
@@ -46,6 +47,12 @@ from .shafts import (
     size_two_shaft,
 )
 from .single_cylinder import size_eccentric_slider, size_oldham
+
+_NO_CARRIER = (
+    "What turns against the cranks stays, for no crank turns so and could carry it: shafts (auto) "
+    "take it"
+)
+_OF_ONE_CRANK = ("minimax", "ellipse", "eccentric-slider", "oldham")
 
 
 def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
@@ -70,18 +77,29 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = fitting.find_residual(1)
     if options.planes == "throws":
         return _size_at_throws(fitting)
-    if not any(residual.parts[part] for part in FORWARD):
-        raise NothingToBalanceError(_tell_not_needed(engine))
-    planes = find_ends(engine) if options.planes is None else read_planes(engine, options)
-    slots = [Slot("counterweight", 1, 1, z) for z in planes]
-    if len(slots) > 1 or not engine.places_known:
-        parts = FORWARD if len(slots) > 1 else [FORWARD_FORCE]
-        remedy = fitting.cancel(slots, parts, explain_counterweights(residual)).remedy
-    else:
-        remedy = _compromise(fitting, slots, residual)
+    for one in filter(None, (find_carrier(engine, sense) for sense in (1, -1))):
+        if any(residual.parts[part] for part in list_parts(one.ratio)):
+            fitting = _size_on_crank(fitting, one, options, residual)
+    remedy = fitting.remedy
     if not remedy.devices and not remedy.note:  # only negligible weights
         raise NothingToBalanceError(_tell_not_needed(engine))
+    against = any(residual.parts[part] for part in BACKWARD)
+    if engine.placed and against and find_carrier(engine, -1) is None:
+        return remedy._replace(note=_NO_CARRIER)
     return remedy
+
+
+def _size_on_crank(
+    fitting: Fitting, one: Placed, options: SchemeOptions, residual: Residual
+) -> Fitting:
+    """Return the fitting with weights on a crank for the part that turns with it."""
+    engine, parts = fitting.engine, list_parts(one.ratio)
+    planes = find_ends(one.engine) if options.planes is None else read_planes(engine, options)
+    slots = [Slot.on_crank(one, z) for z in planes]
+    if len(slots) == 1 and engine.places_known:
+        return _compromise(fitting, slots, residual)
+    reason = explain_counterweights(residual, one.ratio)
+    return fitting.cancel(slots, parts if len(slots) > 1 else parts[:1], reason)
 
 
 def _size_at_throws(fitting: Fitting) -> Remedy:
@@ -92,6 +110,7 @@ def _size_at_throws(fitting: Fitting) -> Remedy:
         NothingToBalanceError: No throw needs a weight.
     """
     engine = fitting.engine
+    refuse_geared(engine)
     if not engine.places_known and len(engine.throws_m) > 1:
         raise BalcliError(f"--planes throws: {MOMENTS_UNKNOWN}")
     remedy = add_at_throws(fitting).remedy
@@ -108,13 +127,14 @@ def _tell_not_needed(engine: Engine) -> str:
     return f"{order} is balanced already: counterweights change no free {what}"
 
 
-def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Remedy:
+def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitting:
     """Fit a weight in one plane, which cannot cancel a moment that acts elsewhere.
 
     In a plane near the point of reference, a weight against the moment would cause a far larger
     force. The moment is therefore divided at least by the longest arm of the engine.
     """
-    fit = size_unbalances(slots, residual, FORWARD, _find_engine_arm(fitting.engine, residual))
+    parts = list_parts(slots[0].sense)
+    fit = size_unbalances(slots, residual, parts, _find_engine_arm(fitting.engine, residual))
     fitting = fitting.add(
         slots,
         fit.unbalances,
@@ -124,7 +144,8 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Reme
     )
     fitting = fitting.describe_left(1, "force_with_crank_left_N", "moment_with_crank_left_Nm")
     stays = fitting.remedy.details["moment_with_crank_left_Nm"]
-    return fitting.remedy._replace(note=SAME_PLACE if stays else "")
+    remedy = fitting.remedy._replace(note=SAME_PLACE if stays else fitting.remedy.note)
+    return fitting._replace(remedy=remedy)
 
 
 def _find_engine_arm(engine: Engine, residual: Residual) -> float:
@@ -193,6 +214,8 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
     """
     asked = options or SchemeOptions()
     asked.check(scheme)
+    if scheme in _OF_ONE_CRANK:
+        refuse_geared(engine)
     try:
         return SIZE[scheme](engine, asked)
     except NothingToBalanceError as reason:

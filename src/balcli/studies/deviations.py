@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 from ..engine.build import assemble, build
 from ..engine.parts import Parts
-from ..file.model import Counterweight, EngineFile, Shaft, Slider, label_table
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from ..file.table import label_table
 from ..file.torsion_tables import Part, find_stiffness
-from .quantity_names import MOUNTS, TORSION
+from .quantity_names import ENGINE, MOUNTS, TORSION
 
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # per SI unit
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
@@ -76,6 +77,8 @@ def find_sources(
         chapter: Chapter whose parts deviate: ENGINE (pistons, rods and throws), MOUNTS or TORSION.
         within: Tolerances; parts with a tolerance of 0 are left out.
     """
+    if model.engine and chapter == ENGINE:
+        return _find_sources_of_several(model, within)
     if chapter == MOUNTS:
         sources = _list_mounts(model, within)
     elif chapter == TORSION:
@@ -85,6 +88,20 @@ def find_sources(
         model = _spell_out_throws(model, angles=bool(within.angle_deg))
         sources = _list_parts(model, within)
     return model, tuple(source for source in sources if source.tolerance)
+
+
+def _find_sources_of_several(
+    model: EngineFile, within: Tolerances
+) -> tuple[EngineFile, tuple[Source, ...]]:
+    """Return the parts of engines that are geared together, with the name of the engine of each."""
+    cranks, sources = list[EngineFile](), list[Source]()
+    for k, (name, crank) in enumerate(zip(model.crank_names, model.cranks, strict=True), 1):
+        own, found = find_sources(crank, ENGINE, within)
+        cranks.append(own)
+        for source in found:
+            figures = {f"engine.{k}.{path}": line for path, line in source.figures.items()}
+            sources.append(source._replace(name=f"{name} {source.name}", figures=figures))
+    return model.with_cranks(cranks), tuple(sources)
 
 
 # ------------------------------------------------------------------ pistons, rods and throws

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..engine.layout import plan_cylinders
 from ..errors import BalcliError, refuse_more, wrong_type
 from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
-from ..file.messages import SYNONYMS
+from ..file.messages import BESIDE_ENGINES, DEVICES, SYNONYMS
 from ..file.model import EngineFile, Frame, Gear, Override, Piston, Shaft
 from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
@@ -77,6 +77,8 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     """Return the place of each number that the engine file has or might have, by dotted name;
     members of lists count from 1.
     """
+    if model.engine:
+        return _find_places_of_several(model)
     plan = plan_cylinders(model)
     tables = dict(model.tables())
     for number in plan.numbers:
@@ -99,6 +101,23 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     return numbers
 
 
+def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
+    """Return the numbers of a file with [[engine]], and those of its engines' files that count."""
+    numbers: dict[str, Place] = {}
+    for path, table in model.tables():
+        if path.partition(".")[0] in BESIDE_ENGINES:
+            numbers |= _numbers_of(path, table)
+    for path in ("frame.up", "engine.1.phase"):  # the first engine is the reference
+        numbers.pop(path, None)
+    of_whole = set(BESIDE_ENGINES).difference(DEVICES, ("flywheel",))
+    for k, crank in enumerate(model.cranks, 1):
+        own = find_places(crank)
+        counts = (path for path in own if path.partition(".")[0] not in {*of_whole, *_IDLE_TABLES})
+        numbers |= {f"engine.{k}.{path}": own[path] for path in counts}
+    return numbers
+
+
+_IDLE_TABLES = ("torsion", "locomotive", "axle")  # of engines that are geared together
 # Numbers that `locomotive` alone reads
 _OF_WHEELS = r"locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 

@@ -18,16 +18,17 @@ from typing import Literal, Protocol, cast
 
 import numpy as np
 
-from ..core.phasors import Array, Phasors
+from ..core.phasors import Array, Figure, Phasors
 from ..engine.build import build
 from ..engine.engine import Engine
+from ..engine.figures import select_varied
 from ..engine.load import concerns_gas
 from ..engine.numbering import list_inferred
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, naming_file
 from ..file.fields import RIGID, suggest_nearest
 from ..file.model import EngineFile
-from ..file.plain_tables import choose_assumed
+from ..file.plain_tables import choose_assumed, join_assumed
 from ..file.table import document_keys
 from ..forces.kinds import GAS_KINDS
 from ..forces.quantity import (
@@ -194,7 +195,10 @@ def list_assumed(
             idle.add("crank.inertia")
     if all(name.startswith(_WITHOUT_RODS) for name in names):
         idle.add("rod.inertia")
-    return choose_assumed(list_inferred(Parts(model)), tables, idle) or None
+    each = [choose_assumed(list_inferred(Parts(crank)), tables, idle) for crank in model.cranks]
+    if not model.engine:
+        return each[0] or None
+    return join_assumed(dict(zip(model.crank_names, each, strict=True))) or None
 
 
 # ------------------------------------------------------------------ evaluation of variants
@@ -214,7 +218,7 @@ class _VariedGas:
     on the gas have length 1.
     """
 
-    def __init__(self, model: EngineFile, figures: Mapping[str, Array], rank: int) -> None:
+    def __init__(self, model: EngineFile, figures: Mapping[str, Figure], rank: int) -> None:
         self._model, self._engines = model, list[Engine]()
         self._figures = {k: value for k, value in figures.items() if concerns_gas(k, model.gas)}
         self._shape = np.broadcast_shapes((1,) * rank, *map(np.shape, self._figures.values()))
@@ -239,6 +243,22 @@ class _VariedGas:
             }
             with naming_file(tell_variant(own)):
                 yield build(self._model, own)
+
+
+def _vary_gas(
+    model: EngineFile, engine: Engine, figures: Mapping[str, Figure], rank: int
+) -> Engine:
+    """Return variants of an engine with their gas, if there is some."""
+    if not model.has_gas:
+        return engine
+    if not engine.placed:
+        return replace(engine, gas_of_variants=_VariedGas(model, figures, rank))
+    placed = []
+    for k, (crank, one) in enumerate(zip(model.cranks, engine.placed, strict=True), 1):
+        own = dict(select_varied(figures, k))
+        placed.append(one._replace(engine=_vary_gas(crank, one.engine, own, rank)))
+    some = next(filter(None, (one.engine.gas_of_variants for one in placed)))
+    return replace(engine, placed=tuple(placed), gas_of_variants=some)
 
 
 class Evaluator:
@@ -268,10 +288,7 @@ class Evaluator:
         Raises:
             InputError: A variant is impossible.
         """
-        engine = build(self._model, figures, rank=rank)
-        if self._model.gas is None:
-            return engine
-        return replace(engine, gas_of_variants=_VariedGas(self._model, figures, rank))
+        return _vary_gas(self._model, build(self._model, figures, rank=rank), figures, rank)
 
     def evaluate(
         self, figures: Mapping[str, Array], shape: tuple[int, ...], engine: Engine | None = None

@@ -168,7 +168,7 @@ class Variants:
     """
 
     def __init__(self, model: EngineFile, names: str | None, within: Tolerances) -> None:
-        asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.gas is not None)
+        asked = parse_quantities(names or DEFAULT_QUANTITIES, with_gas=model.has_gas)
         engine, of_engine = build(model), choose_of_engine(asked)
         if names is None:
             asked = of_engine = leave_out_unknown(engine, of_engine)

@@ -111,8 +111,12 @@ class Sweep:
     def doubts(self) -> list[str]:
         """Warnings of unlikely figures of the file, except varied ones."""
         with naming_file(self.name):
-            all_of_file = [*find_suspicious(self.file), *doubt_firing(self.file)]
-            if self.file.gas is not None and self.file.gas.speeds:
+            all_of_file = [
+                doubt
+                for crank in self.file.cranks
+                for doubt in (*find_suspicious(crank), *doubt_firing(crank))
+            ]
+            if any(crank.gas is not None and crank.gas.speeds for crank in self.file.cranks):
                 speeds = self.figures.get(SPEED, self.file.operation.speed)
                 all_of_file += build(self.file).doubt_speeds(speeds)
         varied = [p.path.rstrip(".0123456789") for p in self.parameters]
@@ -193,7 +197,7 @@ def plan_sweep(
     if len(paths) > MOST_PARAMETERS:
         raise BalcliError(f"{len(paths)} numbers vary; at most {MOST_PARAMETERS} can at once")
     wanted = DEFAULT_QUANTITIES if quantities is None else quantities
-    asked = parse_quantities(wanted, with_gas=model.gas is not None)
+    asked = parse_quantities(wanted, with_gas=model.has_gas)
     sweep = Sweep(model, parameters, asked, name)
     corners = build_corners(sweep)
     if quantities is None:
@@ -233,13 +237,15 @@ def count_at_once(sweep: Sweep) -> int:
     memory. It is estimated at the corners of the grid.
     """
     of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
-    gas_varies = of_gas and any(concerns_gas(p.path, sweep.file.gas) for p in sweep.parameters)
+    gases = [crank.gas for crank in sweep.file.cranks]
+    paths = [parameter.path for parameter in sweep.parameters]
+    gas_varies = of_gas and any(concerns_gas(path, gas) for path in paths for gas in gases)
     most = ALONE if sweep.evaluator.one_by_one or gas_varies else CHUNK
     if not sweep.of_engine:
         return most
     engine = build_corners(sweep)
     orders = find_orders(engine, sweep.of_engine)
-    figures = max(engine.cylinders.count * max(map(len, orders)), 2 * max(map(max, orders)))
+    figures = max(len(engine.numbers) * max(map(len, orders)), 2 * max(map(max, orders)))
     samples = count_engine_samples(engine) // 2 ** len(sweep.parameters)
     return max(min(BYTES // (16 * int(figures)), SAMPLES // max(samples, 1), most), 1)
 

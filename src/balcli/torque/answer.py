@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
-from ..engine.engine import Engine, check_engine, find_row
+from ..engine.engine import CylinderNumber, Engine, check_engine, find_row, refuse_geared
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
@@ -41,7 +41,7 @@ def analyze_torque_of_engine(
     engine: Engine,
     orders: Iterable[float] | None = None,
     *,
-    cylinder: int = 1,
+    cylinder: CylinderNumber = 1,
     fluctuation: float | None = None,
     loads: str | Iterable[str] = (),
 ) -> TorqueAnalysis:
@@ -51,7 +51,7 @@ def analyze_torque_of_engine(
         engine: Single engine with gas (no trailing axes). An uneven speed in its file is ignored.
         orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
             with many cylinders also the firing order and its double.
-        cylinder: Cylinder whose torque is shown next to the engine's.
+        cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's.
         fluctuation: (highest - lowest)/mean speed for which to compute the inertia.
         loads: "pin" (of crank pins), "main" (of main bearings), or both.
 
@@ -64,16 +64,20 @@ def analyze_torque_of_engine(
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
     """
     gas = take_gas(check_engine("analyze_torque", engine))
-    check_type("cylinder", cylinder, (int, np.integer), "give a whole number from 1")
+    kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
+    check_type("cylinder", cylinder, kinds, "give a whole number from 1")
     if fluctuation is not None:
         fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
     wanted = list_words("loads", loads, '["pin", "main"]')
     if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
         raise BalcliError(f"--loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")
     if wanted:
+        refuse_geared(engine)
         refuse_too_many_forces(engine)
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
+    if engine.placed and cylinder == 1:
+        cylinder = engine.numbers[0]
     row = find_row(engine, cylinder)
     curves = find_torque_curves(steady)
     above, omega = surplus(curves.total), float(engine.omega)

@@ -32,7 +32,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
-from ..shell.values import optional, read_inertia
+from ..shell.values import optional, parse_cylinder, read_inertia
 from ..show.formats import Units
 
 if TYPE_CHECKING:
@@ -51,7 +51,9 @@ EngineFile = Annotated[
 Fluctuation = Annotated[
     str | None, optional("1/200", "Also compute the inertia for this speed fluctuation; or 0.5%.")
 ]
-Cylinder = Annotated[int, typer.Option(metavar="N", help="Also show the torque of cylinder N.")]
+Cylinder = Annotated[
+    str, typer.Option(metavar="N|NAME.N", help="Also show the torque of this cylinder.")
+]
 LoadsOption = Annotated[
     str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
 ]
@@ -72,7 +74,7 @@ Write = Annotated[
 def torque(
     path: EngineFile = None,
     fluctuation: Fluctuation = None,
-    cylinder: Cylinder = 1,
+    cylinder: Cylinder = "1",
     misfire: Misfire = None,
     loads: LoadsOption = None,
     curve: Curve = None,
@@ -109,7 +111,7 @@ def torque(
     needed = "--curve; the inertia of an engine stands in its file: [crank] inertia, [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
-        misplaced["--cylinder"], needed = cylinder != 1, "an engine file"
+        misplaced["--cylinder"], needed = cylinder != "1", "an engine file"
     for option, value in misplaced.items():
         if value:
             raise BalcliError(f"{option} needs {needed}")
@@ -130,7 +132,11 @@ def torque(
         engine = named_by_file(source.engine, path or "")
         engine = silence_cylinders(engine, misfire or (), path or "")
         found = answer.analyze_torque_of_engine(
-            engine, asked, cylinder=cylinder, fluctuation=allowed, loads=loads or ()
+            engine,
+            asked,
+            cylinder=parse_cylinder(cylinder),
+            fluctuation=allowed,
+            loads=loads or (),
         )
         if found.loads is not None and found.loads.obstacle:
             warn(f"{name_file(path or '')}: main bearings: {found.loads.obstacle}")
@@ -176,6 +182,9 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     ]
     text = set_speed(source.decode("utf-8-sig"), result.speed_rpm or 0.0, _NOTE)
     text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
+    if result.no_gas_in and result.engine is not None and result.engine.placed:
+        told = "write [cylinder.N] gas = 0 into the file of that engine"
+        raise BalcliError(f"--write: a misfire stands in an engine's own file; {told}")
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

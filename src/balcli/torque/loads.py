@@ -84,7 +84,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
         found = _measure(steady, find_pin_loads(steady), sizes and sizes.pin_m2)
-        loads = [replace(f, cylinder=n) for n, f in zip(engine.numbers, found, strict=True)]
+        loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, found, strict=True)]
         loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
         pin = tuple(load for load in loads if load.cylinder not in hung)

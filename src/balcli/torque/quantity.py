@@ -32,7 +32,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     Raises:
         BalcliError: The engine has no gas.
     """
-    if model.gas is None:
+    if not model.has_gas:
         raise BalcliError(f"{quantities[0].name}: the engine file has no [gas]")
 
 

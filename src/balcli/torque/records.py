@@ -8,7 +8,7 @@ from typing import Annotated, Literal, NamedTuple
 from ..core.piecewise import PiecewiseCurve
 from ..core.records import HIDDEN, INLINE
 from ..core.speed_ripple import Surplus
-from ..engine.engine import Engine
+from ..engine.engine import CylinderNumber, Engine
 from ..file.fields import order_number
 from ..forces.spectrum import Spectra
 from ..show.figures import Harmonic, list_harmonics
@@ -110,8 +110,8 @@ class TorqueAnalysis(Result):
 
     format: Literal["balcli.torque/1"] = "balcli.torque/1"
     speed_rpm: float | None = None
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
+    no_gas_in: tuple[CylinderNumber, ...] | None = None
+    no_burning_in: tuple[CylinderNumber, ...] | None = None
     assumed: tuple[str, ...] | None = None
     cycle_deg: float
     imep_Pa: float | None = None
@@ -129,7 +129,7 @@ class TorqueAnalysis(Result):
     curve: Annotated[PiecewiseCurve, HIDDEN]
     engine: Annotated[Engine | None, HIDDEN] = None
     spectra: Annotated[Spectra | None, HIDDEN] = None
-    cylinder: Annotated[int, HIDDEN] = 0
+    cylinder: Annotated[CylinderNumber, HIDDEN] = 0
     load_Nm: Annotated[tuple[float, float] | None, HIDDEN] = None
 
     @property

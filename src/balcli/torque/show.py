@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..engine.engine import CylinderNumber
 from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
@@ -48,7 +50,7 @@ def rows(result: TorqueAnalysis, system: System) -> Rows:
 def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[FigureRow]:
     # In lines of an engine, "torque" is the inertia torque, as in `analyze`.
     names = {kind.key: kind.name for kind in (TORQUE, GAS, TORQUE_TOTAL)}
-    places = [(0, found["orders"])]
+    places: list[tuple[CylinderNumber, Any]] = [(0, found["orders"])]
     if result.engine is None:
         names[TORQUE_TOTAL.key] = TORQUE.name
     else:

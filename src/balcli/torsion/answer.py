@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..core.vibration import Real
-from ..engine.engine import Engine, take_model
+from ..engine.engine import CylinderNumber, Engine, take_model
 from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
 from ..file.fields import counted, order_number, printable
@@ -155,8 +155,8 @@ class TorsionAnalysis(Result):
 
     format: Literal["balcli.torsion/1"] = "balcli.torsion/1"
     name: str | None
-    no_gas_in: tuple[int, ...] | None = None
-    no_burning_in: tuple[int, ...] | None = None
+    no_gas_in: tuple[CylinderNumber, ...] | None = None
+    no_burning_in: tuple[CylinderNumber, ...] | None = None
     assumed: tuple[str, ...] | None = None
     nodes: tuple[ChainNode, ...]
     shafts: tuple[ChainJoint, ...]

@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from ..core.vibration import Real
-from ..engine.engine import Engine
+from ..engine.engine import Engine, refuse_geared
 from ..engine.load import build_named
 from ..engine.parse import parse
 from ..errors import BalcliError
@@ -18,6 +18,7 @@ from ..file.toml import name_file, parse_toml, read_bytes
 from ..file.torsion_tables import Damper
 from ..file.units import ask_unit
 from ..forces.curves import silence
+from ..shell.values import parse_cylinder
 from .build import (
     build_chain,
     build_engine_system,
@@ -80,13 +81,13 @@ def _doubt_units(model: ChainFile) -> Iterator[str]:
             yield f"{path} is {value:.4g} {unit}; {larger}"
 
 
-def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] = ()) -> Source:
+def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] = ()) -> Source:
     """Read the source in a file, or in standard input for "-".
 
     Args:
         orders: Orders of the excitation to use, shape (orders,); None: all orders of a chain; for
             an engine, the default of `excite_engine`.
-        misfires: Numbers of the cylinders that lose their gas force.
+        misfires: Numbers of the cylinders that lose their gas force, as typed.
 
     Raises:
         BalcliError: The file cannot be read or has mistakes, a misfire is given for an engine
@@ -102,8 +103,9 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[int] =
     model = parse(text, name)
     engine = build_named(model, name)
     doubts = engine.unlikely
+    refuse_geared(engine)
     for number in misfires:
-        engine = silence(engine, number)
+        engine = silence(engine, parse_cylinder(number))
     return make_source(model, engine, name, orders)._replace(text=text, doubts=doubts)
 
 

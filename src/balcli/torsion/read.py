@@ -20,7 +20,8 @@ _ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",
 
 def describes_chain(data: Mapping[str, object]) -> bool:
     """Return whether the tables of a file describe a chain, not an engine."""
-    return any(key in data for key in KEYS) and not ({"crank", "piston", "rod"} & set(data))
+    of_engine = {"crank", "piston", "rod", "engine"}
+    return any(key in data for key in KEYS) and of_engine.isdisjoint(data)
 
 
 def read_chain_tables(data: Mapping[str, object], file: str = "") -> ChainFile:

@@ -15,7 +15,7 @@ import numpy as np
 from ...core.phases import TURN
 from ...core.records import HIDDEN, WrittenAs
 from ...engine.build import build
-from ...engine.engine import Engine, check_engine, take_model
+from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
 from ...errors import BalcliError, InputError, check_type, wrong_type
@@ -141,6 +141,7 @@ def search_arrangements(
         BalcliError: the engine has nothing to arrange, no arrangement satisfies the limits, or a
             moment is requested and the file does not give the positions of the throws.
     """
+    refuse_geared(model)
     wanted = [over] if isinstance(over, str) else list(over)
     refuse_unknown(model, build(model), objective.quantities)
     ranges = read_ranges(model, wanted)

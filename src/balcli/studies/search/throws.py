@@ -173,7 +173,7 @@ def tabulate_contributions(
     count = 1 + max(throw_of.values())
     paths = {f"crank.throws.{t + 1}": 0.0 if t == fixed else angles for t in range(count)}
     engine = build(model, paths)
-    own_throw = np.array([throw_of[number] for number in engine.numbers])
+    own_throw = np.array([throw_of[int(number)] for number in engine.numbers])
     parts = [with_only(engine, own_throw == throw) for throw in range(count)]
     parts.append(replace(with_only(engine, own_throw < 0), devices=engine.devices))
     keys = list(dict.fromkeys((q.kind, q.order) for q in quantities))

@@ -1,0 +1,308 @@
+"""Engines that are geared together one to one: read, built, and seen from the first crank.
+
+Each is built alone. `build_geared` makes one engine of them, whose `placed` say where each stands
+and how it turns; `share_state` hands speed, devices and point of reference of the whole down to
+each, in its own axes and by its own crank angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+
+from ..core.cylinders import Device, DeviceKind
+from ..core.phasors import Figure, unit
+from ..core.speed_ripple import RippleLine
+from ..errors import BalcliError, InputError, Problem, note
+from ..file.csv_columns import locate_beside
+from ..file.engine_tables import Engine as EngineTable
+from ..file.model import Counterweight, EngineFile, Shaft, Slider
+from ..file.read import Draft
+from ..file.toml import read_bytes
+from ..limits import MOST_ENGINES
+from .build import build, build_fitted, find_wheel
+from .engine import Engine, Placed, Rating
+from .figures import FileFigures, place_in_plane, select_varied
+from .gas import CylinderGas, EngineGas, GasLaw
+
+
+# ------------------------------------------------------------------ files
+def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Draft:
+    """Return a file with [[engine]] and the files of its engines, with all their mistakes.
+
+    Args:
+        draft: The file without them.
+        parse: Function of the text and name of one engine's file to its model.
+    """
+    model, problems = draft.model, list(draft.problems)
+    engines = tuple(filter(None, model.engine))
+    if "engine" in draft.readable:
+        problems += _check_engines(model)
+    found: dict[str, EngineFile | None] = {}
+    for k, table in enumerate(model.engine, 1):
+        if table is None or table.file in found:
+            continue
+        found[table.file] = None
+        with _collecting(problems, k, table.file):
+            path = locate_beside(model.folder, table.file)
+            found[table.file] = parse(read_bytes(path), str(path))
+    cranks = tuple(filter(None, (found[table.file] for table in engines)))
+    _tell_ignored(engines, cranks)
+    if not problems:
+        own, lent = model.operation, cranks[0].operation
+        keys = [k for k in ("speed", "speed_ripple") if lent.has(k) and not own.has(k)]
+        operation = own.model_copy(update={key: getattr(lent, key) for key in keys})
+        turning = {"operation": operation}
+        # Of the others the unevenness follows from the first crank's.
+        steady = {"operation": operation.model_copy(update={"speed_ripple": ()})}
+        others = [crank.model_copy(update=steady) for crank in cranks[1:]]
+        model = model.model_copy(update=turning)
+        model = model.with_cranks([cranks[0].model_copy(update=turning), *others])
+    return draft._replace(model=model, problems=tuple(problems))
+
+
+def _check_engines(model: EngineFile) -> Iterator[Problem]:
+    """Yield the contradictions between the engines of a file, all of which could be read."""
+    engines = model.engine
+    if len(engines) < 2:
+        yield Problem("engine", f"one engine; analyze {engines[0].file} itself")
+    if len(engines) > MOST_ENGINES:
+        yield Problem("engine", f"{len(engines)} engines; at most {MOST_ENGINES} are read")
+        return
+    for key in ("ratio", "phase"):
+        if getattr(engines[0], key) != type(engines[0]).model_fields[key].default:
+            told = "the first engine is the reference; its ratio is 1 and its phase 0"
+            yield Problem(f"engine.1.{key}", told)
+    names = model.crank_names
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            told = f'"{name}" is engine {names.index(name) + 1} as well; give each its own name'
+            yield Problem(f"engine.{k + 1}.name", told)
+    loads = sum(engine.load for engine in engines)
+    given = any(engine.has("load") for engine in engines)
+    if given and loads not in (1, len(engines)):
+        told = f"true for {loads} of {len(engines)} engines; mark one engine, or all"
+        yield Problem("engine.load", told)
+    yield from _check_carriers(model)
+
+
+def _check_carriers(model: EngineFile) -> Iterator[Problem]:
+    """Yield the mistakes in what counterweights name as their carriers."""
+    names = model.crank_names
+    for k, weight in enumerate(model.counterweight, 1):
+        if weight.engine is not None and weight.engine not in names:
+            told = f'"{weight.engine}" is no engine; there are {", ".join(names)}'
+            yield Problem(f"counterweight.{k}.engine", told)
+        if weight.axle is not None:
+            yield Problem(f"counterweight.{k}.axle", "a file with [[engine]] has no axles")
+
+
+_IGNORED = ("body", "mount", "point", "torsion", "locomotive", "operation", "frame")
+
+
+def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
+    """List the tables of engines' files that do not count; the first lends speed and reference."""
+    for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
+        keys = [key for key in (_IGNORED if k else _IGNORED[:5]) if crank.has(key)]
+        if keys:
+            note(f"{table.file}: does not count in engine {k + 1}: {', '.join(keys)}")
+
+
+@contextmanager
+def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[None]:
+    """Collect the mistakes of an engine's file, each under the engine that names it."""
+    try:
+        yield
+    except InputError as error:
+        path = f"engine.{number}.file"
+        problems += (Problem(path, f"{file}: {one}") for one in error.problems)
+    except BalcliError as error:
+        problems.append(Problem(f"engine.{number}.file", str(error)))
+
+
+# ------------------------------------------------------------------ one engine of several
+def build_geared(
+    model: EngineFile, varied: Mapping[str, Figure] | None = None, rank: int = 0
+) -> Engine:
+    """Return the engine that a file with [[engine]] describes; arguments and errors as of `build`.
+
+    Figures of an engine's own file vary by names such as `engine.2.rod.length`.
+    """
+    changes, problems = varied or {}, list[Problem]()
+    engines: list[Engine] = []
+    for k, (table, crank) in enumerate(zip(model.engine, model.cranks, strict=True), 1):
+        own = dict(select_varied(changes, k))
+        with _collecting(problems, k, table.file):
+            engines.append(build(crank, own or None, rank=rank))
+    if problems:
+        raise InputError(list(dict.fromkeys(problems)))
+    figures = FileFigures(changes, model)
+    if model.flywheel is not None:
+        wheels = [engines[0].flywheel_inertia, find_wheel(figures, model.flywheel)]
+        engines[0] = replace(engines[0], flywheel_inertia=_add(wheels))
+    whole = gear_engines(_place_engines(model, figures, engines))
+    given, power = model.frame.reference, model.operation.power
+    if given is not None:
+        x, y, z = (each / 1e3 for each in figures.take_each("frame.reference", given))
+        whole = replace(whole, reference_m=(x, y, z))
+    devices = (
+        build_fitted(table, whole, figures, path)
+        for path, table in model.tables()
+        if isinstance(table, Counterweight | Shaft | Slider)
+    )
+    return replace(
+        whole,
+        name=model.name,
+        source=model.source,
+        up_deg=model.frame.up,
+        devices=tuple(devices),
+        rated=Rating(model.operation.speed, None if power is None else 1e3 * power),
+        model=None if varied else model,
+    )
+
+
+def gear_engines(placed: Sequence[Placed]) -> Engine:
+    """Return engines that are geared together as one, at the speed and with the point of reference
+    of the first; it has no devices but those of each.
+    """
+    speed = placed[0].engine.speed_rpm
+    placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]
+    engines = [one.engine for one in placed]
+    first, fired = placed[0], [engine for engine in engines if engine.gas is not None]
+    x, y, z = first.engine.reference_m
+    place = first.find_place(place_in_plane(x, y))
+    cylinders = tuple(f"{one.name}.{number}" for one in placed for number in one.engine.numbers)
+    return replace(
+        first.engine,
+        numbers=cylinders,
+        fires_deg={},
+        strokes=max(engine.strokes for engine in fired or engines),
+        reference_m=(place.real, place.imag, z + first.at_m[2]),
+        devices=(),
+        weighed=tuple(masses for engine in engines for masses in engine.weighed),
+        places_known=all(engine.places_known for engine in engines),
+        gas=_join_gas(placed),
+        crank_inertia=_add(engine.crank_inertia for engine in engines if not engine.rotary),
+        flywheel_inertia=_add(engine.flywheel_inertia for engine in engines),
+        model=None,
+        placed=tuple(placed),
+    )
+
+
+_ANGLES = ("phase", "turn")
+
+
+def _place_engines(
+    model: EngineFile, figures: FileFigures, engines: Sequence[Engine]
+) -> tuple[Placed, ...]:
+    tables = model.engine
+    given = any(table.has("load") for table in tables)
+    loads = [table.load if given else k == 0 for k, table in enumerate(tables)]
+    driving = tables[loads.index(True)].ratio
+    found = []
+    for k, (name, table, engine) in enumerate(zip(model.crank_names, tables, engines, strict=True)):
+        path = f"engine.{k + 1}"
+        phase, turn = (figures.take(f"{path}.{key}", getattr(table, key)) for key in _ANGLES)
+        at = tuple(each / 1e3 for each in figures.take_each(f"{path}.at", table.at))
+        sense = table.ratio if all(loads) else driving
+        one = Placed(engine, name, table.file, table.ratio, phase, turn, at, loads[k], sense)
+        found.append(one)
+    return tuple(found)
+
+
+def _add(figures: Iterable[Figure | None]) -> Figure | None:
+    given = [figure for figure in figures if figure is not None]
+    return cast("Figure", sum(given)) if given else None
+
+
+def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
+    """Return the gas of all cylinders by the first crank's angle; that of an engine without gas has
+    the share 0. None where no engine has gas.
+    """
+    burning = [one.engine.gas for one in placed if one.engine.gas is not None]
+    if not burning:
+        return None
+    cylinders = list[CylinderGas]()
+    for one in placed:
+        gas, start = one.engine.gas, len(cylinders)
+        if gas is None:
+            idle = burning[0].cylinders[0]._replace(share=0.0, like=start)
+            cylinders += [idle] * len(one.engine.numbers)
+            continue
+        cylinders += (
+            own._replace(nominal_deg=own.nominal_deg - float(one.phase_deg), like=start + own.like)
+            for own in gas.cylinders
+        )
+    efficiencies = {gas.mechanical_efficiency for gas in burning}
+    same = efficiencies.pop() if len(efficiencies) == 1 else None
+    cycle_deg = max(gas.cycle_deg for gas in burning)
+    return EngineGas(tuple(cylinders), cycle_deg, same, law=_join_laws(placed))
+
+
+def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
+    """Return the law of the gas of all cylinders; None where it is the same at all speeds."""
+    laws = [one.engine.gas.law for one in placed if one.engine.gas and one.engine.gas.law]
+    if not laws:
+        return None
+
+    def solve(speed_rpm: float) -> EngineGas:
+        there = [one._replace(engine=one.engine.at_speed(speed_rpm)) for one in placed]
+        gas = _join_gas(there)
+        assert gas is not None
+        return gas
+
+    powers = {law.power for law in laws}
+    nodes = sorted({speed for law in laws for speed in law.nodes_rpm})
+    linear = len(powers) == 1 and all(law.linear for law in laws)
+    return GasLaw(solve, tuple(nodes), linear, max(powers))
+
+
+# ------------------------------------------------------------------ seen by each engine
+def share_state(whole: Engine) -> Iterator[Placed]:
+    """Yield the engines of a whole, each with its speed, devices, gas and point of reference."""
+    start = 0
+    for row, one in enumerate(whole.placed):
+        own, stop = one.engine, start + len(one.engine.numbers)
+        x, y, z = whole.reference_m
+        reference = one.find_own_place(place_in_plane(x, y))
+        lines = (
+            RippleLine(line.order, line.amplitude, line.angle_deg + line.order * one.phase_deg)
+            for line in whole.ripple
+        )
+        carried = (_move(device, one) for device in whole.devices if device.crank == row)
+        gas = None if whole.gas is None else own.gas
+        if gas is not None and whole.gas is not None:
+            seen = (c._replace(like=c.like - start) for c in whole.gas.cylinders[start:stop])
+            pairs = zip(seen, gas.cylinders, strict=True)  # those of all are at their speed
+            each = (c._replace(nominal_deg=mine.nominal_deg) for c, mine in pairs)
+            gas = replace(gas, cylinders=tuple(each))
+        yield one._replace(
+            engine=replace(
+                own,
+                speed_rpm=whole.speed_rpm,
+                ripple=tuple(lines),
+                reference_m=(reference.real, reference.imag, z - one.at_m[2]),
+                devices=(*own.devices, *carried),
+                gas=gas,
+            )
+        )
+        start = stop
+
+
+def _move(device: Device, one: Placed) -> Device:
+    """Return a device of the whole as one of an engine's own; those off the crankshafts belong to
+    the first, which turns as they count.
+    """
+    moved = device._replace(z=device.z - one.at_m[2], crank=0)
+    if device.kind is DeviceKind.COUNTERWEIGHT:
+        return moved
+    back = unit(-np.asarray(one.turn_deg))
+    return moved._replace(
+        place=one.find_own_place(device.place),
+        forward=back * device.forward,
+        backward=back * device.backward,
+    )
