@@ -100,10 +100,9 @@ _COMMANDS_OF = {
     "locomotive.command": ("locomotive",),
     "mounts.command": ("mounts",),
     "report.command": ("plot", "report"),
-    "studies.numbers": ("numbers",),
     "studies.scatter_command": ("scatter",),
     "studies.search.command": ("search",),
-    "studies.sweep_command": ("sweep",),
+    "studies.sweep_command": ("numbers", "sweep"),
     "torque.command": ("torque",),
     "torsion.command": ("torsion",),
 }

@@ -177,9 +177,9 @@ def schema(
 
 
 def _describe_file(kind: File) -> Node:
-    from .field import tables as runs
+    from .field import runs_file as runs
     from .file import schema as files, torsion_tables  # pydantic
-    from .torsion import tables as chain
+    from .torsion import chain_file as chain
 
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")

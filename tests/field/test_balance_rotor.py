@@ -12,7 +12,7 @@ from support.rotors import head, names, random_rotor, run, table, three_runs
 from balcli.core.unbalance import STEEL
 from balcli.errors import BalcliError
 from balcli.field.answer import find_corrections
-from balcli.field.read import parse_runs
+from balcli.field.runs_file import parse_runs
 
 RELATIVE = 1e-12
 

@@ -25,7 +25,7 @@ from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
-from . import liu, series, tsinghua, wang, worked_examples
+from . import schemes, series, tsinghua, worked_examples
 from .recomputed import (
     Erratum,
     ErratumClass,
@@ -89,10 +89,10 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "tsinghua-1-5": tsinghua.tabulate_mean_speeds,
     "tsinghua-1-6": tsinghua.tabulate_acceleration,
     "tsinghua-two-terms": tsinghua.tabulate_two_terms,
-    "liu-1": liu.tabulate_paths,
-    "liu-2": liu.tabulate_vectors,
-    "liu-3": liu.tabulate_sliders,
-    "wang-1": wang.tabulate_optimum,
+    "liu-1": schemes.tabulate_paths,
+    "liu-2": schemes.tabulate_vectors,
+    "liu-3": schemes.tabulate_sliders,
+    "wang-1": schemes.tabulate_optimum,
     "kvasnikov-1": series.tabulate_piston,
     "kvasnikov-2": series.tabulate_rod,
     "kvasnikov-statements": series.tabulate_kvasnikov_statements,

@@ -37,8 +37,7 @@ from .influence import (
     fit_coefficients,
 )
 from .places import Piece, PlaneLimits
-from .read import check_runs
-from .tables import RunsFile, Sense
+from .runs_file import RunsFile, Sense, check_runs
 
 _NEARLY_DEPENDENT = 0.2  # own effect of a plane below which reading errors grow much
 _SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines coefficients badly

@@ -54,9 +54,8 @@ from .chain import (
     join_chain,
     rigid_motions,
 )
-from .read import refuse_node
+from .chain_file import ChainFile, ChainShaft as ShaftTable, Gear, refuse_node
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
-from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 _LIGHT = 0.05  # share of the smaller neighbor's inertia: a lighter shaft may be neglected
