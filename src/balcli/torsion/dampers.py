@@ -52,7 +52,6 @@ _WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # search from start/
 # default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 WIDE_SWING = 20.0  # deg; on a circle the frequency is 0.8 % low there, by swing^2/16
-_MASSES = 8  # tried until pendulums swing by less than this
 _HEAVIER = 1.02  # times the mass that would do if the swing fell exactly as the mass grows
 _MOST_AT_ONCE = 3.0  # times the mass of the last try
 _MOST_PENDULUM = 0.5  # of the inertia of the node that carries the pendulums
@@ -228,33 +227,24 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
 
 
 def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> Damper:
-    """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
-    searched range: there they are that long. The swing falls about as the mass grows.
+    """Return pendulums that are heavy enough to swing by at most WIDE_SWING. The swing falls about
+    as the mass grows.
 
     Raises:
         BalcliError: They would have more than half of the inertia of their node.
     """
     bare = source.system({node: None})
-    place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
-    start, mass = proposed.swinging_length, proposed.mass or 0.0
-    lengths = [start, *(start * np.exp(np.linspace(-width, width, _PLACES))).tolist()]
-    for _ in range(_MASSES):
-        changes = [{"mass": float(f"{mass:.4g}"), "length": length} for length in lengths]
-        tried = [proposed.model_copy(update=change) for change in changes]
-        swings = [_find_pendulum_swing(source, node, each, speeds) for each in tried]
-        least = min(swings)
-        proposed = tried[swings.index(least)]
-        if least <= WIDE_SWING:
-            break
-        mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
-    reach = ((proposed.radius or 0.0) + start) / 1e3
-    most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
-    if mass > most:
-        raise BalcliError(
-            f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
-            f"most {WIDE_SWING:g} deg, more than {most:.3g} kg, which is half of the inertia of "
-            "the node; choose another place (--damper-at) or give the inertia (--damper-inertia)"
-        )
+    reach = ((proposed.radius or 0.0) + proposed.swinging_length) / 1e3
+    most = _MOST_PENDULUM * float(bare.chain.inertia[bare.nodes.index(node)]) / reach**2
+    while (swing := _find_pendulum_swing(source, node, proposed, speeds)) > WIDE_SWING:
+        mass = (proposed.mass or 0.0) * _HEAVIER * min(swing / WIDE_SWING, _MOST_AT_ONCE)
+        if mass > most:
+            raise BalcliError(
+                f"--damper pendulum: at {printable(node)}, pendulums of {most:.3g} kg, half of the "
+                f"inertia of the node, swing by more than {WIDE_SWING:g} deg; choose another place "
+                "(--damper-at) or give the inertia (--damper-inertia)"
+            )
+        proposed = proposed.model_copy(update={"mass": float(f"{mass:.4g}")})
     return proposed
 
 
