@@ -30,7 +30,6 @@ from .engine.engine import Engine
 from .engine.parse import parse
 from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra
-from .show import plot_style as style
 from .show.csv import Rows
 from .show.formats import Renderer
 from .show.sheet import Grid, Sheet, number
@@ -372,7 +371,7 @@ def _start(*argv: str, text: str = "") -> float:
     return time.perf_counter() - start
 
 
-ROUNDING = 1e-13  # smaller errors are rounding; a picture shows them at this value
+ROUNDING = 1e-13  # smaller errors are rounding
 
 
 def rows(result: Bench, _system: System) -> Rows:
@@ -411,28 +410,6 @@ def sheet(result: Bench, _system: System) -> Sheet:
 def _error(row: Row) -> str:
     """Return the error with two digits, or "rounding" if it is no larger than that."""
     return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
-
-
-def draw_bench(result: Bench) -> bytes:
-    """Return an SVG with a panel for each task: error over run time, both logarithmic."""
-    tasks = list(dict.fromkeys(r.task for r in result.rows))
-    with style.open_figure(5.2 * len(tasks), 4.6) as page:
-        for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
-            points = [r for r in result.rows if r.task == task]
-            for r in points:
-                spot = r.seconds * 1e6, max(r.error, ROUNDING)
-                axes.plot(
-                    *spot,
-                    "o",
-                    color=style.RED if r.method.startswith("closed form") else style.BLUE,
-                )
-                axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
-            axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
-            for axis in (axes.xaxis, axes.yaxis):  # our plot style has no mathematical text
-                axis.set_major_formatter(
-                    lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
-                )
-        return style.save_figure(page, "svg")
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

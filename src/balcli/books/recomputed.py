@@ -94,7 +94,6 @@ class Table(Result):
         printed: Printed texts of every row; null: not printed.
         errata: Printed cells that differ from the rounded exact ones, or wrong statements.
         stub: Number of leading columns that name a row.
-        digits: Decimals of shown figures; None: as many as printed.
     """
 
     format: Literal["balcli.table/1"] = field(default="balcli.table/1", kw_only=True)
@@ -106,7 +105,6 @@ class Table(Result):
     printed: tuple[Words, ...]
     errata: tuple[Erratum, ...]
     stub: Annotated[int, HIDDEN] = 1
-    digits: Annotated[int | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:

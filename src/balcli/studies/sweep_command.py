@@ -116,7 +116,7 @@ VARY = (
 QUANTITY = f"Figures by name: {describe_names()}"
 FORM = (
     "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
-    "variants, tables show only the first and last ones."
+    "variants, tables show only the first ones."
 )
 OUTPUT = (
     "File to write, or a folder for numbered Parquet files; repeating a sweep computes only "
