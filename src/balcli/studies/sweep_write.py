@@ -160,22 +160,9 @@ def write_blocks(
     rows = min(ROWS_A_BLOCK, BOXES_A_BLOCK * count_at_once(sweep))
     blocks = enumerate(map(sweep.cut, divide_grid(sweep.shape, rows)))
     done = 0
-    try:
-        for variants in share(partial(_write_block, folder.absolute()), blocks):
-            done += variants
-            progress(done)
-    except BalcliError:
-        if not done:
-            _give_up(folder)
-        raise
-
-
-def _give_up(folder: Path) -> None:
-    """If no block has been written, delete the manifest, and then the folder if it is empty."""
-    if not any(_BLOCK.fullmatch(path.name) for path in folder.iterdir()):
-        (folder / MANIFEST).unlink()
-        with suppress(OSError):
-            folder.rmdir()
+    for variants in share(partial(_write_block, folder.absolute()), blocks):
+        done += variants
+        progress(done)
 
 
 def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
@@ -225,11 +212,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
         )
     for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: the run may be interrupted
         (folder / name).unlink()
-    try:
-        with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
-            stream.write(manifest)
-    except FileExistsError:  # another run was faster
-        raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
+    (folder / MANIFEST).write_bytes(manifest.encode())
 
 
 # ------------------------------------------------------------------ dask
