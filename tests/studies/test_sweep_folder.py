@@ -144,11 +144,3 @@ def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
 
     monkeypatch.setattr("balcli.studies.sweep_write.write_sweep_parquet", full)
     assert "No space left on device" in refuse_sweep(*ASKED, "-o", "out/")
-
-
-def test_force_without_a_folder_is_told_to_count_for_nothing():
-    told = run_here("sweep", "good.toml", *ASKED, "--force")
-    assert (told.status, told.err) == (
-        0,
-        "warning: --force is for a folder of parts (-o variants/); a file is replaced without it\n",
-    )

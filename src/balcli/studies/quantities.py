@@ -159,9 +159,11 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 
 # Tables whose defaults matter for the quantities of a chapter, in addition to any engine's.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
-# Quantities without the inertia of rods, and those that may have the mass of throws.
+# Quantities without the inertia of rods, and those with the mass of throws at steady speed: about
+# a point off the axis, a couple and a roll have it, too.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
-_OF_THROWS = ("force.1.", "moment.1.", "couple.1.", "roll", "peak.", "mount.", "point.")
+_OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
+_OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
 
 
 def list_assumed(
@@ -184,7 +186,9 @@ def list_assumed(
             tables.add("gas")
     idle = set(varied)
     if not model.operation.speed_ripple:
-        if not any(name.startswith(_OF_THROWS) for name in names):
+        off_axis = any((model.frame.reference or (0.0,))[:2])
+        of_throws = (*_OF_THROWS, *(_OF_THROWS_OFF_AXIS * off_axis))
+        if not any(name.startswith(of_throws) for name in names):
             idle.add("crank.throw_mass")
         if not ("flywheel" in tables and model.flywheel):
             idle.add("crank.inertia")

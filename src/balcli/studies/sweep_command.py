@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError, warn
+from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..shell.file_names import (
@@ -47,21 +47,14 @@ def sheet(result: NamedNumbers, _system: System) -> Sheet:
     """Return both lists with one row for each name. Keys of single cylinders that the file does not
     give share one row for all cylinders.
     """
-    rows = dict.fromkeys(_list_rows(result.numbers))
-    numbers = Grid(
-        "Numbers: sweep --vary NAME=VALUES",
-        ("name", "value", "unit", "meaning"),
-        tuple(rows),
-        words=(0, 2, 3),
-        note="–: not in the file; N stands for the number of a cylinder.",
-    )
-    quantities = Grid(
-        "Quantities: --quantity NAME,... (or search --minimise)",
-        ("name", "unit", "meaning"),
-        tuple((q.name, q.unit, q.meaning) for q in result.quantities),
-        words=(0, 1, 2),
-        note="N stands for an order or a number, PART for one of the words after the colon.",
-    )
+    note = "–: not in the file; N stands for the number of a cylinder."
+    heads = ("name", "value", "unit", "meaning")
+    lines = tuple(dict.fromkeys(_list_rows(result.numbers)))
+    numbers = Grid("Numbers: sweep --vary NAME=VALUES", heads, lines, note, words=(0, 2, 3))
+    note = "N stands for an order or a number, PART for one of the words after the colon."
+    title = "Quantities: --quantity NAME,... (or search --minimise)"
+    names = tuple((q.name, q.unit, q.meaning) for q in result.quantities)
+    quantities = Grid(title, ("name", "unit", "meaning"), names, note, words=(0, 1, 2))
     return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
 
 
@@ -81,13 +74,9 @@ def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, s
 
 def rows(result: NamedNumbers, _system: System) -> Rows:
     """Return CSV with one name in each line; quantities have no value."""
-    return Rows(
-        ("kind", "name", "value", "unit", "meaning"),
-        [
-            *(("number", n.path, n.value, n.unit, n.meaning) for n in result.numbers),
-            *(("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities),
-        ],
-    )
+    numbers = (("number", n.path, n.value, n.unit, n.meaning) for n in result.numbers)
+    quantities = (("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities)
+    return Rows(("kind", "name", "value", "unit", "meaning"), [*numbers, *quantities])
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
@@ -159,8 +148,6 @@ def sweep(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     file, kind = _choose_target(output, form, plot)
-    if force and not (output and output.is_folder):
-        warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from . import sweep as chapter, sweep_show, sweep_write
 

@@ -120,8 +120,7 @@ def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
     if missing := sweep.variants - len(figures):
         whole, others = count_name(sweep.variants), count_name(missing)
         notes += [f"{whole} variants, {others} of them not shown; -o X.csv writes all."]
-    rpm = sweep.file.operation.speed
-    if speeds := tell_speeds((q.name for q in sweep.quantities), rpm, sweep.columns):
+    if speeds := tell_speeds((q.name for q in sweep.quantities), sweep.columns):
         notes += [speeds]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     head = assumed_facts(sweep.assumed)
