@@ -101,10 +101,7 @@ FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
 _RANGES = {
-    (
-        "mount.",
-        "point.",
-    ): "Mounts, points: largest value from 1/8 to 1 times the engine's speed.",
+    ("mount.", "point."): "Mounts, points: largest value from 1/8 to 1 times the engine's speed.",
     ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed.",
 }
 

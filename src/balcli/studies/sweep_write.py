@@ -136,12 +136,7 @@ def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
 
 # ------------------------------------------------------------------ a folder of blocks
 def write_blocks(
-    sweep: Sweep,
-    folder: Path,
-    share: Share,
-    progress: Progress,
-    *,
-    force: bool,
+    sweep: Sweep, folder: Path, share: Share, progress: Progress, *, force: bool
 ) -> None:
     """Write all variants into a folder. Blocks from an interrupted run of the same sweep are kept.
 

@@ -34,11 +34,7 @@ from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
-from .response import (
-    TorsionResponse,
-    find_barred,
-    find_response,
-)
+from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
