@@ -13,7 +13,6 @@ ORDERS = {
     SECOND: 2,
     EIGHTH: 8,
     "one V8, force and moment": 8,
-    "sweep of a V8, a variant": 2,
 }  # the smallest of each task
 
 

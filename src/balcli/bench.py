@@ -4,7 +4,7 @@ The methods are the two-term formula, the series that books print, the closed fo
 the FFT of samples, and differences of the piston's position (time stepping). All but the closed
 form are plain numpy. Errors are relative to results in exact fractions.
 
-The result is shown as a table, JSON, CSV, or a picture of run time against error.
+The result is shown as a table, JSON or CSV.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from itertools import product
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -28,22 +27,16 @@ from .core.phasors import Array, Complex
 from .engine.build import build
 from .engine.engine import Engine
 from .engine.parse import parse
-from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra
-from .show import plot_style as style
 from .show.csv import Rows
 from .show.formats import Renderer
-from .show.sheet import Grid, Sheet, number
-from .studies.parameters import Parameter, ladder
-from .studies.quantities import parse_quantities
-from .studies.sweep import Sweep, evaluate_chunks
+from .show.sheet import Grid, Sheet, capitalized, number
 
 if TYPE_CHECKING:
     from .show.units import System
 
 
 ORDERS = [1, 2, 4, 6, 8]
-SWEPT_ORDERS = [1, 2]
 POWERS = (3, 5, 7)  # highest powers of lambda in the series that books print
 POINTS = (8, 16, 32, 64)
 STEPS = (64, 360, 720, 3600)
@@ -133,20 +126,19 @@ class Bench:
 
 
 class Case(NamedTuple):
-    """A run to be timed, and the error of its result; it computes `times` variants."""
+    """A run to be timed, and the error of its result."""
 
     task: str
     method: str
     run: Callable[[], object]
     error: float
-    times: int = 1
 
 
 def measure() -> Bench:
     """Time every method, and a cold start of the program; about ten seconds."""
     rows = tuple(
-        Row(task=c.task, method=c.method, seconds=time_run(c.run) / c.times, error=c.error)
-        for c in list_cases()
+        Row(task=case.task, method=case.method, seconds=time_run(case.run), error=case.error)
+        for case in list_cases()
     )
     return Bench(rows=rows, ratios=tuple(compare_starts()))
 
@@ -162,7 +154,6 @@ def list_cases() -> Iterator[Case]:
         for name, way in WAYS.items():
             error = find_error(engine, way, orders)
             yield Case(task, name, partial(way, engine, orders), error)
-    yield from _list_sweeps()
 
 
 # ------------------------------------------------------------------ coefficients A_n
@@ -296,45 +287,6 @@ WAYS: dict[str, Way] = {
 }
 
 
-# ------------------------------------------------------------------ a sweep
-def _list_sweeps() -> Iterator[Case]:
-    """Yield the methods for a sweep of a V8 over bank angles and rod ratios, orders 1 and 2."""
-    task, few, grid = "sweep of a V8, a variant", _grid(2, 2), _grid(1024, 512)
-    engines = list(_list_engines(few))
-    for name in ("closed form", "FFT, 16 points", "time stepping, 360 steps"):
-        way = WAYS[name]
-        error = max(find_error(engine, way, SWEPT_ORDERS) for engine in engines)
-        if way is use_balcli:
-            run = partial(run_sweep, grid)
-            yield Case(task, f"{name}, as arrays", run, error, grid.variants)
-        alone = partial(_run_one_by_one, few, way)
-        yield Case(task, f"{name}, engine by engine", alone, error, few.variants)
-
-
-def _grid(banks: int, ratios: int) -> Sweep:
-    parameters = (
-        Parameter("layout.bank_angle", ladder(Fraction(40), Fraction(1, 5), banks)),
-        Parameter("rod.ratio", ladder(Fraction(1, 5), Fraction(1, 1000), ratios)),
-    )
-    return Sweep(parse(V8), parameters, parse_quantities(DEFAULT_QUANTITIES))
-
-
-def run_sweep(sweep: Sweep) -> None:
-    """Compute a sweep in one thread and discard its results."""
-    for _ in evaluate_chunks(sweep):
-        pass
-
-
-def _run_one_by_one(sweep: Sweep, way: Way) -> None:
-    for engine in _list_engines(sweep):
-        way(engine, SWEPT_ORDERS)
-
-
-def _list_engines(sweep: Sweep) -> Iterator[Engine]:
-    for angle, ratio in product(*(p.values.tolist() for p in sweep.parameters)):
-        yield build(sweep.file, {"layout.bank_angle": angle, "rod.ratio": ratio})
-
-
 # ------------------------------------------------------------------ run times
 def time_run(run: Callable[[], object]) -> float:
     """Return the time of the quickest of several runs, s; short runs are repeated to last 20 ms."""
@@ -361,78 +313,39 @@ def compare_starts() -> Iterator[Ratio]:
 
 def _start(*argv: str, text: str = "") -> float:
     """Return the run time of a Python program, s, with one thread of linear algebra."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    command = [sys.executable, *argv]
     start = time.perf_counter()
-    subprocess.run(
-        [sys.executable, *argv],
-        input=text.encode(),
-        capture_output=True,
-        check=True,
-        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
-    )
+    subprocess.run(command, input=text.encode(), capture_output=True, check=True, env=environment)
     return time.perf_counter() - start
 
 
-ROUNDING = 1e-13  # smaller errors are rounding; a picture shows them at this value
+ROUNDING = 1e-13  # smaller errors are rounding
 
 
 def rows(result: Bench, _system: System) -> Rows:
     """Return the rows of the CSV: run times (s) and relative errors, then ratios."""
-    return Rows(
-        ("task", "method", "seconds", "error", "ratio"),
-        [
-            *((r.task, r.method, r.seconds, r.error, None) for r in result.rows),
-            *(("ratio", r.what, None, None, r.value) for r in result.ratios),
-        ],
-    )
+    cases = ((r.task, r.method, r.seconds, r.error, None) for r in result.rows)
+    ratios = (("ratio", r.what, None, None, r.value) for r in result.ratios)
+    return Rows(("task", "method", "seconds", "error", "ratio"), [*cases, *ratios])
 
 
 def sheet(result: Bench, _system: System) -> Sheet:
-    """Return the printed page: a table for each task, then the ratios."""
-    grids = [
-        Grid(
-            f"{task[0].upper()}{task[1:]}",
-            ("method", "µs", "relative error"),
-            tuple(
-                (r.method, number(r.seconds * 1e6, 3), _error(r))
-                for r in result.rows
-                if r.task == task
-            ),
-        )
-        for task in dict.fromkeys(r.task for r in result.rows)
-    ]
-    ratios = Grid(
-        "Ratios of run times",
-        ("", "ratio"),
-        tuple((r.what, number(r.value, 3)) for r in result.ratios),
-    )
-    return Sheet("Run time against error", (*grids, ratios))
+    """Return a table for each task, and one of the ratios."""
+    grids = []
+    for task in dict.fromkeys(r.task for r in result.rows):
+        shown = [r for r in result.rows if r.task == task]
+        times = [number(r.seconds * 1e6, 3) for r in shown]
+        cells = tuple(zip((r.method for r in shown), times, map(_error, shown), strict=True))
+        grids.append(Grid(capitalized(task), ("method", "µs", "relative error"), cells))
+    ratios = tuple((r.what, number(r.value, 3)) for r in result.ratios)
+    grids.append(Grid("Ratios of run times", ("", "ratio"), ratios))
+    return Sheet("Run time against error", tuple(grids))
 
 
 def _error(row: Row) -> str:
     """Return the error with two digits, or "rounding" if it is no larger than that."""
     return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
-
-
-def draw_bench(result: Bench) -> bytes:
-    """Return an SVG with a panel for each task: error over run time, both logarithmic."""
-    tasks = list(dict.fromkeys(r.task for r in result.rows))
-    with style.open_figure(5.2 * len(tasks), 4.6) as page:
-        for axes, task in zip(page.subplots(1, len(tasks), squeeze=False)[0], tasks, strict=True):
-            points = [r for r in result.rows if r.task == task]
-            for r in points:
-                spot = r.seconds * 1e6, max(r.error, ROUNDING)
-                axes.plot(
-                    *spot,
-                    "o",
-                    color=style.RED if r.method.startswith("closed form") else style.BLUE,
-                )
-                axes.annotate(r.method, spot, xytext=(4, 3), textcoords="offset points", fontsize=7)
-            axes.set(xscale="log", yscale="log", xlabel="µs", ylabel="relative error", title=task)
-            for axis in (axes.xaxis, axes.yaxis):  # our plot style has no mathematical text
-                axis.set_major_formatter(
-                    lambda value, _: f"{value:.0e}" if not 0.01 <= value < 1e5 else f"{value:g}"
-                )
-        return style.save_figure(page, "svg")
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

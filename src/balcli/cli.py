@@ -85,7 +85,7 @@ GROUPS = {
         "tables": "Recompute the coefficient tables printed in five books and papers; list "
         "their errata by class: misprints, roundings, errors of equations.",
         "bench": "Measure run time and error of several methods for the same figures, on this "
-        "machine; with -o X.svg also as a picture.",
+        "machine.",
     },
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
@@ -100,16 +100,15 @@ _COMMANDS_OF = {
     "locomotive.command": ("locomotive",),
     "mounts.command": ("mounts",),
     "report.command": ("plot", "report"),
-    "studies.numbers": ("numbers",),
     "studies.scatter_command": ("scatter",),
     "studies.search.command": ("search",),
-    "studies.sweep_command": ("sweep",),
+    "studies.sweep_command": ("numbers", "sweep"),
     "torque.command": ("torque",),
     "torsion.command": ("torsion",),
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
-IN_FULL_PRECISION = ("curves", "sweep")  # long series of numbers, to which --digits does not apply
+IN_FULL_PRECISION = ("curves", "sweep", "tables")  # their figures have digits of their own
 
 
 class _Command(TyperCommand):

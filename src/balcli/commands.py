@@ -19,13 +19,12 @@ from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
 from .names import DOCUMENTS, import_name
-from .shell.file_names import TEXTS, format_of, parse_output, require_ending
+from .shell.file_names import parse_output, require_ending, text_format
 from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
 from .show.csv import json_text
-from .show.formats import Format
 
 if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference
@@ -183,9 +182,9 @@ def schema(
 
 
 def _describe_file(kind: File) -> Node:
-    from .field import tables as runs
+    from .field import runs_file as runs
     from .file import schema as files, torsion_tables  # pydantic
-    from .torsion import tables as chain
+    from .torsion import chain_file as chain
 
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")
@@ -351,18 +350,12 @@ def _write_junit(checked: Sequence[CheckedEngine]) -> str:
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:
-    """Measure run time and error of several methods for the same figures, on this machine; with -o
-    X.svg also as a picture.
+    """Measure run time and error of several methods for the same figures, on this machine.
 
     \b
     Example:
-      balcli bench -o bench.svg
+      balcli bench --format json
     """
-    from .bench import RENDERER, draw_bench, measure
+    from .bench import RENDERER, measure
 
-    chosen = format_of(output, form, {**TEXTS, ".svg": "svg"}, "table")
-    found = measure()
-    if output is not None and chosen == "svg":
-        write_file(draw_bench(found), output)
-        chosen, output = "table", None
-    show([found], RENDERER, Format(chosen), output)
+    show([measure()], RENDERER, text_format(output, form), output)

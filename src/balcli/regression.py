@@ -38,16 +38,8 @@ DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
 _DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
-_BROKEN = (
-    OSError,
-    ValueError,
-    OverflowError,
-    LookupError,
-    TypeError,
-    AttributeError,
-    RecursionError,
-    BalcliError,
-)
+_MALFORMED = (LookupError, TypeError, AttributeError, RecursionError)
+_BROKEN = (OSError, ValueError, OverflowError, BalcliError, *_MALFORMED)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -180,9 +180,6 @@ def test_list_of_tables():
     printed = ((t["name"], t["title"], t["source"].partition(", Table ")[0]) for t in document())
     words = {word for texts in printed for text in texts for word in text.split()}
     assert words <= set(listed.split())
-    figures = run("layouts", "--digits", "4").out.splitlines()  # are not folded
-    assert len([line for line in figures if line.startswith("i4 ")]) == 1
-    assert max(map(len, figures)) > 150
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -200,11 +197,8 @@ def test_figures_are_marked_counted_and_rounded():
     text = run("tsinghua-1-2").out
     assert ".4313 ≠ .4312" in text
     assert "6 of 370 printed figures deviate (exact ≠ printed)" in text
-    assert "0.4312506086" in run("tsinghua-1-2", "--digits", "10").out
-    first = next(line for line in run("tsinghua-1-2", "--digits", "2").out.splitlines() if line.startswith("0 "))
-    assert first.split() == ["0", *["0.00"] * 9, "360"]  # printed .0000; whole angles stay whole
-    beyond = run("tsinghua-1-6", "--angle", "90,105", "--lambda", "0.25", "--digits", "2").out
-    assert beyond.splitlines()[-2].split() == ["105", "-0.48", "255"]  # nor does a row not printed
+    first = next(line for line in text.splitlines() if line.startswith("0 "))
+    assert first.split() == ["0", *[".0000"] * 9, "360"]
 
 
 @pytest.mark.parametrize("given", ["0,25", "3.5", "0.9:1.1:0.1"])

@@ -5,8 +5,7 @@ from support.cases import cases
 from support.rotors import three_runs
 
 from balcli.errors import InputError
-from balcli.field.read import parse_runs
-from balcli.field.tables import make_polar
+from balcli.field.runs_file import make_polar, parse_runs
 
 
 def mistakes(text: str) -> list[str]:

@@ -66,7 +66,7 @@ def measured(monkeypatch):
 
 
 @pytest.mark.usefixtures("measured")
-def test_bench_in_every_format(balcli, tmp_path):
+def test_bench_in_every_format(balcli):
     table = ask("bench")
     assert "two-term formula" in table
     assert "3.2e-02" in table
@@ -76,13 +76,11 @@ def test_bench_in_every_format(balcli, tmp_path):
     assert lines[1] == {"task": "A_2", "method": "two-term formula", "seconds": "1e-06", "error": "0.032", "ratio": ""}
     assert lines[-1]["ratio"] == "1.25"
     assert ask_json("bench")["ratios"] == [{"what": "one to other", "value": 1.25}]
-    assert balcli("bench", "-o", tmp_path / "x.svg")[0] == 0
-    assert "two-term formula" in (tmp_path / "x.svg").read_text()
 
 
-def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pairs(monkeypatch):
+def test_bench_times_each_case_and_cold_starts_by_medians_of_pairs(monkeypatch):
     """By a clock of ours: a busy machine disturbs some of the nine pairs, not their medians."""
-    case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5, times=1000)
+    case = bench.Case("task", "way", lambda: sum(range(1000)), 0.5)
     clock, started = [0.0], []
 
     def start(argv, **_):
@@ -95,7 +93,7 @@ def test_bench_times_each_case_by_the_variant_and_cold_starts_by_medians_of_pair
     monkeypatch.setattr(bench.time, "perf_counter", lambda: clock[0])
     monkeypatch.setattr(bench.subprocess, "run", start)
     found = bench.measure()
-    assert found.rows == (Row(task="task", method="way", seconds=0.008, error=0.5),)  # of one variant of a thousand
+    assert found.rows == (Row(task="task", method="way", seconds=8.0, error=0.5),)
     assert [ratio.value for ratio in found.ratios] == pytest.approx([5, 2])
     assert started == ["balcli", bench.LIBRARIES] * 9 + ["balcli", bench.SMALLEST] * 9
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support.commands import refusal, run_here
-from support.engines import GOOD, changed
+from support.engines import GOOD
 
 from balcli.shell.progress import Progress
 from balcli.studies.sweep import read_sweep
@@ -138,26 +138,9 @@ def test_what_does_not_go_into_a_folder_is_refused():
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0
 
 
-def test_a_sweep_that_fails_at_once_leaves_nothing(monkeypatch):
-    Path("good.toml").write_text(changed(("[crank]", "[crank]\ninertia = 1e5"), more=RIPPLE))
-    monkeypatch.setattr("balcli.studies.sweep_write.ROWS_A_BLOCK", 1000)
-    monkeypatch.setattr("balcli.studies.sweep_write.BOXES_A_BLOCK", 1000)
-    assert "the crank would" in refuse_sweep(*TURN_BACK, "-o", "out/")
-    assert os.listdir() == ["good.toml"]
-
-
 def test_a_folder_that_cannot_be_written_is_named(monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("balcli.studies.sweep_write.write_sweep_parquet", full)
     assert "No space left on device" in refuse_sweep(*ASKED, "-o", "out/")
-    assert os.listdir() == ["good.toml"]
-
-
-def test_force_without_a_folder_is_told_to_count_for_nothing():
-    told = run_here("sweep", "good.toml", *ASKED, "--force")
-    assert (told.status, told.err) == (
-        0,
-        "warning: --force is for a folder of parts (-o variants/); a file is replaced without it\n",
-    )

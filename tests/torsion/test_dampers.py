@@ -485,8 +485,5 @@ def test_proposed_pendulums_swing_by_at_most_20_degrees(tmp_path):
 
     written.unlink()
     told = refusal("torsion", "-q", "-", *asked, "--write", written, stdin=text)
-    mass = float(re.search(r"need ([\d.]+) kg", told)[1])
+    assert "half of the inertia of the node" in told
     assert not written.exists()
-    inertia = mass * (said["damper"]["radius_m"] * 1.15) ** 2
-    wide = size(text, *asked, "--damper-at", "throw 1", "--damper-inertia", f"{inertia} kg m^2")
-    assert wide["mass_kg"] == pytest.approx(mass, rel=0.1)

@@ -10,7 +10,7 @@ from support.commands import ask_torsion, refusal, run_here
 
 from balcli.file.toml import parse_toml
 from balcli.torsion.build import build_chain
-from balcli.torsion.read import read_chain_tables
+from balcli.torsion.chain_file import read_chain_tables
 
 TWO = """
 [[node]]

@@ -11,7 +11,7 @@ from support.rotors import three_runs
 from balcli.core.records import angle_deg
 from balcli.core.unbalance import find_permitted_unbalance
 from balcli.field.answer import find_corrections
-from balcli.field.read import parse_runs
+from balcli.field.runs_file import parse_runs
 
 GOODMAN = """
 planes = ["1", "2"]

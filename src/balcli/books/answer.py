@@ -10,11 +10,13 @@ pins and all else that textbooks ignore are left out (`forces.symmetry`).
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import pairwise
 from types import NoneType
 
 import numpy as np
 
+from ..core.mechanisms import closed_form, power_series, slidercrank
 from ..engine.build import build
 from ..engine.engine import Engine
 from ..engine.parse import parse
@@ -25,7 +27,7 @@ from ..file.model import EngineFile
 from ..forces.symmetry import find_textbook
 from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
-from . import liu, series, tsinghua, wang, worked_examples
+from . import schemes, series, tsinghua, worked_examples
 from .recomputed import (
     Erratum,
     ErratumClass,
@@ -83,18 +85,22 @@ def _row(name: str) -> Row:
 
 TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     "tsinghua-1-1": tsinghua.tabulate_engines,
-    "tsinghua-1-2": tsinghua.tabulate_travel,
-    "tsinghua-1-3": tsinghua.tabulate_speed,
+    "tsinghua-1-2": partial(tsinghua.tabulate_by_angle, function=slidercrank.displacement),
+    "tsinghua-1-3": partial(tsinghua.tabulate_by_angle, function=slidercrank.velocity),
     "tsinghua-1-4": tsinghua.tabulate_extremes,
     "tsinghua-1-5": tsinghua.tabulate_mean_speeds,
-    "tsinghua-1-6": tsinghua.tabulate_acceleration,
+    "tsinghua-1-6": partial(tsinghua.tabulate_by_angle, function=slidercrank.acceleration),
     "tsinghua-two-terms": tsinghua.tabulate_two_terms,
-    "liu-1": liu.tabulate_paths,
-    "liu-2": liu.tabulate_vectors,
-    "liu-3": liu.tabulate_sliders,
-    "wang-1": wang.tabulate_optimum,
-    "kvasnikov-1": series.tabulate_piston,
-    "kvasnikov-2": series.tabulate_rod,
+    "liu-1": schemes.tabulate_paths,
+    "liu-2": schemes.tabulate_vectors,
+    "liu-3": schemes.tabulate_sliders,
+    "wang-1": schemes.tabulate_optimum,
+    "kvasnikov-1": partial(
+        series.tabulate_coefficients, exact=closed_form.piston, terms=power_series.piston
+    ),
+    "kvasnikov-2": partial(
+        series.tabulate_coefficients, exact=closed_form.rod, terms=power_series.rod
+    ),
     "kvasnikov-statements": series.tabulate_kvasnikov_statements,
     "liang-examples": worked_examples.tabulate_liang_examples,
     "torque-examples": worked_examples.tabulate_torque_examples,

@@ -14,7 +14,7 @@ from ..shell.values import as_bare_angles, optional
 
 
 def complete_tables(incomplete: str) -> list[str]:
-    """Return the names of printed tables that begin with this text."""
+    """Return the names of tables that begin with this text."""
     from . import answer as registry
 
     return [name for name in registry.NAMES if name.startswith(incomplete)]
@@ -45,9 +45,6 @@ Angle = Annotated[
 Power = Annotated[
     int | None, optional("N", "Highest power in `series`; default 12.", min=0, max=HIGHEST_POWER)
 ]
-Digits = Annotated[
-    int | None, optional("N", "Decimals; default: as printed (JSON and CSV: all).", min=0, max=17)
-]
 
 
 def tables(
@@ -57,7 +54,6 @@ def tables(
     lam: Lam = None,
     angle: Angle = None,
     power: Power = None,
-    digits: Digits = None,
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
@@ -71,18 +67,15 @@ def tables(
       balcli tables --errata --format json
     """
     form = text_format(output, form)
-    from dataclasses import replace
-
     from . import answer, show as pages
 
     angles = angle and as_bare_angles("--angle", angle)
     chosen = answer.select_tables(name, lam, angles, power)
     if errata or kind:
         show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
-    elif name and chosen[0].name == "layouts" and digits is None:
-        show(chosen, pages.LAYOUTS, form, output)
     elif name:
-        show([replace(chosen[0], digits=digits)], pages.RENDERER, form, output)
+        renderer = pages.LAYOUTS if name == "layouts" else pages.RENDERER
+        show(chosen, renderer, form, output)
     else:
         show([chosen], pages.TABLE_LIST, form, output)
 
@@ -95,7 +88,4 @@ def layouts(form: FormatOption = None, output: Output = None) -> None:
       balcli layouts
       balcli layouts --format markdown
     """
-    form = text_format(output, form)
-    from . import answer, show as pages
-
-    show(answer.select_tables("layouts"), pages.LAYOUTS, form, output)
+    tables("layouts", form=form, output=output)

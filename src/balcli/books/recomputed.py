@@ -94,7 +94,6 @@ class Table(Result):
         printed: Printed texts of every row; null: not printed.
         errata: Printed cells that differ from the rounded exact ones, or wrong statements.
         stub: Number of leading columns that name a row.
-        digits: Decimals of shown figures; None: as many as printed.
     """
 
     format: Literal["balcli.table/1"] = field(default="balcli.table/1", kw_only=True)
@@ -106,7 +105,6 @@ class Table(Result):
     printed: tuple[Words, ...]
     errata: tuple[Erratum, ...]
     stub: Annotated[int, HIDDEN] = 1
-    digits: Annotated[int | None, HIDDEN] = None
 
     @property
     def summary(self) -> str:
@@ -278,9 +276,14 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
     return Table(*printed[:3], columns, tuple(cells), tuple(words), tuple(errata), stub=2)
 
 
+def read_data(file: str) -> str:
+    """Return the text of a file of data."""
+    return files(__package__).joinpath("data", file).read_text("utf-8")
+
+
 def load_print(name: str) -> Print:
     """Read the print of a table: lines `# source:` and `# title:`, then headings and rows."""
-    lines = files(__package__).joinpath("data", f"{name}.csv").read_text("utf-8").splitlines()
+    lines = read_data(f"{name}.csv").splitlines()
     notes = dict(line[2:].split(": ", 1) for line in lines if line.startswith("# "))
     head, *body = csv.reader(line for line in lines if not line.startswith("# "))
     rows = tuple(tuple(cell or None for cell in row) for row in body)

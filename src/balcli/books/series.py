@@ -7,13 +7,14 @@ the series; and his statements on orders.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..core.mechanisms import closed_form, power_series as series
+from ..core.mechanisms import power_series as series
 from ..core.phasors import Array
 from ..engine.build import build
 from ..engine.parse import parse
@@ -29,6 +30,7 @@ from .recomputed import (
     Words,
     as_numbers,
     head_rows,
+    read_data,
 )
 
 Generator: TypeAlias = Callable[[int, int], series.Series]
@@ -94,17 +96,8 @@ Exact: TypeAlias = Callable[[list[int], Array], Array]
 Terms: TypeAlias = Callable[[int, int], series.Series]
 
 
-def tabulate_piston(printed: Print, ranges: Ranges) -> Table:
-    """Return Table I: coefficients A_n."""
-    return _tabulate(printed, ranges, closed_form.piston, series.piston)
-
-
-def tabulate_rod(printed: Print, ranges: Ranges) -> Table:
-    """Return Table II: coefficients D_k."""
-    return _tabulate(printed, ranges, closed_form.rod, series.rod)
-
-
-def _tabulate(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
+def tabulate_coefficients(printed: Print, ranges: Ranges, exact: Exact, terms: Terms) -> Table:
+    """Return Kvasnikov's Table I (coefficients A_n) or II (D_k), by closed form and series."""
     headings = ranges.lam or printed.headings()
     lam, stub = as_numbers(headings), printed.column("coefficient")
     orders = [int(label.partition("_")[2]) for label in stub]
@@ -129,25 +122,7 @@ def _sum(terms: series.Series, lam: Array, count: int) -> Array:
 
 
 # ------------------------------------------------------------------ statements
-Values: TypeAlias = dict[str, object]
-
 _ORDERS = np.arange(1.0, 21.0)
-_LAYOUTS: dict[str, tuple[tuple[float, ...], Values, Values]] = {  # throws, [layout], [rod]
-    "one cylinder, mu = 1/6": ((0,), {}, {"length": 252.0}),
-    "one cylinder, mu = 1/4": ((0,), {}, {"length": 168.0}),
-    "star of 5": ((0,), {"radial": 5}, {}),
-    "star of 6": ((0,), {"radial": 6}, {}),
-    "vee of 2, gamma = 45 deg": ((0,), {"bank_angle": 90.0}, {}),
-    "vee of 2, gamma = 90 deg": ((0,), {"bank_angle": 180.0}, {}),
-    "vee of 4, gamma = 45 deg": ((0, 180), {"bank_angle": 90.0}, {}),
-    "vee of 8, gamma = 45 deg": ((0, 180, 180, 0), {"bank_angle": 90.0}, {}),
-    "row of 3": ((0, 120, 240), {}, {}),
-    "row of 4": ((0, 90, 270, 180), {}, {}),
-    "row of 4, four-stroke": ((0, 180, 180, 0), {}, {}),
-    "row of 5": ((0, 72, 288, 216, 144), {}, {}),
-    "row of 6, four-stroke": ((0, 120, 240, 240, 120, 0), {}, {}),
-    "row of 8, four-stroke": ((0, 90, 270, 180, 180, 270, 90, 0), {}, {}),
-}
 _PAIRS = "of throws at different, equal angles; in a four-stroke engine two have the same angle"
 _REASONS = {
     "star of 5": "the sums of cos k gamma belong to the orders k - 1 and k + 1",
@@ -161,7 +136,8 @@ def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
     rows leave, computed by analyzing an engine of each layout, made of equal cylinders. Rotating
     masses are left out: counterweights can cancel them.
     """
-    books = {layout: _analyze(layout) for layout in _LAYOUTS}
+    engines = tomllib.loads(read_data("kvasnikov-layouts.toml"))
+    books = {layout: _analyze(layout, tables) for layout, tables in engines.items()}
     layouts, quantities = printed.column("layout"), printed.column("quantity")
     answers = [
         _QUANTITIES[quantity](books[layout])
@@ -176,12 +152,13 @@ def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
     return printed.compare_answers(answers, others)
 
 
-def _analyze(name: str) -> Textbook:
-    throws, layout, rod = _LAYOUTS[name]
+def _analyze(name: str, tables: Mapping[str, Any]) -> Textbook:
     file = parse((folder() / "single.toml").read_text(encoding="utf-8"), name)
-    file = file.with_table("crank", throws=throws, spacing=100.0).with_table("rod", **rod)
-    engine = build(file.with_table("layout", **layout) if layout else file)
-    return find_textbook(engine, _ORDERS, ("force", "moment", "couple"))
+    file = file.with_table("crank", throws=tables["throws"], spacing=100.0)
+    for key in ("layout", "rod"):
+        if key in tables:
+            file = file.with_table(key, **tables[key])
+    return find_textbook(build(file), _ORDERS, ("force", "moment", "couple"))
 
 
 def _find_order(book: Textbook, kind: str, place: int) -> float:

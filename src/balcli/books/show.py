@@ -51,11 +51,7 @@ def sheet(table: Table, _system: System) -> Sheet:
 def rows(table: Table, _system: System) -> Rows:
     """Return the exact figures as CSV, with the requested decimals."""
 
-    def cell(value: Cell) -> Cell:
-        rounded = table.digits is not None and isinstance(value, float)
-        return f"{value:.{table.digits}f}" if rounded else value
-
-    return Rows(table.columns, [[cell(value) for value in row] for row in table.exact])
+    return Rows(table.columns, table.exact)
 
 
 def count_deviations(table: Table) -> str:
@@ -73,12 +69,8 @@ def _is_figure(cell: Cell) -> bool:
 def _shown(table: Table, i: int, j: int) -> str:
     """Return a cell in the form of the print, followed by the print if it deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
-    like = text or next((row[j] for row in table.printed if row[j]), None)
-    as_whole = (like or "").lstrip("+-").isdigit()  # such as an angle
     if not isinstance(value, (int, float)):
         shown = value or ""
-    elif table.digits is not None and j >= table.stub and not (as_whole and value % 1 == 0):
-        shown = f"{value:.{table.digits}f}"
     else:
         shown = _round_as_printed(value, text or "")
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown

@@ -43,23 +43,6 @@ def tabulate_engines(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(printed.columns, rows, explanations=[shorter], stub=2)
 
 
-def tabulate_travel(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1-2: piston displacement x/r."""
-    return _tabulate_by_angle(printed, ranges, sc.displacement)
-
-
-def tabulate_speed(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1-3: piston velocity v/(r omega). The sign columns are its signs at the crank
-    angles of the left and right margins.
-    """
-    return _tabulate_by_angle(printed, ranges, sc.velocity)
-
-
-def tabulate_acceleration(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1-6: piston acceleration j/(r omega^2)."""
-    return _tabulate_by_angle(printed, ranges, sc.acceleration)
-
-
 def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     """Return Table 1-4: angle and size of the greatest velocity, by the printed two-term formula
     and exactly.
@@ -112,7 +95,7 @@ def tabulate_mean_speeds(printed: Print, ranges: Ranges) -> Table:
     return printed.compare(printed.columns, [tuple(map(_given, words)) for words in printed.rows])
 
 
-def _tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
+def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Table:
     """Return a row for each crank angle and a column for each lambda, with the margins of the
     print.
 

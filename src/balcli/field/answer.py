@@ -8,7 +8,6 @@ places and largest weights constrain x.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import cycle
@@ -37,16 +36,12 @@ from .influence import (
     fit_coefficients,
 )
 from .places import Piece, PlaneLimits
-from .read import check_runs
-from .tables import RunsFile, Sense
+from .runs_file import RunsFile, Sense, check_runs
 
 _NEARLY_DEPENDENT = 0.2  # own effect of a plane below which reading errors grow much
 _SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines coefficients badly
 _SMALLEST_RADIUS = 1.0  # mm; smaller than on the smallest balanced rotors
-_UNEQUAL_TRIALS = 100.0  # ratio of trial weights that one rotor hardly needs
 _FAR_BEYOND = 5.0  # times the largest trial weight: coefficients were measured far from there
-_FEWEST_PHASES = 4  # two runs of two sensors; fewer may be near 0 by chance
-_EQUAL_PHASES_DEG = 0.5  # phases within this range are equal: the rotor shakes in phase
 _ROUNDING = 1e-13  # share of the largest reading below which a prediction is rounding
 # A reading that differs from its prediction by more than this share of the largest reading as
 # found, or of the largest change by weights, is surprising.
@@ -79,21 +74,10 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
         yield from _doubt_runs(result, each)
     if file.radius is not None and (radius := max(file.radius)) < _SMALLEST_RADIUS:
         yield f"radius is {radius:g} mm; {ask_unit('mm', f'{radius:g} m')}"
-    phases = np.degrees(np.angle([each for run in file.run for each in run.readings if each]))
-    most = float(np.abs(phases).max(initial=0.0))
-    several = len(phases) >= _FEWEST_PHASES and np.ptp(phases) > _EQUAL_PHASES_DEG
-    if several and most <= 2 * math.pi:  # they differ, but are all small
-        yield (
-            f"all phases of readings are within {most:.3g} deg of 0; are they in radians? One of "
-            f"{most:.3g} rad is {math.degrees(most):.1f} deg"
-        )
 
 
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
-    """Yield warnings of trial weights that changed little, of corrections far beyond them, and of
-    trial weights in different units.
-    """
-    trials = {}
+    """Yield warnings of trial weights that changed little, and of corrections far beyond them."""
     for correction in result.corrections:
         plane, weight = correction.plane, abs(correction.weight)
         k = result.file.planes.index(plane)
@@ -106,20 +90,13 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
                     f"the trial weight in {plane}{at} changes no reading by more than "
                     f"{change:.3g}, {100 * change / largest:.2g}% of the largest; use a heavier one"
                 )
-        trial = trials[plane] = max(float(np.abs(each.weights[:, k]).max()) for each in series)
+        trial = max(float(np.abs(each.weights[:, k]).max()) for each in series)
         if weight > _FAR_BEYOND * trial:
             yield (
                 f"the correction of {weight:.3g} {result.weight_unit} in {plane} is "
                 f"{weight / trial:.3g} times the largest weight tried there; put it on, read "
                 "again, and add that run to the file"
             )
-    light, heavy = min(trials, key=trials.__getitem__), max(trials, key=trials.__getitem__)
-    if trials[heavy] > _UNEQUAL_TRIALS * trials[light]:
-        unit = result.weight_unit
-        yield (
-            f"the weights tried are {trials[light]:.3g} {unit} in {light} and {trials[heavy]:.3g} "
-            f"{unit} in {heavy}; are both in {unit}?"
-        )
 
 
 def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:

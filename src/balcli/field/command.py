@@ -57,9 +57,9 @@ def field(
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     form = text_format(output, form)
     drawn = picture_form(plot, "--plot") if plot is not None else None
-    from . import answer, read, show as pages
+    from . import answer, runs_file, show as pages
 
-    file, name = read.read_runs(path), name_file(path)
+    file, name = runs_file.read_runs(path), name_file(path)
     if check and (missing := answer.list_missing(file)):
         raise BalcliError(f"{name}: --check needs {', '.join(missing.values())}")
     result = answer.find_corrections(file, minimise, without or (), name)

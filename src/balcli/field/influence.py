@@ -28,7 +28,7 @@ from ..core.least_squares import solve
 from ..core.phasors import Array, Complex
 from ..errors import InputError, Problem
 from ..file.fields import join_words
-from .tables import RunsFile
+from .runs_file import RunsFile
 
 _SAME = 1e-9  # weights that differ by less, relative to the largest, are equal
 _ROUNDING = 1e-13  # changes below this share of the largest reading are rounding

@@ -18,7 +18,7 @@ from ..core.least_squares import Region
 from ..core.phasors import Array, Complex
 from ..core.records import angle_deg
 from ..core.unbalance import find_drill_depth, find_drilled_unbalance
-from .tables import RunsFile
+from .runs_file import RunsFile
 
 _ROUNDING = 1e-9  # smaller shares of a weight are rounding
 

@@ -167,8 +167,6 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
         )
     if result.trimmed and (file.drill or file.most):
         note += " Limits and depths are of these alone: earlier ones are not in the file."
-    if result.limited:
-        note += " Places and limits allow no better: see the readings below."
     return Grid(f"{what}{when}", tuple(heads), tuple(lines), note)
 
 

@@ -24,12 +24,14 @@ from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
+from ..balancing.answer import insert_remedy
 from ..core.cylinders import DeviceKind
 from ..core.peaks import find_longest
 from ..core.phasors import Array, Complex, unit, wrap_degrees
 from ..core.records import HIDDEN, INLINE, Polar, angle_deg
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import MOMENTS_UNKNOWN, BalcliError, InputError, Problem
+from ..file.edit import set_keys, set_speed
 from ..file.fields import Number
 from ..file.locomotive_tables import FACTOR, Axle, Locomotive
 from ..file.model import Counterweight, EngineFile
@@ -43,6 +45,7 @@ _ROUNDING = 1e-12  # share of the terms of a sum: less is nothing
 _WHY = "In the wheels, opposite all that revolves"
 NO_TABLE = "write [locomotive] with planes and factor, or start from `balcli new locomotive`"
 NO_SPEED = "give km/h (with wheel_diameter), or operation.speed in rpm"
+_NOTE = "by balcli locomotive"
 NO_CRANKS = "the cylinders of a locomotive stand still, each with a rod on a crank pin"
 
 
@@ -349,3 +352,19 @@ def _list_weights(
                 yield Counterweight.model_construct(
                     unbalance=size, angle=angle, position=float(z), axle=name
                 )
+
+
+def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float | None) -> str:
+    """Return the text of an engine file with the balance masses as counterweights and without
+    its factor.
+
+    Args:
+        text: Text of the file, UTF-8.
+        result: Its balance.
+        file: Its name in messages.
+        rpm: Crank speed that is not the file's; None: it is.
+    """
+    new = set_keys(text.decode("utf-8-sig"), "locomotive", {"factor": None}, _NOTE)
+    if rpm is not None:
+        new = set_speed(new, rpm, _NOTE)
+    return insert_remedy(new.encode(), result.remedy, file)

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ..errors import BalcliError, naming_file, warn
-from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
 from ..shell.file_names import require_ending, text_format
 from ..shell.inputs import named_by_file, read_engine, warn_each
@@ -17,9 +16,8 @@ from ..shell.values import optional
 from ..show.formats import Format, Units
 
 if TYPE_CHECKING:
-    from .answer import LocomotiveBalance
+    pass
 
-_NOTE = "by balcli locomotive"
 Factor = Annotated[
     str | None,
     optional("K|K:K:STEP", "Balance factor instead of the file's, such as 2/3 or 0:100%:10%."),
@@ -79,7 +77,7 @@ def locomotive(
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         rpm = None if speed is None else results[0].speed_rpm
-        write_file(insert_weights(source.text, results[0], name_file(path), rpm), write)
+        write_file(answer.insert_weights(source.text, results[0], name_file(path), rpm), write)
     if len(results) > 1 and form is not Format.JSON:
         show([results], pages.OF_FACTORS, form, output, units)
     else:
@@ -92,21 +90,3 @@ def _read_bare(text: str | None) -> float | str | None:
         return None if text is None else float(text)
     except ValueError:
         return text
-
-
-def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float | None) -> str:
-    """Return the text of an engine file with the balance masses as counterweights and without
-    its factor.
-
-    Args:
-        text: Text of the file, UTF-8.
-        result: Its balance.
-        file: Its name in messages.
-        rpm: Crank speed that is not the file's; None: it is.
-    """
-    from ..balancing.answer import insert_remedy
-
-    new = set_keys(text.decode("utf-8-sig"), "locomotive", {"factor": None}, _NOTE)
-    if rpm is not None:
-        new = set_speed(new, rpm, _NOTE)
-    return insert_remedy(new.encode(), result.remedy, file)

@@ -61,18 +61,16 @@ def _convert(name: str, value: object, system: System) -> tuple[str, object, str
 # ------------------------------------------------------------------ for people
 def sheet(result: LocomotiveBalance, system: System) -> Sheet:
     """Return the verdict, a table of the wheels, and what is left in all."""
-    force, moment = system.force, system.moment
-    variation = _tell_amplitude(result.tractive_variation_N, force)
-    swaying = _tell_amplitude(result.swaying_couple_Nm, moment)
-    tractive_peak = size_text(result.tractive_variation_peak_N, force)
-    swaying_peak = size_text(result.swaying_couple_peak_Nm, moment)
+    force = system.force
+    tractive = result.tractive_variation_N, result.tractive_variation_peak_N
+    swaying = result.swaying_couple_Nm, result.swaying_couple_peak_Nm
     blows = [size_text(rail.hammer_blow_N, force) for rail in result.rails]
     pairs = (
         ("balance factor", UNKNOWN if result.factor is None else given(result.factor, 4)),
         ("hammer blow per rail", " and ".join(blows)),
         ("of the engine", size_text(result.hammer_blow_N, force)),
-        ("tractive effort", f"order 1 {variation}, all orders up to {tractive_peak}"),
-        ("swaying couple", f"order 1 {swaying}, all orders up to {swaying_peak}"),
+        ("tractive effort", _tell_variation(*tractive, force)),
+        ("swaying couple", _tell_variation(*swaying, system.moment)),
     )
     blow = size_text(max(wheel.hammer_blow_N for wheel in result.wheels), force)
     speed = _tell_speed(result.speed_rpm, result.speed_km_h, system)
@@ -80,15 +78,15 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
     verdict = (
         f"Hammer blow up to {blow} per wheel at {speed}.",
         *(f"The first wheel lifts at {_tell_speed(*at, system)}." for at in sorted(lifts)[:1]),
-        f"Variation of tractive effort {variation}; swaying couple {swaying}.",
     )
     title = f"{result.engine.name or NAMELESS}: balance of the wheels"
     wheels = _make_wheel_table(result, system)
     return Sheet(title, (Text("", verdict), wheels, Facts(pairs, "In all")))
 
 
-def _tell_amplitude(size: float, unit: ShownUnit) -> str:
-    return f"±{size_text(size, unit)}" if size else NOTHING
+def _tell_variation(first: float, peak: float, unit: ShownUnit) -> str:
+    amplitude = f"±{size_text(first, unit)}" if first else NOTHING
+    return f"order 1 {amplitude}, all orders up to {size_text(peak, unit)}"
 
 
 def _tell_speed(rpm: float, km_h: float | None, system: System) -> str:

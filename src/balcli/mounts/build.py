@@ -100,7 +100,7 @@ def build_mounted_body(model: EngineFile, name: str = "") -> MountedBody:
     free = find_free_motions(body, static)
     if len(free):
         message = (
-            f"nothing holds the body against {describe_free_motion(free[0], body.centre)}; give a "
+            f"nothing holds the body against {describe_free_motion(free[0])}; give a "
             "mount that does, or stiffness along another axis"
         )
         raise InputError([Problem("mount", message)], name)

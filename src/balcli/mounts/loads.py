@@ -17,13 +17,7 @@ from numpy.typing import NDArray
 
 from ..core.phases import RPM
 from ..core.phasors import Array, Phasors
-from ..core.speed_ripple import (
-    count_in_time,
-    find_reach,
-    find_slowest,
-    find_speed,
-    find_timetable,
-)
+from ..core.speed_ripple import count_in_time, find_reach, find_slowest, find_speed, find_timetable
 from ..core.vibration import Complex, Real
 from ..engine.engine import NONE_SILENT, Engine, SilentCylinders
 from ..errors import MOMENTS_UNKNOWN, BalcliError

@@ -49,8 +49,8 @@ _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds about a resonanc
 RESONANT = 0.05  # relative distance of an order's frequency from a mode's that counts as resonance
 _PART = 0.25  # a resonance is reported if it has this share of the largest order
 _AT = 1e-9  # relative difference below which speeds are equal
-_BEYOND = 3e-4  # share of the largest order that the sum of neglected higher orders may have
-_LOOKED_AT, _FREQUENCIES, _WIDE = 24, 800, 1.02  # speeds, frequencies, least ratio of neighbours
+_BEYOND = 1e-4  # share of the largest order that the sum of neglected higher orders may have
+_LOOKED_AT = 24  # speeds at which that sum is computed
 _NEAR = 0.8  # of the highest at these speeds: a higher peak may lie between two of them
 _OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
 _OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
@@ -86,7 +86,7 @@ class RunningBody(NamedTuple):
         """Return the running body with the curves of all mounts and points.
 
         By default it has all orders that contribute. Gas orders above the usual ones are added if
-        their sum might exceed _BEYOND times the largest order in some curve at some speed.
+        their sum exceeds _BEYOND times the largest order in some curve at some of the speeds.
 
         Args:
             mounted: Body on its mounts.
@@ -118,7 +118,8 @@ class RunningBody(NamedTuple):
             return np.asarray(find_gas_reaction(found).x, complex)
 
         gas = follow_gas(engine, find_torque)
-        sizes = np.abs(gas.torque(some / RPM))[..., None] * running.bound_response(every, some)
+        roll = np.eye(6)[ROLL] * gas.torque(some / RPM)[..., None]
+        sizes = largest_of_ellipse(running.read(running.follow(every, some, roll)[..., None, :]))
         beyond = sizes[::-1].cumsum(axis=0)[::-1]  # sum of an order and all higher ones
         needed = (beyond > _BEYOND * own).any(axis=(1, 2))
         highest = every[needed].max(initial=HIGHEST_GAS_ORDER_UNASKED)
@@ -127,31 +128,17 @@ class RunningBody(NamedTuple):
             running = running._replace(loads=loads)
         return running
 
-    def bound_response(self, orders: Real, omega: Real) -> Real:
-        """Return an upper bound of each curve's length for a roll moment of 1 N m of each order,
-        shape (orders, speeds, curves). The bound holds at a speed and between it and its
-        neighbours, including resonances.
-        """
-        own, places = self.modes, np.multiply.outer(orders, omega).ravel()
-        w = np.geomspace(places.min(), places.max(), _FREQUENCIES)
-        natural = own.modes.omega[own.loss > UNDAMPED]
-        w = np.union1d(w, natural)
-        motion = solve_response(own.stiffness, own.damping, own.mass, w, np.eye(6)[ROLL])
-        sizes = largest_of_ellipse(self.read(_with_rate(motion, w)[:, None, :]))
-        reach = float((omega[1:] / omega[:-1]).max(initial=_WIDE))
-        low, high = np.searchsorted(w, places / reach), np.searchsorted(w, places * reach)
-        ends = np.stack([low, np.maximum(high, low + 1)], axis=1).ravel()
-        padded = np.concatenate([sizes, np.zeros((2, sizes.shape[1]))])
-        highest = np.maximum.reduceat(padded, ends)[::2]
-        return highest.reshape(len(orders), len(omega), -1)
-
     def move(self, omega: Real) -> Complex:
         """Return the motion of the body and its velocity, shape (orders, *speeds, 12).
 
         Args:
             omega: Speeds, rad/s, any shape.
         """
-        w, own, load = frequencies(self.loads.orders, omega), self.modes, self.loads.at(omega)
+        return self.follow(self.loads.orders, omega, self.loads.at(omega))
+
+    def follow(self, orders: Real, omega: Real, load: Complex) -> Complex:
+        """Return the motion of the body and its velocity under a load (orders, *speeds, 6)."""
+        w, own = frequencies(orders, omega), self.modes
         try:
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before

@@ -95,28 +95,6 @@ def load_at_centre(
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
-def find_screw(motion: Real, centre: ArrayLike) -> tuple[Real, Real | None]:
-    """Return the screw axis of a small motion of a body, about which it turns. The displacement
-    along the axis is ignored.
-
-    Args:
-        motion: Motion, shape (6,).
-        centre: Centre of gravity, m, shape (3,).
-
-    Returns:
-        Unit vector along the axis, with a positive largest component, and the point of the axis
-        closest to the centre of gravity, m. Without rotation: the direction of the displacement,
-        and None.
-    """
-    shift, turn = motion[:3], motion[3:]
-    turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
-    vector = turn if turns else shift
-    largest = vector[np.argmax(np.abs(vector))]
-    direction = vector / np.copysign(np.linalg.norm(vector), largest)
-    point = np.asarray(centre, float) + np.cross(turn, shift) / (turn @ turn) if turns else None
-    return direction, point
-
-
 # ------------------------------------------------------------------ matrices
 def mass_matrix(body: Body) -> Real:
     """Return the mass matrix (6, 6) about the centre of gravity, kg and kg m2."""
@@ -275,19 +253,19 @@ def name_mode(shares: Real, names: tuple[str, ...]) -> str:
     return join_words([names[k] for k in falling[:3] if shares[k] >= _PART])
 
 
-def describe_free_motion(motion: Real, centre: Real) -> str:
-    """Return a description of an unrestrained motion (6,): a displacement, or a rotation about a
-    line.
+def describe_free_motion(motion: Real) -> str:
+    """Return a description of an unrestrained motion (6,): a displacement, or a rotation about an
+    axis of some direction.
     """
-    direction, point = find_screw(motion, centre)
-    direction = np.where(np.abs(direction) < _EXACT, 0.0, direction)
+    shift, turn = motion[:3], motion[3:]
+    turns = np.linalg.norm(turn) > _FREE * np.linalg.norm(shift)
+    vector = turn if turns else shift
+    vector = vector / vector[np.argmax(np.abs(vector))]
+    direction = np.where(np.abs(vector) < _EXACT, 0.0, vector)
     along = "({:.3g}, {:.3g}, {:.3g})".format(*direction)
     if np.count_nonzero(direction) == 1:
-        along = AXES[int(np.argmax(np.abs(direction)))]
-    if point is None:
-        return f"moving along {along}"
-    x, y, z = 1e3 * np.where(np.abs(point) < _EXACT, 0.0, point)
-    return f"turning about {along} through ({x:.4g}, {y:.4g}, {z:.4g}) mm"
+        along = AXES[int(np.argmax(direction))]
+    return f"{'turning about' if turns else 'moving along'} {along}"
 
 
 _FLATTEST = 0.05  # least square of a block's side, relative to the largest

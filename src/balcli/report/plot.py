@@ -33,9 +33,8 @@ from ..studies.sweep import Swept
 from ..studies.sweep_show import check_drawable, make_sweep
 from ..torque.records import TorqueAnalysis
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
-from ..torsion.ask import make_figures_of_torsion
 from ..torsion.load import make_source
-from ..torsion.plot import make_torsion
+from ..torsion.plot import make_figures_of_torsion, make_torsion
 from ..torsion.quantity import choose_torsion_speeds
 from .names import OF_GAS, OF_TORSION, PAGES, check_page
 from .pages import PageSubject, make_page

@@ -41,16 +41,7 @@ from ..forces.quantity import (
 from ..forces.spectrum import compute_gas_torque
 from ..names import QUANTITIES, import_name
 from .parameters import Place, find_places, tell_variant
-from .quantity_names import (
-    BEGINNINGS,
-    ENGINE,
-    FORMS,
-    MOUNTS,
-    PISTON,
-    TORSION,
-    Form,
-    join_patterns,
-)
+from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, PISTON, TORSION, Form, join_patterns
 
 
 @dataclass(frozen=True)

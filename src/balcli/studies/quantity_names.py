@@ -99,11 +99,11 @@ class Form(NamedTuple):
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
-# Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
-_RANGES = (
-    (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
-    (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),
-)
+# Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
+_RANGES = {
+    ("mount.", "point."): "Mounts, points: largest value from 1/8 to 1 times the engine's speed.",
+    ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed.",
+}
 
 
 def describe_names() -> str:
@@ -123,16 +123,16 @@ def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
         yield f"{stem}.{parts}" if stem else parts
 
 
-def tell_speeds(names: Iterable[str], rpm: float, varied: Iterable[str] = ()) -> str:
-    """Return a note on the ranges of speed (for an engine's speed, rpm) over which quantities of
-    these names are the largest values; empty if the speed itself varies.
+def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
+    """Return a note on the ranges of speed over which quantities of these names are the largest
+    values; empty if the speed itself varies.
     """
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    return " ".join(
-        f"{what}: largest value from {low * rpm:g} to {high * rpm:g} rpm ({words}); resonances at "
-        "other speeds are not included."
-        for starts, what, (low, high), words in _RANGES
-        if any(name.startswith(starts) for name in asked)
+    found = (
+        note
+        for beginnings, note in _RANGES.items()
+        if any(name.startswith(beginnings) for name in asked)
     )
+    return " ".join(found)

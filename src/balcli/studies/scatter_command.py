@@ -63,23 +63,15 @@ def sheet(result: Scatter, system: System) -> Sheet:
         lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
         parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "nothing")]
         causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
-    speeds = tell_speeds(result.quantities, result.model.operation.speed)
-    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", speeds)
-    spread_of_all = Grid(
-        f"Spread of {count_name(result.samples)} random {result.varied}",
-        tuple(rows(result, system).header[:-1]),
-        tuple(lines),
-        note=" ".join(filter(None, notes)),
-    )
-    changes = Grid(
-        "Change by each tolerance alone, largest first",
-        ("quantity", "change", "made by each of"),
-        tuple(causes),
-        words=(0, 2),
-    )
-    return Sheet(
-        result.model.name or NAMELESS, (*assumed_facts(result.assumed), spread_of_all, changes)
-    )
+    notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
+    note = " ".join(filter(None, notes))
+    title = f"Spread of {count_name(result.samples)} random {result.varied}"
+    heads = tuple(rows(result, system).header[:-1])
+    spreads = Grid(title, heads, tuple(lines), note)
+    heads, title = ("quantity", "change", "made by each of"), "Change by each tolerance alone"
+    changes = Grid(f"{title}, largest first", heads, tuple(causes), words=(0, 2))
+    name = result.model.name or NAMELESS
+    return Sheet(name, (*assumed_facts(result.assumed), spreads, changes))
 
 
 def _list_tolerances(result: Scatter) -> str:

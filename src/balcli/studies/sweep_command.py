@@ -1,14 +1,17 @@
-"""The command `balcli sweep`: its options."""
+"""The commands `balcli numbers`, which lists the numbers of an engine file that can vary and its
+quantities, and `balcli sweep`.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import BalcliError, warn
+from ..errors import BalcliError
 from ..forces.kinds import DEFAULT_QUANTITIES
 from ..limits import MOST_THREADS
 from ..shell.file_names import (
@@ -19,16 +22,80 @@ from ..shell.file_names import (
     format_option,
     picture_form,
     read_place,
+    text_format,
 )
-from ..shell.inputs import warn_each, warn_of_unknown_moments
-from ..shell.options import EnginePath, ProgressAtOnce
-from ..shell.output import is_seen, refuse_overwriting, write_figure
+from ..shell.inputs import read_engine, warn_each, warn_of_unknown_moments
+from ..shell.options import EnginePath, FormatOption, Output, ProgressAtOnce
+from ..shell.output import is_seen, refuse_overwriting, show, write_figure
 from ..shell.progress import reporting
 from ..shell.values import optional
+from ..show.csv import Rows
+from ..show.formats import Renderer
+from ..show.sheet import NAMELESS, UNKNOWN, Grid, Sheet
+from ..show.units import System
 from .quantity_names import describe_names
 
 if TYPE_CHECKING:
+    from .quantities import FileNumber, NamedNumbers
     from .sweep import Chunk
+
+
+_OF_CYLINDER = re.compile(r"cylinder\.\d+\.")
+
+
+def sheet(result: NamedNumbers, _system: System) -> Sheet:
+    """Return both lists with one row for each name. Keys of single cylinders that the file does not
+    give share one row for all cylinders.
+    """
+    note = "–: not in the file; N stands for the number of a cylinder."
+    heads = ("name", "value", "unit", "meaning")
+    lines = tuple(dict.fromkeys(_list_rows(result.numbers)))
+    numbers = Grid("Numbers: sweep --vary NAME=VALUES", heads, lines, note, words=(0, 2, 3))
+    note = "N stands for an order or a number, PART for one of the words after the colon."
+    title = "Quantities: --quantity NAME,... (or search --minimise)"
+    names = tuple((q.name, q.unit, q.meaning) for q in result.quantities)
+    quantities = Grid(title, ("name", "unit", "meaning"), names, note, words=(0, 1, 2))
+    return Sheet(result.engine.name or NAMELESS, (numbers, quantities))
+
+
+def _list_rows(numbers: Iterable[FileNumber]) -> Iterator[tuple[str, str, str, str]]:
+    """Yield the rows of the numbers; for lists, only the first member has its meaning."""
+    before = ""
+    for number in numbers:
+        stem = number.path.rstrip("0123456789")
+        meaning = "" if stem == before and stem.endswith(".") else number.meaning
+        before = stem
+        if number.value is not None:
+            value = number.value if isinstance(number.value, str) else f"{number.value:.12g}"
+            yield number.path, value, number.unit, meaning
+        else:
+            yield _OF_CYLINDER.sub("cylinder.N.", number.path), UNKNOWN, number.unit, meaning
+
+
+def rows(result: NamedNumbers, _system: System) -> Rows:
+    """Return CSV with one name in each line; quantities have no value."""
+    numbers = (("number", n.path, n.value, n.unit, n.meaning) for n in result.numbers)
+    quantities = (("quantity", q.name, None, q.unit, q.meaning) for q in result.quantities)
+    return Rows(("kind", "name", "value", "unit", "meaning"), [*numbers, *quantities])
+
+
+RENDERER = Renderer(sheet=sheet, rows=rows)
+
+
+def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) -> None:
+    """List the numbers of an engine file that can vary, and its quantities: names for `sweep`,
+    `search` and `scatter`, with values, units and meanings.
+
+    \b
+    Examples:
+      balcli numbers v8.toml
+      balcli numbers v8.toml --format csv
+    """
+    refuse_overwriting(reads=[path], writes={"--output": output})
+    form = text_format(output, form)
+    from .quantities import name_numbers
+
+    show([name_numbers(read_engine(path, asked=()).model)], RENDERER, form, output)
 
 
 VARY = (
@@ -38,7 +105,7 @@ VARY = (
 QUANTITY = f"Figures by name: {describe_names()}"
 FORM = (
     "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
-    "variants, tables show only the first and last ones."
+    "variants, tables show only the first ones."
 )
 OUTPUT = (
     "File to write, or a folder for numbered Parquet files; repeating a sweep computes only "
@@ -81,8 +148,6 @@ def sweep(
     """
     refuse_overwriting(reads=[path], writes={"--output": output, "--plot": plot})
     file, kind = _choose_target(output, form, plot)
-    if force and not (output and output.is_folder):
-        warn("--force is for a folder of parts (-o variants/); a file is replaced without it")
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from . import sweep as chapter, sweep_show, sweep_write
 

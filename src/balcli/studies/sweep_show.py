@@ -1,5 +1,5 @@
 """Show the variants of a sweep: CSV and JSON in full precision, written chunk by chunk; a table of
-the first and last variants; data frames; and pictures over one or two parameters.
+the first variants; data frames; and pictures over one or two parameters.
 """
 
 from __future__ import annotations
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 
     from .parameters import Parameter
     from .sweep import Chunk, Sweep, Swept
-
-
-FIRST = 20  # first rows in a table of many variants
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,13 +98,12 @@ def _lines(sweep: Sweep, chunk: Chunk, nothing: str) -> Iterator[str]:
         yield ",".join([repr(value) if value == value else nothing for value in row])
 
 
-def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
+def make_sheet(sweep: Sweep, figures: Array) -> Sheet:
     """Return the table, with each column in a fitting unit.
 
     Args:
         sweep: Sweep of the variants.
-        figures: Parameters and quantities, shape (variants, columns).
-        left_out: Number of variants left out after the first FIRST rows.
+        figures: Parameters and quantities of the first variants, shape (variants, columns).
     """
     largest = np.nanmax(np.abs(figures), axis=0, initial=0).tolist()
     units = [
@@ -121,12 +117,10 @@ def make_sheet(sweep: Sweep, figures: Array, left_out: int) -> Sheet:
     ]
     heads = map(name_with_unit, sweep.columns, (unit.name for unit in units))
     notes = []
-    if left_out:
-        rows.insert(FIRST, ("…",) * len(sweep.columns))
-        whole, missing = count_name(len(figures) + left_out), count_name(left_out)
-        notes += [f"{whole} variants, {missing} of them not shown; -o X.csv writes all."]
-    rpm = sweep.file.operation.speed
-    if speeds := tell_speeds((q.name for q in sweep.quantities), rpm, sweep.columns):
+    if missing := sweep.variants - len(figures):
+        whole, others = count_name(sweep.variants), count_name(missing)
+        notes += [f"{whole} variants, {others} of them not shown; -o X.csv writes all."]
+    if speeds := tell_speeds((q.name for q in sweep.quantities), sweep.columns):
         notes += [speeds]
     grid = Grid("", tuple(heads), tuple(rows), " ".join(notes))
     head = assumed_facts(sweep.assumed)

@@ -46,14 +46,13 @@ from .sweep import (
     share_among_threads,
     split_columns,
 )
-from .sweep_show import FIRST, make_sheet, sweep_csv, sweep_json
+from .sweep_show import make_sheet, sweep_csv, sweep_json
 
 ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8  # a box takes about a tenth of a second
 MANIFEST = "_balcli_sweep.json"  # Parquet readers skip names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
 # The hidden name of an unfinished block is that of `files.name_hidden`.
 _OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
-_LAST = 10  # last rows in a table of many variants
 RETRIES = 3  # of a task that a worker has not finished
 AHEAD = 4  # pending tasks for each thread
 
@@ -127,26 +126,17 @@ def _make_text(
 
 
 def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:
-    """Return a table of all variants if there are few, otherwise of the first and last ones."""
-    first = last = np.empty((0, len(sweep.columns)))
+    """Return a table of the first variants."""
+    first = np.empty((0, len(sweep.columns)))
     for chunk in chunks:
         rows = np.stack(split_columns(sweep, chunk), axis=1)
         first = np.concatenate([first, rows[: MOST_ROWS_READ - len(first)]])
-        last = np.concatenate([last, rows])[-_LAST:]
-    if sweep.variants <= MOST_ROWS_READ:
-        return make_sheet(sweep, first, 0)
-    shown = np.concatenate([first[:FIRST], last])
-    return make_sheet(sweep, shown, sweep.variants - len(shown))
+    return make_sheet(sweep, first)
 
 
 # ------------------------------------------------------------------ a folder of blocks
 def write_blocks(
-    sweep: Sweep,
-    folder: Path,
-    share: Share,
-    progress: Progress,
-    *,
-    force: bool,
+    sweep: Sweep, folder: Path, share: Share, progress: Progress, *, force: bool
 ) -> None:
     """Write all variants into a folder. Blocks from an interrupted run of the same sweep are kept.
 
@@ -165,22 +155,9 @@ def write_blocks(
     rows = min(ROWS_A_BLOCK, BOXES_A_BLOCK * count_at_once(sweep))
     blocks = enumerate(map(sweep.cut, divide_grid(sweep.shape, rows)))
     done = 0
-    try:
-        for variants in share(partial(_write_block, folder.absolute()), blocks):
-            done += variants
-            progress(done)
-    except BalcliError:
-        if not done:
-            _give_up(folder)
-        raise
-
-
-def _give_up(folder: Path) -> None:
-    """If no block has been written, delete the manifest, and then the folder if it is empty."""
-    if not any(_BLOCK.fullmatch(path.name) for path in folder.iterdir()):
-        (folder / MANIFEST).unlink()
-        with suppress(OSError):
-            folder.rmdir()
+    for variants in share(partial(_write_block, folder.absolute()), blocks):
+        done += variants
+        progress(done)
 
 
 def _write_block(folder: Path, numbered: tuple[int, Sweep]) -> int:
@@ -230,11 +207,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
         )
     for name in sorted(names, key=MANIFEST.__eq__):  # the manifest last: the run may be interrupted
         (folder / name).unlink()
-    try:
-        with (folder / MANIFEST).open("x", encoding="utf-8") as stream:
-            stream.write(manifest)
-    except FileExistsError:  # another run was faster
-        raise BalcliError(f"{folder}/: another sweep is just beginning there") from None
+    (folder / MANIFEST).write_bytes(manifest.encode())
 
 
 # ------------------------------------------------------------------ dask

@@ -16,12 +16,7 @@ from ..errors import BalcliError, check_number, check_type, list_words
 from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
 from ..forces.curves import find_constant_inertia, find_moving_inertia, find_torque_curves
-from ..forces.spectrum import (
-    check_orders,
-    compute_spectra,
-    list_gas_orders,
-    take_gas,
-)
+from ..forces.spectrum import check_orders, compute_spectra, list_gas_orders, take_gas
 from ..shell.arguments import tell_arguments
 from .flywheel import find_flywheel
 from .loads import KINDS_OF_LOAD, analyze_loads

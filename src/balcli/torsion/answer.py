@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Annotated, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..core.phases import RPM
 from ..core.phasors import Array
 from ..core.records import HIDDEN
 from ..core.vibration import Real
@@ -19,19 +21,20 @@ from ..engine.load import build_tables
 from ..errors import BalcliError, check_type
 from ..file.fields import counted, order_number, printable
 from ..file.plain_tables import take_tables
+from ..file.units import SPEED, convert
+from ..limits import HIGHEST_TORSION_ORDER
 from ..process import Tell, tell_nobody
 from ..shell.arguments import check_inertia, check_speeds, check_torsion_orders, tell_arguments
+from ..shell.options import read_orders
+from ..shell.values import parse_speeds, read_inertia
+from ..show.formats import Units
 from ..show.result import Result
 from .build import NO_DAMPERS
+from .chain_file import describes_chain, read_chain_tables
 from .dampers import FIGURES, WIDE_SWING, DamperAsked, SizedDamper, size_damper
 from .load import Source, make_chain_source, make_source
 from .modes import Critical, NaturalMode, find_criticals, find_natural_modes, tabulate_holzer
-from .read import describes_chain, read_chain_tables
-from .response import (
-    TorsionResponse,
-    find_barred,
-    find_response,
-)
+from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
@@ -301,6 +304,74 @@ def _tabulate(
     rows = tuple(map(HolzerRow, system.nodes, *columns))
     hertz, left = omega / (2 * np.pi), table.residual
     return HolzerTable(mode=asked.mode, frequency_Hz=hertz, rows=rows, residual_Nm=left, end=end)
+
+
+# ------------------------------------------------------------------ options of the command
+
+
+def parse_half_orders(text: str | None) -> Real | None:
+    """Return the orders in a text: `0.5-8` in steps of a half, `1-8` in whole steps, or `1,2.5,4`.
+
+    Raises:
+        BalcliError: the text has another form.
+    """
+    if text is None:
+        return None
+    right = "give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4"
+    bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
+    found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
+    return np.array(sorted(set(found)), float)
+
+
+def _parse_trial(text: str) -> HolzerAsked:
+    """Return the number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
+
+    Raises:
+        BalcliError: the text has another form.
+    """
+    if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
+        return HolzerAsked(int(text))
+    right = 'give the number of a mode, or a frequency such as "20 rad/s", "12 Hz" or "900 rpm"'
+    try:
+        omega = convert(text, SPEED) * RPM
+    except ValueError:
+        omega = 0.0
+    if not 0 < omega < 1e12:
+        raise BalcliError(f'--holzer "{text[:60]}": {right}')
+    return HolzerAsked(None, omega)
+
+
+def parse_question(
+    speeds: str | None,
+    holzer: Sequence[str] = (),
+    damper: str | None = None,
+    damper_at: str | None = None,
+    damper_inertia: str | None = None,
+    units: Units = Units.SI,
+) -> TorsionQuestion:
+    """Return the request in these options.
+
+    Raises:
+        BalcliError: one of them cannot be read.
+    """
+    heavy = damper_inertia
+    inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
+    trials = [_parse_trial(each) for each in holzer]
+    sized = DamperAsked(damper, damper_at, inertia)
+    return TorsionQuestion(parse_speeds(speeds), trials, sized)
+
+
+def require_speeds(asked: TorsionQuestion, what: str) -> None:
+    """Check that a picture over speed has a range of speeds.
+
+    Raises:
+        BalcliError: no range was given.
+    """
+    if asked.speeds_rpm is None and what in ("response", "waterfall"):
+        raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
+
+
+# ------------------------------------------------------------------ in Python
 
 
 _UNNAMED = "chain file"  # name in messages if the chain is a text or dict

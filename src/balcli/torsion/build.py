@@ -26,7 +26,7 @@ from ..core.phases import RPM
 from ..core.vibration import Real
 from ..engine.engine import Engine
 from ..errors import BalcliError, InputError, Problem
-from ..file.fields import counted, join_words, shorten
+from ..file.fields import counted, shorten
 from ..file.model import EngineFile
 from ..file.plain_tables import STEADY
 from ..file.torsion_tables import (
@@ -54,9 +54,8 @@ from .chain import (
     join_chain,
     rigid_motions,
 )
-from .read import refuse_node
+from .chain_file import ChainFile, ChainShaft as ShaftTable, Gear, refuse_node
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
-from .tables import ChainFile, ChainShaft as ShaftTable, Gear
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
 _LIGHT = 0.05  # share of the smaller neighbor's inertia: a lighter shaft may be neglected
@@ -274,9 +273,8 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     roots = [*held.tolist(), *np.setdiff1d(first, first[held]).tolist()]
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
-        named = _name_loop(chain, paths, mesh, roots, meshes)
         hint = "nothing says how they share the torque; leave it out, or give a stiffness"
-        yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts with {named}: {hint}")
+        yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts: {hint}")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
         text = f"is of the first node, and {shorten(names[0])} stands still; leave it out, or begin"
@@ -297,31 +295,9 @@ def _find_contradiction(
     found = pieces.pace[chain.end] / pieces.pace[chain.start]
     torn = joining & (np.abs(found - chain.ratio) > SAME_RATIO * np.abs(found))
     for shaft in np.flatnonzero(torn)[:1].tolist():
-        named = _name_loop(chain, paths, shaft, np.unique(pieces.first).tolist(), joining)
-        yield Problem(
-            paths[shaft],
-            f"closes a loop with {named}, and the ratios contradict each other: "
-            f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others; give ratios with "
-            "all digits, or leave one out",
-        )
-
-
-def _name_loop(
-    chain: Chain, paths: Sequence[str], closing: int, roots: list[int], joining: NDArray[np.bool_]
-) -> str:
-    """Return the paths of the other shafts in a loop, in order from the start of the closing shaft
-    to its end. If the loop leads from one fixed node to another, "the fixed nodes" follow.
-    """
-    inward = {branch.child: branch for branch in grow_branches(chain, roots, joining)}
-    ways, found = [list[str](), list[str]()], set[int]()
-    for way, node in zip(ways, (int(chain.start[closing]), int(chain.end[closing])), strict=True):
-        while node in inward:
-            way.append(paths[inward[node].shaft])
-            node = inward[node].parent
-        found.add(node)
-    there, back = ways
-    named = [path for path in (*there, *back[::-1]) if path not in there or path not in back]
-    return join_words([*named, *["the fixed nodes"] * (len(found) > 1)])
+        ratios = f"{chain.ratio[shaft]:.9g} here, {found[shaft]:.9g} by the others"
+        hint = "give ratios with all digits, or leave one out"
+        yield Problem(paths[shaft], f"closes a loop of contradictory ratios: {ratios}; {hint}")
 
 
 # ------------------------------------------------------------------ an engine file

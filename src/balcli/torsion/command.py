@@ -79,15 +79,15 @@ def torsion(
     form = text_format(output, form)
     drawn = None if plot is None else picture_form(plot, "--plot")
     require_ending(write, ".toml", "--write")
-    from . import answer, ask, dampers, load, plot as picture, show as pages
+    from . import answer, dampers, load, plot as picture, show as pages
 
-    asked = ask.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
+    asked = answer.parse_question(speeds, holzer or (), damper, damper_at, damper_inertia, units)
     if write is not None and damper is None:
         raise BalcliError("--write: give the kind of damper to write, with --damper")
     if plot is None and what != "all":
         raise BalcliError(f"--what {what}: give --plot and a file for the picture")
-    ask.require_speeds(asked, what)
-    source = load.load_source(path, ask.parse_half_orders(orders), misfire or ())
+    answer.require_speeds(asked, what)
+    source = load.load_source(path, answer.parse_half_orders(orders), misfire or ())
     warn_each(source.doubts, name_file(path))
     with reporting("work", at_once=progress) as tell:
         result = answer.answer_question(source, asked, tell)

@@ -228,8 +228,8 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
 
 
 def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> Damper:
-    """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
-    searched range: there they are that long. The swing falls about as the mass grows.
+    """Return pendulums that are heavy enough to swing by at most WIDE_SWING. The swing falls about
+    as the mass grows.
 
     Raises:
         BalcliError: They would have more than half of the inertia of their node.

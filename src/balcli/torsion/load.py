@@ -27,9 +27,8 @@ from .build import (
     list_throws,
     require_torsion,
 )
-from .read import describes_chain, read_chain_tables
+from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .system import TorsionalSystem
-from .tables import ChainFile
 
 _SMALL = 1.0  # kg mm2 or mm; a steel disc 10 mm across and 10 mm thick has 0.08 kg mm2
 

@@ -4,7 +4,7 @@ orders one behind the other (waterfall).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,6 +14,7 @@ from ..core.peaks import find_swing
 from ..core.vibration import Complex, Indices, Real
 from ..errors import BalcliError
 from ..file.fields import counted
+from ..show.formats import Units
 from ..show.plot_style import (
     BLUE,
     FAINT,
@@ -27,9 +28,17 @@ from ..show.plot_style import (
     put_title,
 )
 from ..show.sheet import number, order_name
-from ..show.units import SI, System
-from .answer import TorsionAnalysis
+from ..show.units import SI, SYSTEMS, System
+from .answer import (
+    TorsionAnalysis,
+    answer_question,
+    parse_half_orders,
+    parse_question,
+    require_speeds,
+)
+from .load import load_source
 from .motion import compute_curves
+from .quantity import choose_torsion_speeds
 from .response import TorsionResponse
 
 if TYPE_CHECKING:
@@ -62,6 +71,29 @@ def _compute_curves(result: TorsionAnalysis, response: TorsionResponse) -> _Curv
     rpm, orders = np.union1d(response.speeds_rpm, peaks), result.system.require_excitation().orders
     phasors, _ = compute_curves(result.system, rpm)
     return _Curves(rpm, orders, phasors, find_swing(orders, phasors).half)
+
+
+def make_figures_of_torsion(
+    path: str, pages: Sequence[str], speeds: str | None, orders: str | None, units: Units
+) -> list[Figure]:
+    """Return one figure for each page, of the chain or engine at a path.
+
+    Args:
+        path: File; - for standard input.
+        pages: Names of the pictures.
+        speeds: Range of speeds, as typed; None: the default range about an engine's own speed.
+        orders: Orders of the excitation, as typed.
+        units: System of units.
+    """
+    asked = parse_question(speeds)
+    source = load_source(path, parse_half_orders(orders))
+    missing = asked.speeds_rpm is None and {"response", "waterfall"} & {*pages}
+    if missing and source.engine is not None:
+        asked = asked._replace(speeds_rpm=choose_torsion_speeds(source.engine))
+    for page in pages:
+        require_speeds(asked, page)
+    found = answer_question(source, asked)
+    return [make_torsion(found, page, SYSTEMS[units]) for page in pages]
 
 
 def make_torsion(

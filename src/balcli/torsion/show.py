@@ -15,7 +15,17 @@ from ..core.vibration import Real
 from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
 from ..show.formats import Renderer
-from ..show.sheet import Facts, Grid, Sheet, Text, assumed_facts, number, order_name, size_text
+from ..show.sheet import (
+    UNKNOWN,
+    Facts,
+    Grid,
+    Sheet,
+    Text,
+    assumed_facts,
+    number,
+    order_name,
+    size_text,
+)
 from ..show.units import SI, ShownUnit, System
 from .answer import BEYOND, HolzerTable, TorsionAnalysis
 from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
@@ -193,20 +203,18 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
 def _show_modes(result: TorsionAnalysis) -> Grid | Text:
     if not result.modes:
         return Text("Natural modes", ("None: nothing has inertia that could swing on a shaft.",))
-    rows = tuple(
-        (
-            str(mode.number),
-            number(mode.frequency_Hz, 6),
-            number(mode.frequency_Hz * 60, 6),
-            str(mode.nodes),
-            ", ".join([*mode.node_in, *(f"at {name}" for name in mode.node_at)]) or "–",
-        )
-        for mode in result.modes
-    )
+    modes = result.modes
+    places = ([*mode.node_in, *(f"at {name}" for name in mode.node_at)] for mode in modes)
+    columns = [
+        ("mode", [str(mode.number) for mode in modes]),
+        ("Hz", [number(mode.frequency_Hz, 6) for mode in modes]),
+        ("1/min", [number(mode.frequency_Hz * 60, 6) for mode in modes]),
+        ("nodes", [str(mode.nodes) for mode in modes]),
+        ("node in", [", ".join(each) or UNKNOWN for each in places]),
+    ]
     note = "Node in: the shafts whose ends turn against each other."
     note += _name_left_out(result.system, ".")
-    heads = ("mode", "Hz", "1/min", "nodes", "node in")
-    return Grid("Natural modes", heads, rows, note, words=(0, 4))
+    return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 4))
 
 
 def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
@@ -232,20 +240,17 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
     if not criticals:
         return Text(title, (f"None: no order meets a mode that it drives. {scope}",))
     shown = [each for each in criticals if each.work_share >= _LEAST_SHARE][:_MOST_CRITICALS]
-    rows = tuple(
-        (
-            str(each.mode),
-            order_name(each.order),
-            number(each.speed_rpm),
-            number(each.phase_sum),
-            f"{each.work_share:.1%}",
-        )
-        for each in shown
-    )
+    columns = [
+        ("mode", [str(each.mode) for each in shown]),
+        ("order", [order_name(each.order) for each in shown]),
+        ("rpm", [number(each.speed_rpm) for each in shown]),
+        ("phase sum", [number(each.phase_sum) for each in shown]),
+        ("share", [f"{each.work_share:.1%}" for each in shown]),
+    ]
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     if left := len(criticals) - len(shown):
         note += f" JSON has {left} more."
-    return Grid(title, ("mode", "order", "rpm", "phase sum", "share"), rows, note)
+    return Grid.of_columns(title, columns, note)
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
@@ -276,18 +281,18 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     torques, angles = [row.torque_Nm for row in table.rows], [row.angle for row in table.rows]
     largest = max(abs(each) for row in table.rows for each in (row.torque_Nm, row.sum_Nm))
     unit = system.moment.fit(largest)
-    rows = tuple(
-        (
-            row.node,
-            number(inertia.of(row.inertia_kg_m2)),
-            number(_settle(row.angle, angles), 6),
-            number(unit.of(_settle(row.torque_Nm, torques))),
-            number(unit.of(_settle(row.sum_Nm, torques))),
-            number(stiffness.of(row.stiffness_Nm_per_rad or math.nan)).replace("inf", "rigid"),
-            number(row.twist if row.stiffness_Nm_per_rad else math.nan),
-        )
-        for row in table.rows
-    )
+    springs = [stiffness.of(row.stiffness_Nm_per_rad or math.nan) for row in table.rows]
+    twists = [row.twist if row.stiffness_Nm_per_rad else math.nan for row in table.rows]
+    sums = [_settle(row.sum_Nm, torques) for row in table.rows]
+    columns = [
+        ("node", [row.node for row in table.rows]),
+        (f"J, {inertia.name}", [number(inertia.of(row.inertia_kg_m2)) for row in table.rows]),
+        ("angle", [number(_settle(angle, angles), 6) for angle in angles]),
+        ("J ω² angle", [number(unit.of(_settle(torque, torques))) for torque in torques]),
+        ("sum", [number(unit.of(size)) for size in sums]),
+        (f"k, {stiffness.name}", [number(k).replace("inf", "rigid") for k in springs]),
+        ("twist", [number(twist) for twist in twists]),
+    ]
     what, omega = f"mode {table.mode}" if table.mode else "trial", 2 * np.pi * table.frequency_Hz
     title = f"Holzer's table, {what}: {number(omega, 7)} rad/s; torques in {unit.name}"
     left = f"{size_text(_settle(table.residual_Nm, torques), system.moment, 5)}."
@@ -295,10 +300,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
         end = table.rows[table.end]
         angle = number(_settle(end.angle, angles), 6)
         left = f"the angle of {end.node}, which is fixed, {angle}."
-    heads = ("angle", "J ω² angle", "sum", f"k, {stiffness.name}", "twist")
-    return Grid(
-        title, ("node", f"J, {inertia.name}", *heads), rows, f"Left over at the end: {left}"
-    )
+    return Grid.of_columns(title, columns, f"Left over at the end: {left}")
 
 
 def _settle(value: float, others: Sequence[float]) -> float:

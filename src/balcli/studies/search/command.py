@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -68,13 +68,9 @@ def sheet(result: Search, _system: System) -> Sheet:
             fit = unit_of_name(unit).fit(max(column))
             heads.append(name_with_unit(name, fit.name))
             cells.append([number(value / fit.size) for value in column])
-    grid = Grid(
-        _title(result),
-        tuple(heads),
-        tuple(zip(*cells, strict=True)),
-        note=" ".join(_notes(result)),
-        words=tuple(range(len(design))),
-    )
+    columns_shown = zip(heads, cells, strict=True)
+    grid = Grid.of_columns(_title(result), columns_shown, " ".join(_notes(result)))
+    grid = grid._replace(words=tuple(range(len(design))))
     return Sheet(result.model.name or NAMELESS, (*assumed_facts(result.assumed), grid))
 
 
@@ -110,8 +106,8 @@ def _notes(result: Search) -> Iterator[str]:
             yield f"Row {row} stands for a straight line of equally good points through ({point})."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
-    names, rpm = (q.name for q in result.objective.quantities), result.model.operation.speed
-    if speeds := tell_speeds(names, rpm, result.over.split(", ")):
+    names = (q.name for q in result.objective.quantities)
+    if speeds := tell_speeds(names, result.over.split(", ")):
         yield speeds
 
 
@@ -156,7 +152,7 @@ def search(
     minimise: Annotated[str | None, goal(MINIMISE, "--minimise", "--minimize")] = None,
     maximise: Annotated[str | None, goal(MAXIMISE, "--maximise", "--maximize")] = None,
     limit: Annotated[list[str] | None, optional("WHAT<VALUE", LIMIT)] = None,
-    require: Annotated[str, optional("even-firing", REQUIRE)] = "",
+    require: Annotated[Literal["even-firing"] | None, optional("even-firing", REQUIRE)] = None,
     top: Annotated[int, typer.Option(min=1, max=MOST_FOUND, help="Number of results.")] = 10,
     form: FormatOption = None,
     output: Output = None,
@@ -175,9 +171,6 @@ def search(
     from ...engine import build, parse
     from . import answer, designs
 
-    if require not in ("", "even-firing"):
-        message = f'"{require}": only even-firing can be required'
-        raise typer.BadParameter(message, param_hint="--require")
     text, name = read_bytes(path), name_file(path)
     model = parse.parse(text, name)
     with naming_file(name):
