@@ -31,8 +31,7 @@ from .engine.parse import parse
 from .forces.kinds import DEFAULT_QUANTITIES
 from .forces.spectrum import compute_spectra
 from .show import plot_style as style
-from .show.csv import Rows
-from .show.formats import Renderer
+from .show.formats import Renderer, Rows
 from .show.sheet import Grid, Sheet, number
 from .studies.parameters import Parameter, ladder
 from .studies.quantities import parse_quantities

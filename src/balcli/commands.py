@@ -24,8 +24,7 @@ from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
-from .show.csv import json_text
-from .show.formats import Format
+from .show.formats import Format, json_text
 
 if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference

@@ -35,8 +35,7 @@ from ..shell.options import (
 )
 from ..shell.output import emit, refuse_overwriting, show
 from ..shell.values import optional, read_angle, read_lengths
-from ..show.csv import csv_text, json_text
-from ..show.formats import Units
+from ..show.formats import Units, csv_text, json_text
 from . import options as analysis_options
 
 

@@ -30,7 +30,6 @@ from ..forces.spectrum import (
 )
 from ..limits import FARTHEST_DEG, FARTHEST_M, HIGHEST_ORDER_UNASKED
 from ..shell.arguments import read_position, tell_arguments
-from ..show.csv import Rows
 from ..show.engine_facts import tell_pivot, tell_speed
 from ..show.figures import (
     EngineSize,
@@ -44,7 +43,7 @@ from ..show.figures import (
     measure_engine,
     place_in_mm,
 )
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.result import Result
 from ..show.sheet import Facts, Grid, Sheet, number, tell_assumed
 from .answer import DEFAULT_ORDERS

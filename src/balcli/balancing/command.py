@@ -41,8 +41,7 @@ from ..shell.values import (
     read_share,
 )
 from ..show.formats import Format, Units
-from ..sizing.options import SchemeOptions
-from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, SCHEMES
+from ..sizing.options import FIT, KNUCKLES, MEANINGS, SCHEMES, SchemeOptions
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Shapes, Tools

@@ -30,9 +30,8 @@ from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from ..limits import SMALL
-from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows
-from ..show.formats import Renderer
+from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.extrema import find_least
+from ..core.peaks import find_least
 from ..errors import BalcliError
 from .recomputed import Explanation, Print, Ranges, Row, Table, as_cells, as_numbers
 

@@ -9,8 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.extrema import find_highest
-from ..core.peaks import find_longest, largest_of_ellipse
+from ..core.peaks import find_highest, find_longest, largest_of_ellipse
 from ..core.phases import RPM
 from ..core.vibration import (
     UNDAMPED,

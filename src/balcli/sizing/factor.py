@@ -13,9 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import DeviceKind
-from ..core.extrema import find_least
 from ..core.loads import share_by_lever
-from ..core.peaks import find_largest, find_peak
+from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import Engine

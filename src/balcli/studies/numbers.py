@@ -12,8 +12,7 @@ from ..shell.file_names import text_format
 from ..shell.inputs import read_engine
 from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
-from ..show.csv import Rows
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.sheet import NAMELESS, UNKNOWN, Grid, Sheet
 from ..show.units import System
 
