@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from typing import Annotated, assert_never
+from typing import Annotated
 
 import typer
 
 from ..errors import BalcliError
-from ..shell.file_names import SERIES, SeriesFormat, format_of, format_option, text_format
+from ..shell.file_names import SERIES, format_of, format_option, text_format
 from ..shell.inputs import name_engines, named_by_file, read_engine
 from ..shell.options import (
     OF_ONE,
@@ -35,7 +35,7 @@ from ..shell.options import (
 )
 from ..shell.output import emit, refuse_overwriting, show
 from ..shell.values import optional, read_angle, read_lengths
-from ..show.formats import Units, csv_text, json_text
+from ..show.formats import Format, Units, csv_text, json_text
 from . import options as analysis_options
 
 
@@ -131,8 +131,10 @@ Cylinder = Annotated[int | None, optional("N", "Motion of this piston, also pres
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
-    SeriesFormat | None,
-    format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
+    Format | None,
+    format_option(
+        SERIES.values(), "How to write the curves; default: by the ending of -o, else csv."
+    ),
 ]
 
 
@@ -156,19 +158,16 @@ def curves(
       balcli curves i4.toml --orders 2
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    form = format_of(output, form, SERIES, SeriesFormat.CSV)
+    form = format_of(output, form, SERIES, Format.CSV)
     from . import curves as chapter
 
     asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     found = chapter.compute_curves_by_step(engine, cylinder, step_deg, asked)
-    match form:
-        case SeriesFormat.CSV:
-            text = csv_text([chapter.rows(found)])
-        case SeriesFormat.JSON:
-            text = json_text(chapter.RENDERER.document(found))
-        case _:
-            assert_never(form)
+    if form is Format.CSV:
+        text = csv_text([chapter.rows(found)])
+    else:
+        text = json_text(chapter.RENDERER.document(found))
     emit(text, output)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from shutil import get_terminal_size
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar, assert_never
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from ..core.records import Node, to_document
 from ..version import __version__
@@ -90,12 +90,15 @@ def stamp(document: object) -> Any:
 
 
 class Format(StrEnum):
-    """Format of a written result."""
+    """Format of a written result; the last three are of one command each."""
 
     TABLE = "table"
     JSON = "json"
     CSV = "csv"
     MARKDOWN = "markdown"
+    PARQUET = "parquet"
+    CARD = "card"
+    MARINE = "marine"
 
 
 class Units(StrEnum):
@@ -153,16 +156,11 @@ def render(
     Args:
         seen: Whether a terminal shows the text, so that its colours and width are used.
     """
-    match form:
-        case Format.TABLE | Format.MARKDOWN:
-            sheets = [renderer.sheet(result, system) for result in results]
-            return lay_out(sheets, form, seen=seen)
-        case Format.CSV:
-            return csv_text([renderer.rows(result, system) for result in results])
-        case Format.JSON:
-            return "\n".join(json_text(renderer.document(result)) for result in results)
-        case _:
-            assert_never(form)
+    if form is Format.CSV:
+        return csv_text([renderer.rows(result, system) for result in results])
+    if form is Format.JSON:
+        return "\n".join(json_text(renderer.document(result)) for result in results)
+    return lay_out([renderer.sheet(result, system) for result in results], form, seen=seen)
 
 
 def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:

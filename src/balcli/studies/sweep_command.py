@@ -14,7 +14,6 @@ from ..limits import MOST_THREADS
 from ..shell.file_names import (
     VARIANTS,
     Place,
-    VariantsFormat,
     format_of,
     format_option,
     picture_form,
@@ -25,6 +24,7 @@ from ..shell.options import EnginePath, ProgressAtOnce
 from ..shell.output import is_seen, refuse_overwriting, write_figure
 from ..shell.progress import reporting
 from ..shell.values import optional
+from ..show.formats import Format
 from .quantity_names import describe_names
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def sweep(
         str | None,
         optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
     ] = None,
-    form: Annotated[VariantsFormat | None, format_option(VariantsFormat, FORM)] = None,
+    form: Annotated[Format | None, format_option(VARIANTS.values(), FORM)] = None,
     output: Annotated[
         Place | None, optional("FILE|FOLDER/", OUTPUT, "--output", "-o", parser=read_place)
     ] = None,
@@ -92,7 +92,7 @@ def sweep(
     warn_each(job.doubts, job.name)
     if drawn is not None:
         sweep_show.check_drawable(job)
-    shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
+    shown = not is_seen(file) or kind in (Format.TABLE, Format.MARKDOWN)
     kept: list[Chunk] = []
 
     def report(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
@@ -118,8 +118,8 @@ def sweep(
 
 
 def _choose_target(
-    output: Place | None, form: VariantsFormat | None, plot: Path | None
-) -> tuple[Path | None, VariantsFormat]:
+    output: Place | None, form: Format | None, plot: Path | None
+) -> tuple[Path | None, Format]:
     """Return the path for the variants (None: standard output) and the format.
 
     Raises:
@@ -128,9 +128,9 @@ def _choose_target(
     """
     file = None if output is None else output.path
     if output is None or not output.is_folder:
-        usual = VariantsFormat.TABLE if is_seen(file) else VariantsFormat.CSV
+        usual = Format.TABLE if is_seen(file) else Format.CSV
         return file, format_of(file, form, VARIANTS, usual)
-    if form not in (None, VariantsFormat.PARQUET):
+    if form not in (None, Format.PARQUET):
         raise BalcliError(
             f"--output {output.path}/: a folder takes Parquet files, but --format is {form}; "
             "leave one of them out"
@@ -140,4 +140,4 @@ def _choose_target(
             f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
             "file, or leave --plot out"
         )
-    return file, VariantsFormat.PARQUET
+    return file, Format.PARQUET
