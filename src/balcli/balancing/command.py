@@ -139,12 +139,12 @@ def show_balance(result: Balance, form: Format, output: Path | None, units: Unit
     """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
-    from . import bobweight_page, show as renderer
+    from . import show as renderer
 
+    rendering = renderer.RENDERER
     if form is Format.CARD:
-        emit(bobweight_page.write_page(result), output)
-    else:
-        show([result], renderer.RENDERER, form, output, units)
+        rendering = replace(rendering, sheet=renderer.card_sheet)
+    show([result], rendering, form, output, units)
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
