@@ -29,7 +29,6 @@ from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from ..limits import SMALL
 from ..show.figures import figure_rows
 from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
@@ -52,7 +51,6 @@ from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
 from ..sizing.ladder import Ladder
 from ..sizing.planes import find_unbalance, name_kind
-from ..sizing.residual import is_small
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
 from .scheme_show import (
@@ -106,7 +104,6 @@ def sheet(result: Balance, system: System) -> Sheet:
         _tell_left(result, system) if remedy.step else "",
         _tell_couple(result, system),
         tell_best_factors(result, system),
-        _tell_negligible(result, loads),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
     )
@@ -145,25 +142,6 @@ def _tell_couple(result: Balance, system: System) -> str:
     """
     before, after = (tell_couple(one, system) for one in (result.before, result.after))
     return f"{after} No scheme changes the couple." if after and after == before else ""
-
-
-def _tell_negligible(result: Balance, loads: Sequence[CrankLoads | None]) -> str:
-    """Return a sentence if the balanced order is small compared with one cylinder; not for the
-    scheme factor, which refers to the masses at the pins.
-    """
-    remedy, before = result.remedy, result.before
-    if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
-        return ""
-    main = [each.main_N or 0.0 for each in loads if each is not None]
-    if main and not is_small(main[0] - main[-1], SMALL * before.scales.force):
-        return ""  # the lower bearing load is worth the devices
-    small = not result.every_order  # by default, an order that is not in the analysis is small
-    if remedy.order in (orders := before.orders.tolist()):
-        k, one = orders.index(remedy.order), before.of_one_cylinder
-        vectors = before.spectra.vectors()
-        small = all(p.major[k] < NEGLIGIBLE * one[kind.name] for kind, p in vectors)
-    negligible = f"Order {remedy.order} is negligible against one cylinder's"
-    return f"{negligible} and hardly worth a device." * small
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
