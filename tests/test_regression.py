@@ -5,7 +5,6 @@ import math
 import os
 import shutil
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -222,13 +221,9 @@ def test_differences_as_json_and_for_continuous_integration(check, file, tmp_pat
     first, second = json.loads(out)["engines"]
     assert (status, first["engine"], len(first["differences"]), second["differences"]) == (1, str(file), 1, [])
     assert first["differences"][0]["recorded"] == 1
-    status, out, _ = check(tmp_path, "-f", "junit")
-    suite = ElementTree.fromstring(out)
-    assert (status, suite.get("tests"), suite.get("failures")) == (1, "2", "1")
-    assert [len(case) for case in suite] == [1, 0]
 
 
-def test_a_broken_file_is_in_both_reports(check, file, tmp_path):
+def test_a_broken_file_is_in_the_report(check, file, tmp_path):
     check("--update", tmp_path)
     write(tmp_path / "broken.toml", "x =")
     status, out, err = check(tmp_path, "-f", "json")
@@ -236,10 +231,6 @@ def test_a_broken_file_is_in_both_reports(check, file, tmp_path):
     assert status == 2
     assert first["error"] in err
     assert "not valid TOML" in first["error"]
-    suite = ElementTree.fromstring(check(tmp_path, "-f", "junit")[1])
-    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("2", "0", "1")
-    assert suite[0].get("name").endswith("broken.toml")
-    assert "not valid TOML" in suite[0][0].get("message")
 
 
 def _list_paths(value, path=()):

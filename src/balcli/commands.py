@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from enum import StrEnum
 from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
@@ -19,7 +18,7 @@ from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
 from .names import DOCUMENTS, import_name
-from .shell.file_names import TEXTS, format_of, parse_output, require_ending
+from .shell.file_names import TEXTS, format_of, format_option, parse_output, require_ending
 from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
@@ -214,12 +213,9 @@ def describe_document(name: str) -> Node:
     return head | found | changed | {"title": f"balcli.{name}/1"}
 
 
-class CheckFormat(StrEnum):
-    """How `check` prints its result."""
-
-    TABLE = "table"
-    JSON = "json"
-    JUNIT = "junit"
+CheckFormat = Annotated[
+    Format | None, format_option((Format.TABLE, Format.JSON), "How to print the result.")
+]
 
 
 def check(
@@ -243,10 +239,7 @@ def check(
             max=1,
         ),
     ] = 1e-9,
-    form: Annotated[
-        CheckFormat,
-        typer.Option("--format", "-f", help="junit: an XML report for continuous integration."),
-    ] = CheckFormat.TABLE,
+    form: CheckFormat = None,
 ) -> None:
     """Recompute engines and compare them with their recorded results; exit status 1 if anything
     moved.
@@ -259,7 +252,7 @@ def check(
     Examples:
       balcli check v8.toml --update
       balcli check v8.toml
-      balcli check v8.toml --tolerance 1e-6 --format junit
+      balcli check v8.toml --tolerance 1e-6 --format json
     """
     from .regression import describe_checks, find_abandoned
 
@@ -271,15 +264,12 @@ def check(
     errors = [*(each.error for each in results if each.error), *others]
     compared = sum(each.error is None for each in results)
     moved = sum(len(each.differences) for each in checked)
-    match form:
-        case CheckFormat.TABLE:
-            done = " recorded" if update else f", {counted(moved, 'difference')}"
-            lines = [line for each in checked for line in _list_lines(each)]
-            emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
-        case CheckFormat.JSON:
-            emit(json_text(describe_checks(checked)))
-        case CheckFormat.JUNIT:
-            emit(_write_junit(checked))
+    if form is Format.JSON:
+        emit(json_text(describe_checks(checked)))
+    else:
+        done = " recorded" if update else f", {counted(moved, 'difference')}"
+        lines = [line for each in checked for line in _list_lines(each)]
+        emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
     exit_on_errors(errors)
     exit_if_cut_short(progress)
     if not checked:
@@ -323,24 +313,6 @@ def _list_lines(checked: CheckedEngine) -> Iterator[str]:
         share = "" if largest is None else f", by up to {largest:.1e} of the largest"
         yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} moved{share}"
         yield from (f"  {each}" for each in moved)
-
-
-def _write_junit(checked: Sequence[CheckedEngine]) -> str:
-    """Return an XML report in JUnit's format, with a test case for each engine."""
-    suite = Element("testsuite", name="balcli check", tests=str(len(checked)))
-    suite.set("failures", str(sum(bool(each.differences) for each in checked)))
-    suite.set("errors", str(sum(each.error is not None for each in checked)))
-    for each in checked:
-        case = SubElement(suite, "testcase", classname="balcli", name=legible(each.engine))
-        if each.error:
-            first = legible(each.error.partition("\n")[0])
-            SubElement(case, "error", message=first).text = legible(each.error)
-        if each.differences:
-            message = counted(len(each.differences), "difference")
-            failure = SubElement(case, "failure", message=message)
-            failure.text = legible("\n".join(_list_lines(each)))
-    indent(suite)
-    return tostring(suite, encoding="utf-8", xml_declaration=True).decode()
 
 
 def bench(form: FormatOption = None, output: Output = None) -> None:

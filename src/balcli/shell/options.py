@@ -68,10 +68,6 @@ Output = Annotated[
         callback=parse_output,
     ),
 ]
-ProgressAtOnce = Annotated[
-    bool,
-    typer.Option("--progress", help="Show progress from the start."),
-]
 Target = Annotated[
     Path | None,
     typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),

@@ -20,7 +20,7 @@ from ..shell.file_names import (
     read_place,
 )
 from ..shell.inputs import warn_each, warn_of_unknown_moments
-from ..shell.options import EnginePath, ProgressAtOnce
+from ..shell.options import EnginePath
 from ..shell.output import is_seen, refuse_overwriting, write_figure
 from ..shell.progress import reporting
 from ..shell.values import optional
@@ -61,7 +61,6 @@ def sweep(
         Place | None, optional("FILE|FOLDER/", OUTPUT, "--output", "-o", parser=read_place)
     ] = None,
     force: Annotated[bool, typer.Option("--force", help=FORCE)] = False,
-    progress: ProgressAtOnce = False,
     plot: Annotated[Path | None, optional("FILE", PLOT)] = None,
     jobs: Annotated[
         int | None, optional("N", JOBS, "--jobs", "-j", min=1, max=MOST_THREADS)
@@ -105,7 +104,7 @@ def sweep(
             watch(done)
 
     with (
-        reporting("variants", job.variants, progress, shown) as watch,
+        reporting("variants", job.variants, shown) as watch,
         sweep_write.share_work(jobs, dask) as share,
     ):
         if output is not None and output.is_folder:
