@@ -12,7 +12,6 @@ from ..core.records import Node, find_unit, remove_unit
 from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
 from ..show.units import ShownUnit, System
 from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, PlaneNeed
-from ..sizing.factor import name_one_cylinder
 from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
 
@@ -47,10 +46,7 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
     if details := _choose_figures(result):
-        remarks = _list_remarks(result)
-        pairs = (
-            (_name(each), f"{_show(each, system)}{remarks.get(each.key, '')}") for each in details
-        )
+        pairs = ((_name(each), _show(each, system)) for each in details)
         yield Facts(tuple(pairs), "Details")
     if compensators := tuple(_tell_compensators(result, system)):
         yield Facts(compensators, "Compensators")
@@ -141,18 +137,6 @@ def _choose_figures(result: Balance) -> list[_Figure]:
             each = each._replace(group=f"order {order}")  # other orders may leave more
         chosen.append(each)
     return chosen
-
-
-def _list_remarks(result: Balance) -> dict[str, str]:
-    """Return the words that follow a figure, by its key."""
-    if result.remedy.scheme != "factor":
-        return {}
-    one = name_one_cylinder(result.before.engine)
-    return {
-        "measured_g": " balance each bare pin, at the crank radius, without rods",
-        "factor": " of all reciprocating mass on the pin",
-        "factor_of_one_cylinder": f" of {one}: the same weight",
-    }
 
 
 def _name(figure: _Figure) -> str:

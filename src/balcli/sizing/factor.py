@@ -179,10 +179,6 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
         if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
             return SAME_PLACE
-    if factor < 0:
-        return "a factor below 0: not even all rotating mass is balanced"
-    if factor > 1:
-        return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if fitting.remedy.devices:
         return ""
     if own:
