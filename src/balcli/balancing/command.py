@@ -40,7 +40,7 @@ from ..shell.values import (
     read_share,
 )
 from ..show.formats import Format, Units
-from ..sizing.options import FIT, KNUCKLES, MEANINGS, SCHEMES, SchemeOptions
+from ..sizing.options import FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOptions
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Shapes, Tools
@@ -74,10 +74,10 @@ def _list_schemes(wanted: bool) -> None:
     """Print the meaning and the options of each scheme, and end the program."""
     if not wanted:
         return
-    width, others = max(map(len, MEANINGS)), {KNUCKLES: ("even",), FIT: ("target",)}
+    width = max(map(len, MEANINGS))
     lines = []
     for name, meaning in MEANINGS.items():
-        options = " ".join(f"--{option}" for option in {**SCHEMES, **others}[name])
+        options = " ".join(f"--{option}" for option in OPTIONS[name])
         lines.append(f"{name:{width}}  {meaning}")
         lines += [f"{'':{width}}    {options}"] if options else []
     emit("\n".join(lines))
