@@ -10,75 +10,43 @@ that cancel them.
 from __future__ import annotations
 
 from .names import PUBLIC, import_name
-from .version import __version__
+from .version import __version__ as __version__
 
 TYPE_CHECKING = False  # importing typing is slow, and Ctrl-C shows a traceback meanwhile
 if TYPE_CHECKING:
-    from .analysis.answer import Analysis, analyze
-    from .analysis.comparison import Comparison, compare
-    from .analysis.curves import Curves, curves
-    from .analysis.two_engines import Combined, combine
-    from .balancing.answer import Balance, balance
-    from .books.answer import tables
-    from .books.recomputed import Table
-    from .engine.engine import Engine
-    from .engine.load import load, load_example
-    from .errors import BalcliError, InputError
-    from .field.answer import FieldBalance, balance_rotor
-    from .locomotive.answer import LocomotiveBalance, analyze_locomotive
-    from .mounts.answer import analyze_mounts
-    from .mounts.records import MountReport
-    from .report.plot import plot
-    from .show.result import Result
-    from .sizing.options import SchemeOptions
-    from .sizing.workshop import Tools
-    from .studies.scatter import Scatter, scatter
-    from .studies.search.answer import Search, search
-    from .studies.sweep import Swept, sweep
-    from .torque.answer import analyze_torque
-    from .torque.records import TorqueAnalysis
-    from .torsion.answer import TorsionAnalysis, analyze_torsion
+    from .analysis.answer import Analysis as Analysis, analyze as analyze
+    from .analysis.comparison import Comparison as Comparison, compare as compare
+    from .analysis.curves import Curves as Curves, curves as curves
+    from .analysis.piston import Pistons as Pistons, analyze_pistons as analyze_pistons
+    from .analysis.two_engines import Combined as Combined, combine as combine
+    from .balancing.answer import Balance as Balance, balance as balance
+    from .books.answer import tables as tables
+    from .books.recomputed import Table as Table
+    from .engine.engine import Engine as Engine
+    from .engine.load import load as load, load_example as load_example
+    from .errors import BalcliError as BalcliError, InputError as InputError
+    from .field.answer import FieldBalance as FieldBalance, balance_rotor as balance_rotor
+    from .locomotive.answer import (
+        LocomotiveBalance as LocomotiveBalance,
+        analyze_locomotive as analyze_locomotive,
+    )
+    from .mounts.answer import analyze_mounts as analyze_mounts
+    from .mounts.records import MountReport as MountReport
+    from .report.plot import plot as plot
+    from .show.result import Result as Result
+    from .sizing.options import SchemeOptions as SchemeOptions
+    from .sizing.workshop import Shapes as Shapes, Tools as Tools
+    from .studies.scatter import Scatter as Scatter, scatter as scatter
+    from .studies.search.answer import Search as Search, search as search
+    from .studies.sweep import Swept as Swept, sweep as sweep
+    from .torque.answer import analyze_torque as analyze_torque
+    from .torque.records import TorqueAnalysis as TorqueAnalysis
+    from .torsion.answer import (
+        TorsionAnalysis as TorsionAnalysis,
+        analyze_torsion as analyze_torsion,
+    )
 
-__all__ = [
-    "Analysis",
-    "Balance",
-    "BalcliError",
-    "Combined",
-    "Comparison",
-    "Curves",
-    "Engine",
-    "FieldBalance",
-    "InputError",
-    "LocomotiveBalance",
-    "MountReport",
-    "Result",
-    "Scatter",
-    "SchemeOptions",
-    "Search",
-    "Swept",
-    "Table",
-    "Tools",
-    "TorqueAnalysis",
-    "TorsionAnalysis",
-    "__version__",
-    "analyze",
-    "analyze_locomotive",
-    "analyze_mounts",
-    "analyze_torque",
-    "analyze_torsion",
-    "balance",
-    "balance_rotor",
-    "combine",
-    "compare",
-    "curves",
-    "load",
-    "load_example",
-    "plot",
-    "scatter",
-    "search",
-    "sweep",
-    "tables",
-]
+__all__ = sorted(["__version__", *PUBLIC])
 
 
 def __dir__() -> list[str]:

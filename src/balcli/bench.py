@@ -28,8 +28,7 @@ from .engine.build import build
 from .engine.engine import Engine
 from .engine.parse import parse
 from .forces.spectrum import compute_spectra
-from .show.csv import Rows
-from .show.formats import Renderer
+from .show.formats import Renderer, Rows
 from .show.sheet import Grid, Sheet, capitalized, number
 
 if TYPE_CHECKING:

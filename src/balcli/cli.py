@@ -32,60 +32,36 @@ if TYPE_CHECKING:
 # Summary of each command; the first paragraph of its own help is the same.
 GROUPS = {
     "Analyse": {
-        "analyze": "Free forces and moments of an engine, order by order, and devices that "
-        "balance them.",
-        "compare": "Engines side by side: free forces and moments by order, peaks, and their "
-        "ratios to the first engine's.",
-        "sum": "Two engines on one frame, geared one to one: H, U and opposed-piston engines.",
-        "layouts": "Free forces and moments of common engines at a glance, as multiples of "
-        "one cylinder's.",
-        "torque": "Torque of gas and inertia on the crank: by order and over the cycle, "
-        "mean torque and power, the uneven speed and the flywheel; or the "
-        "effect of a given torque curve.",
-        "curves": "Force, moment, couple, torque and roll over the crank angle, or the "
-        "motion of one piston.",
-        "piston": "Motion of the pistons: strokes, dead centres, speeds and accelerations, exact "
-        "and by two terms.",
-        "plot": "Draw free forces and moments: the locus over a revolution and the "
-        "spectrum of orders, or other pages (--what).",
-        "report": "Write a self-contained page: the engine in motion, and its free forces and "
-        "moments without and with a balance scheme.",
+        "analyze": "Free forces and moments by order, and devices that balance them.",
+        "compare": "Engines side by side: free forces and moments by order, and their ratios.",
+        "sum": "Two engines on one frame: H, U and opposed-piston engines.",
+        "layouts": "Free forces and moments of common engines at a glance.",
+        "torque": "Torque of gas and inertia, mean torque and power, uneven speed, flywheel.",
+        "curves": "Forces, moments and torques over the crank angle, or one piston's motion.",
+        "piston": "Strokes, dead centres, speeds and accelerations of the pistons.",
+        "plot": "Draw the locus of the force, the spectrum of orders, or other pages.",
+        "report": "Write a page with the engine in motion and its free forces and moments.",
     },
     "Balance": {
-        "balance": "Size counterweights, balancer shafts or sliders, and show the forces left "
-        "with them.",
-        "locomotive": "Hammer blow of a steam locomotive: balance masses in the wheels, rail "
-        "loads, wheel lift, variation of tractive effort and swaying couple.",
-        "field": "Balance a rotor on its machine: compute correction weights, places or drill "
-        "holes, and the remaining readings, from readings with trial weights.",
+        "balance": "Size counterweights, balancer shafts or sliders, and show what is left.",
+        "locomotive": "Hammer blow of a steam locomotive, and balance masses in its wheels.",
+        "field": "Balance a rotor on its machine, from readings with trial weights.",
     },
     "Study": {
-        "numbers": "List the numbers of an engine file that can vary, and its quantities: names "
-        "for `sweep`, `search` and `scatter`, with values, units and meanings.",
-        "sweep": "Quantities for many variants of an engine, whose numbers vary over ranges, "
-        "as a table, CSV, JSON or Parquet.",
-        "search": "Find the best crank, firing order, bank angle or splay, or values of any "
-        "numbers. Mirror images and rotations of an arrangement are listed once.",
-        "scatter": "Spread of free forces and moments when masses, rod lengths or throw angles "
-        "vary, and the tolerances that matter most.",
-        "mounts": "Vibration of an engine on its mounts: natural modes, rest, forces of the "
-        "mounts on the frame and motion of points over a range of speeds.",
-        "torsion": "Torsional vibration of a crankshaft, or of any shafts: natural modes, "
-        "critical speeds, Holzer tables, vibratory torque and stress over a range "
-        "of speeds, dampers, barred speeds.",
+        "numbers": "List the numbers of an engine file that can vary, and its quantities.",
+        "sweep": "Quantities for many variants of an engine, whose numbers vary over ranges.",
+        "search": "Find the best crank, firing order, bank angle or splay, or any numbers.",
+        "scatter": "Spread of free forces and moments by tolerances, and which matter most.",
+        "mounts": "Vibration of an engine on its mounts, over a range of speeds.",
+        "torsion": "Torsional vibration of a crankshaft or any shafts, dampers, barred speeds.",
     },
     "Files and tables": {
-        "new": "Write a commented, valid engine file (or file of runs, for `field`, or "
-        "chain file, for `torsion`) to start from.",
+        "new": "Write a commented, valid engine file (or file of runs, or chain file).",
         "engines": "List the example engines that come with balcli, print one, or copy it.",
-        "schema": "Print the JSON Schema of the engine file, a file of runs or a chain "
-        "file, for editors; or of a command's JSON output.",
-        "check": "Recompute engines and compare with their recorded results; exit status 1 "
-        "if anything moved.",
-        "tables": "Recompute the coefficient tables printed in five books and papers; list "
-        "their errata by class: misprints, roundings, errors of equations.",
-        "bench": "Measure run time and error of several methods for the same figures, on this "
-        "machine.",
+        "schema": "Print the JSON Schema of a file, for editors, or of a command's output.",
+        "check": "Recompute engines and compare with their recorded results.",
+        "tables": "Recompute the tables printed in five books and papers; list their errata.",
+        "bench": "Measure run time and error of several methods on this machine.",
     },
 }
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}

@@ -19,12 +19,17 @@ from .file import examples
 from .file.examples import template
 from .file.fields import counted, suggest_nearest
 from .names import DOCUMENTS, import_name
-from .shell.file_names import parse_output, require_ending, text_format
+from .shell.file_names import (
+    format_option,
+    parse_output,
+    require_ending,
+    text_format,
+)
 from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read_engine, try_each
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
-from .show.csv import json_text
+from .show.formats import Format, json_text
 
 if TYPE_CHECKING:
     from .regression import CheckedEngine, Difference
@@ -220,12 +225,13 @@ def describe_document(name: str) -> Node:
     return head | found | changed | {"title": f"balcli.{name}/1"}
 
 
-class CheckFormat(StrEnum):
-    """How `check` prints its result."""
-
-    TABLE = "table"
-    JSON = "json"
-    JUNIT = "junit"
+CheckFormat = Annotated[
+    Format | None,
+    format_option(
+        (Format.TABLE, Format.JSON, Format.JUNIT),
+        "junit: an XML report for continuous integration.",
+    ),
+]
 
 
 def check(
@@ -249,10 +255,7 @@ def check(
             max=1,
         ),
     ] = 1e-9,
-    form: Annotated[
-        CheckFormat,
-        typer.Option("--format", "-f", help="junit: an XML report for continuous integration."),
-    ] = CheckFormat.TABLE,
+    form: CheckFormat = None,
 ) -> None:
     """Recompute engines and compare them with their recorded results; exit status 1 if anything
     moved.
@@ -277,15 +280,14 @@ def check(
     errors = [*(each.error for each in results if each.error), *others]
     compared = sum(each.error is None for each in results)
     moved = sum(len(each.differences) for each in checked)
-    match form:
-        case CheckFormat.TABLE:
-            done = " recorded" if update else f", {counted(moved, 'difference')}"
-            lines = [line for each in checked for line in _list_lines(each)]
-            emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
-        case CheckFormat.JSON:
-            emit(json_text(describe_checks(checked)))
-        case CheckFormat.JUNIT:
-            emit(_write_junit(checked))
+    if form is Format.JSON:
+        emit(json_text(describe_checks(checked)))
+    elif form is Format.JUNIT:
+        emit(_write_junit(checked))
+    else:
+        done = " recorded" if update else f", {counted(moved, 'difference')}"
+        lines = [line for each in checked for line in _list_lines(each)]
+        emit(legible("\n".join([*lines, counted(compared, "engine") + done])))
     exit_on_errors(errors)
     exit_if_cut_short(progress)
     if not checked:

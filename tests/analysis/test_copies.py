@@ -11,8 +11,7 @@ from support.rotors import three_runs
 from balcli import analyze, analyze_mounts, analyze_torque, analyze_torsion, balance, balance_rotor, curves, load
 from balcli.balancing.answer import balance_knuckles
 from balcli.engine.parse import parse
-from balcli.sizing.options import SchemeOptions
-from balcli.sizing.schemes import SCHEMES
+from balcli.sizing.options import SCHEMES, SchemeOptions
 
 EVERYTHING = ["force", "moment", "couple", "torque", "roll", "peak", "sizing", "inner", "guide"]
 FIRED = (ENGINES / "i3.toml").read_text(encoding="utf-8") + "[gas]\ncycle = 'otto'\ncompression_ratio = 9\nimep = 9\n"

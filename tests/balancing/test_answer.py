@@ -16,9 +16,8 @@ from balcli.balancing.answer import balance_engine as balance
 from balcli.core.unbalance import STEEL, find_drill_depth
 from balcli.errors import BalcliError
 from balcli.file.model import Counterweight
-from balcli.sizing.options import SchemeOptions
+from balcli.sizing.options import SCHEMES, SchemeOptions
 from balcli.sizing.remedy import Remedy
-from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.workshop import Practical, Tools, find_practical
 
 

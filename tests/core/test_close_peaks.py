@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from balcli.core.extrema import find_highest, find_least, find_peaks_between
+from balcli.core.peaks import find_highest, find_least, find_peaks_between
 
 
 def find_each(function, low, high):

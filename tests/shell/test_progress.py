@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 import typer
 from support.cases import slow
-from support.commands import ask, run_here, run_in_terminal, run_python
+from support.commands import ask, run_here, run_python
 from support.paths import ENGINES
 
 from balcli import errors
@@ -53,7 +53,7 @@ def test_nothing_is_shown_where_nobody_looks(
     now = watch_clock(monkeypatch, terminal=why != "pipe")
     if why == "quiet":
         monkeypatch.setattr(errors, "_loudness", errors.Loudness.QUIET)
-    with progress.reporting("samples", 10, True, shown="same" not in why) as tell:
+    with progress.reporting("samples", 10, shown="same" not in why) as tell:
         now[0] += 50
         tell(5)
     assert capsys.readouterr() == ("", "")
@@ -172,11 +172,3 @@ def test_a_scatter_that_ctrl_c_ends_is_one_of_fewer_samples(on_mounts: bool, mon
     assert out == whole.out
     assert status == 130
     assert err == (f"balcli: stopped after {some} of {count_name(all_of_them)} samples; the results cover only these\n")
-
-
-@unix
-def test_a_terminal_gets_the_line_and_then_the_result() -> None:
-    done = run_in_terminal(*("torsion", ENGINES / "i6_diesel.toml", "--speeds", "1000:1100:10", "--progress"))
-    assert done.status == 0
-    assert "balcli: work" in done.out
-    assert "balcli: " not in done.out[done.out.index("Natural modes") :]

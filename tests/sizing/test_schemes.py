@@ -3,7 +3,7 @@
 import subprocess
 import sys
 
-from balcli.sizing.schemes import SCHEMES
+from balcli.sizing.options import SCHEMES
 from balcli.sizing.sizing import SIZE
 
 
@@ -16,7 +16,7 @@ def test_names_and_options_are_known_without_numpy():
     """For help and completion, which are to answer at once."""
     code = (
         "import sys; from balcli.sizing.options import SchemeOptions; "
-        "from balcli.sizing.schemes import NAMES; SchemeOptions(order=2).check('two-shaft'); "
+        "from balcli.sizing.options import NAMES; SchemeOptions(order=2).check('two-shaft'); "
         "print('numpy' in sys.modules, 'pydantic' in sys.modules, NAMES[0])"
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

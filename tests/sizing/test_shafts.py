@@ -77,7 +77,7 @@ def test_two_planes_take_a_moment_alone_too():
     assert left(I3, "single-shaft", SchemeOptions(planes="ends"), 1).moment.balanced.all()
     without = run_here("balance", I3, "--scheme", "single-shaft")
     assert without.status == 2
-    assert "couple-shaft takes the moment of 464.4 N·m at -1" in without.err
+    assert "small compared with one cylinder's; --order 6 fits it" in without.err
 
 
 @cases("sizing/shafts", "refusals")
@@ -187,5 +187,3 @@ def test_compensators_that_cannot_be(options, message):
 def test_an_order_without_a_moment_needs_no_compensator():
     out = run_here("balance", I4, "--scheme", "compensator", "--position", "3 m").out
     assert "Order 2 has no moment; nothing to compensate." in out
-    out = run_here("balance", I5, "--scheme", "two-shaft", "--order", "2").out
-    assert "compensator with --order and --position" in out

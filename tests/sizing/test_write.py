@@ -8,8 +8,8 @@ from support.remedies import size_scheme
 from balcli.analysis.answer import analyze
 from balcli.balancing.answer import insert_remedy
 from balcli.errors import BalcliError
+from balcli.sizing.options import SCHEMES
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size
 
 

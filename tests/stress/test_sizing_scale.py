@@ -11,9 +11,8 @@ from support.remedies import figures, fit_scheme, size_scheme
 from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
-from balcli.sizing.options import SchemeOptions
+from balcli.sizing.options import SCHEMES, SchemeOptions
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.schemes import SCHEMES
 from balcli.sizing.sizing import size, size_auto
 
 pytestmark = pytest.mark.stress

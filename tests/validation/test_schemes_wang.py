@@ -19,8 +19,8 @@ from balcli.core.mechanisms import closed_form, slidercrank
 from balcli.engine.engine import Engine
 from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
+from balcli.sizing.options import CRITERIA, DESIGNS
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.schemes import CRITERIA, DESIGNS
 from balcli.sizing.single_cylinder import find_optimum
 from balcli.sizing.sizing import size
 

@@ -21,8 +21,7 @@ from ..shell.inputs import (
     warn_each,
 )
 from ..shell.output import show
-from ..show.csv import Rows, name_cell
-from ..show.formats import Format, Renderer, Units, write_named
+from ..show.formats import Format, Renderer, Rows, Units, name_cell, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
 from . import show as chapter, speeds

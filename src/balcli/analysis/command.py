@@ -5,14 +5,13 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, assert_never
+from typing import Annotated
 
 import typer
 
 from ..errors import BalcliError
 from ..shell.file_names import (
     SERIES,
-    SeriesFormat,
     format_of,
     format_option,
     require_ending,
@@ -43,8 +42,7 @@ from ..shell.options import (
 )
 from ..shell.output import emit, refuse_overwriting, show, write_file
 from ..shell.values import optional, parse_cylinder, read_angle, read_lengths
-from ..show.csv import csv_text, json_text
-from ..show.formats import Units
+from ..show.formats import Format, Units, csv_text, json_text
 from . import options as analysis_options
 
 
@@ -142,8 +140,10 @@ Cylinder = Annotated[
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
 Form = Annotated[
-    SeriesFormat | None,
-    format_option(SeriesFormat, "How to write the curves; default: by the ending of -o, else csv."),
+    Format | None,
+    format_option(
+        SERIES.values(), "How to write the curves; default: by the ending of -o, else csv."
+    ),
 ]
 
 
@@ -167,20 +167,17 @@ def curves(
       balcli curves i4.toml --orders 2
     """
     refuse_overwriting(reads=[path], writes={"--output": output})
-    form = format_of(output, form, SERIES, SeriesFormat.CSV)
+    form = format_of(output, form, SERIES, Format.CSV)
     from . import curves as chapter
 
     asked, step_deg = parse_orders(orders), read_angle("--step", step)
     engine = read_engine(path, parse_speed(speed), None if cylinder is None else ()).engine
     number = None if cylinder is None else parse_cylinder(cylinder)
     found = chapter.compute_curves_by_step(engine, number, step_deg, asked)
-    match form:
-        case SeriesFormat.CSV:
-            text = csv_text([chapter.rows(found)])
-        case SeriesFormat.JSON:
-            text = json_text(chapter.RENDERER.document(found))
-        case _:
-            assert_never(form)
+    if form is Format.CSV:
+        text = csv_text([chapter.rows(found)])
+    else:
+        text = json_text(chapter.RENDERER.document(found))
     emit(text, output)
 
 

@@ -18,10 +18,9 @@ from ..file.fields import order_number
 from ..forces.kinds import EVERY_KIND, GAS, MOMENT, VECTORS, Kind
 from ..forces.spectrum import merge_orders
 from ..limits import SMALL
-from ..show.csv import Rows, name_cell
 from ..show.engine_facts import tell_speed
 from ..show.figures import list_assumed
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows, name_cell
 from ..show.result import Result
 from ..show.sheet import (
     NEGLIGIBLE,

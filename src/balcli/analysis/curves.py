@@ -43,8 +43,7 @@ from ..forces.spectrum import (
     take_gas,
 )
 from ..shell.arguments import check_count, tell_arguments
-from ..show.csv import Columns, Rows
-from ..show.formats import Columnar
+from ..show.formats import Columnar, Columns, Rows
 from ..show.result import Result
 
 _MOMENTS = [MOMENT.key_along(axis) for axis in ("x", "y", *MOMENT.upright)]

@@ -229,7 +229,6 @@ def holes_grid(
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
         what = "Slugs stand where weight is to be added and count less the steel removed for them"
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
-    note = " ".join([note, *explain_holes(practical, tools, unit)])
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, rows, note)
 
@@ -245,21 +244,6 @@ def tell_rim(tools: Tools, radius: str) -> str:
     return f"from a rim at {radius} ({why})"
 
 
-def explain_holes(practical: Sequence[Practical], tools: Tools, unit: ShownUnit) -> Iterator[str]:
-    """Yield a sentence on the length of the largest row of holes.
-
-    Args:
-        practical: Figures of the devices for the workshop.
-        tools: Tools of the workshop.
-        unit: Unit of lengths.
-    """
-    most = max((p.holes for p in practical if p.holes), default=0)
-    if most > 1 and tools.drill is not None:
-        length = f"{number(unit.of(most * tools.drill), 3)} {unit.name}"
-        yield f"{most} holes side by side take {length} along the axis at the least."
-
-
-# ------------------------------------------------------------------ for programs
 def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:
     """Yield step, name, value and SI unit of every figure of a ladder."""
     for step in ladder.steps:

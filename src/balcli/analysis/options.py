@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
@@ -11,26 +10,15 @@ import typer
 
 from ..errors import BalcliError, warn
 from ..limits import MOST_ANALYSED_SPEEDS
-from ..shell.file_names import format_option, text_format
+from ..shell.file_names import TEXTS, format_option, text_format
 from ..shell.options import OF_ONE, parse_speed
 from ..shell.values import optional, parse_speeds
 from ..show.formats import Format
 
-
-class AnalysisFormat(StrEnum):
-    """Format of an analysis: that of all results, or the sheet of marine builders."""
-
-    TABLE = "table"
-    JSON = "json"
-    CSV = "csv"
-    MARKDOWN = "markdown"
-    MARINE = "marine"
-
-
 AnalysisFormatOption = Annotated[
-    list[AnalysisFormat] | None,
+    list[Format] | None,
     format_option(
-        AnalysisFormat,
+        (*TEXTS.values(), Format.MARINE),
         "Format of the result; default: by the ending of -o, else table. marine: table of external "
         "forces and moments, guide moments and torque by order; add -f csv for CSV.",
     ),
@@ -110,7 +98,7 @@ class Request(NamedTuple):
 
 
 def choose_analysis_format(
-    output: Path | None, asked: Sequence[AnalysisFormat] | None
+    output: Path | None, asked: Sequence[Format] | None
 ) -> tuple[Format, bool]:
     """Return the format of the output, and whether it is the marine sheet; errors as for
     `file_names.format_of`.
@@ -120,10 +108,10 @@ def choose_analysis_format(
         asked: Values of `--format`; None if it is not given.
     """
     given = asked or ()
-    plain = [Format(one) for one in given if one is not AnalysisFormat.MARINE]
+    plain = [one for one in given if one is not Format.MARINE]
     if len(plain) > 1:
         warn(f"--format is given {len(plain)} times: the last one counts")
-    return text_format(output, plain[-1] if plain else None), AnalysisFormat.MARINE in given
+    return text_format(output, plain[-1] if plain else None), Format.MARINE in given
 
 
 def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:

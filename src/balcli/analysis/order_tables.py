@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
 
 
-Cells = tuple[str, ...]
 WHOLE_TURN = 360 - 1e-6  # deg
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _LEVERS = "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."

@@ -27,9 +27,8 @@ from ..engine.engine import Engine, check_engine, find_row, refuse_geared
 from ..engine.load import FiguresOfVariants
 from ..file.model import EngineFile
 from ..forces.quantity import TargetQuantity, refuse_stranger
-from ..show.csv import Rows
 from ..show.engine_facts import name_cylinders, tell_speed
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.result import Result
 from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
 from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit

@@ -14,10 +14,9 @@ from ..errors import MOMENTS_UNKNOWN
 from ..forces.curves import find_constant_inertia
 from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
 from ..forces.spectrum import Spectra
-from ..show.csv import Columns, Rows
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
 from ..show.figures import FigureRow, figure_rows
-from ..show.formats import Renderer
+from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
     IN_BRIEF,
     NAMELESS,

@@ -22,10 +22,9 @@ from ..core.records import HIDDEN, WrittenAs
 from ..engine.engine import Engine
 from ..file.fields import order_number
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL, TORQUE, TORQUE_TOTAL, Kind
-from ..show.csv import Rows, name_cell
 from ..show.engine_facts import engine_facts
 from ..show.figures import clean, name_engine
-from ..show.formats import Renderer, write_named
+from ..show.formats import Renderer, Rows, name_cell, write_named
 from ..show.sheet import (
     NAMELESS,
     Facts,

@@ -20,7 +20,6 @@ from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..shell.arguments import read_position, tell_arguments
-from ..show.csv import Rows
 from ..show.engine_facts import tell_pivot, tell_place, tell_speed
 from ..show.figures import (
     EngineSize,
@@ -32,7 +31,7 @@ from ..show.figures import (
     list_orders,
     measure_engine,
 )
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.result import Result
 from ..show.sheet import Facts, Grid, Sheet, tell_assumed
 from ..sizing.planes import as_millimetres

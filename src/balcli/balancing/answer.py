@@ -36,10 +36,9 @@ from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
-from ..sizing.options import SchemeOptions
+from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
 from ..sizing.planes import FIELDS, DeviceTable, name_kind
 from ..sizing.remedy import Remedy, fit_devices
-from ..sizing.schemes import FIT, KNUCKLES, LADDER, SCHEMES
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,7 +16,7 @@ from ..errors import BalcliError, note
 from ..file.edit import set_speed
 from ..file.toml import name_file
 from ..shell import scheme_options
-from ..shell.file_names import format_of, format_option, require_ending, text_format
+from ..shell.file_names import TEXTS, format_of, format_option, require_ending, text_format
 from ..shell.inputs import read_engine, warn_each
 from ..shell.options import (
     EnginePath,
@@ -41,28 +40,17 @@ from ..shell.values import (
     read_share,
 )
 from ..show.formats import Format, Units
-from ..sizing.options import SchemeOptions
-from ..sizing.schemes import FIT, KNUCKLES, MEANINGS, SCHEMES
+from ..sizing.options import FIT, KNUCKLES, MEANINGS, OPTIONS, SchemeOptions
 
 if TYPE_CHECKING:
     from ..sizing.workshop import Shapes, Tools
     from .answer import Balance
 
 
-class BalanceFormat(StrEnum):
-    """Format of a balance: that of all results, or a bobweight card."""
-
-    TABLE = "table"
-    JSON = "json"
-    CSV = "csv"
-    MARKDOWN = "markdown"
-    CARD = "card"
-
-
 FormatOption = Annotated[
-    BalanceFormat | None,
+    Format | None,
     format_option(
-        BalanceFormat,
+        (*TEXTS.values(), Format.CARD),
         "Default: by the ending of -o, else table. card: for a shop's wall.",
     ),
 ]
@@ -86,10 +74,10 @@ def _list_schemes(wanted: bool) -> None:
     """Print the meaning and the options of each scheme, and end the program."""
     if not wanted:
         return
-    width, others = max(map(len, MEANINGS)), {KNUCKLES: ("even",), FIT: ("target",)}
+    width = max(map(len, MEANINGS))
     lines = []
     for name, meaning in MEANINGS.items():
-        options = " ".join(f"--{option}" for option in {**SCHEMES, **others}[name])
+        options = " ".join(f"--{option}" for option in OPTIONS[name])
         lines.append(f"{name:{width}}  {meaning}")
         lines += [f"{'':{width}}    {options}"] if options else []
     emit("\n".join(lines))
@@ -140,24 +128,23 @@ Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade
 Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]
 
 
-def choose_balance_format(output: Path | None, asked: BalanceFormat | None) -> BalanceFormat:
+def choose_balance_format(output: Path | None, asked: Format | None) -> Format:
     """Return the format of the balance; errors as for `file_names.format_of`."""
-    if asked is BalanceFormat.CARD:
+    if asked is Format.CARD:
         return format_of(output, asked, {".txt": asked}, asked)
-    plain = None if asked is None else Format(asked)
-    return BalanceFormat(text_format(output, plain))
+    return text_format(output, asked)
 
 
-def show_balance(result: Balance, form: BalanceFormat, output: Path | None, units: Units) -> None:
+def show_balance(result: Balance, form: Format, output: Path | None, units: Units) -> None:
     """Print or write the balance, or its bobweight card, in this format."""
     for reason in dict.fromkeys(result.remedy.reasons):
         note(f"scheme {result.remedy.scheme}: {reason}")
-    from . import bobweight_page, show as renderer
+    from . import show as renderer
 
-    if form is BalanceFormat.CARD:
-        emit(bobweight_page.write_page(result), output)
-    else:
-        show([result], renderer.RENDERER, Format(form), output, units)
+    rendering = renderer.RENDERER
+    if form is Format.CARD:
+        rendering = replace(rendering, sheet=renderer.card_sheet)
+    show([result], rendering, form, output, units)
 
 
 def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
@@ -331,7 +318,7 @@ def balance(
     asked, rpm = parse_orders(orders), parse_speed(speed)
     text, model, engine = read_engine(path, rpm, prepare=remove_to_fit)
     open_devices = [name for name, _ in list_to_fit(model)]
-    usual = "factor" if form is BalanceFormat.CARD else FIT if open_devices else "auto"
+    usual = "factor" if form is Format.CARD else FIT if open_devices else "auto"
     usual = usual if step is None else "step"
     scheme = choose_scheme(scheme, options, usual)
     if even is not None and open_devices:

@@ -11,11 +11,9 @@ from typing import Any, NamedTuple
 from ..core.records import Node, find_unit, remove_unit
 from ..show.sheet import NEGLIGIBLE, UNKNOWN, Facts, Grid, degrees, number, size_text
 from ..show.units import ShownUnit, System
-from ..sizing.bobweights import Bobweight, FactorPeaks, PlaneNeed
-from ..sizing.factor import name_one_cylinder
+from ..sizing.bobweights import NO_THROW, Bobweight, CardLine, FactorPeaks, PlaneNeed
 from ..sizing.planes import find_unbalance, measure_direction
 from .answer import Balance
-from .bobweight_page import group_equal_pins, multiply, name_pins, percent
 
 # Keys of the roll without and with new devices: of inertia, and of inertia and gas.
 _ROLLS = (
@@ -48,17 +46,14 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
     if details := _choose_figures(result):
-        remarks = _list_remarks(result)
-        pairs = (
-            (_name(each), f"{_show(each, system)}{remarks.get(each.key, '')}") for each in details
-        )
+        pairs = ((_name(each), _show(each, system)) for each in details)
         yield Facts(tuple(pairs), "Details")
     if compensators := tuple(_tell_compensators(result, system)):
         yield Facts(compensators, "Compensators")
     if remedy.needs:
         yield _needs_grid(remedy.needs, system)
     if remedy.card:
-        yield _card_grid(remedy.card, system)
+        yield from card_grids(remedy.card, system.scales)
     if remedy.sweep:
         known = result.before.moments_known
         rows = (row if known else replace(row, peak_moment_Nm=nan) for row in remedy.sweep)
@@ -144,18 +139,6 @@ def _choose_figures(result: Balance) -> list[_Figure]:
     return chosen
 
 
-def _list_remarks(result: Balance) -> dict[str, str]:
-    """Return the words that follow a figure, by its key."""
-    if result.remedy.scheme != "factor":
-        return {}
-    one = name_one_cylinder(result.before.engine)
-    return {
-        "measured_g": " balance each bare pin, at the crank radius, without rods",
-        "factor": " of all reciprocating mass on the pin",
-        "factor_of_one_cylinder": f" of {one}: the same weight",
-    }
-
-
 def _name(figure: _Figure) -> str:
     label = f"{remove_unit(figure.group)} {remove_unit(figure.key).removesuffix('_g')}"
     return label.replace("_", " ").lstrip()
@@ -224,30 +207,58 @@ def _needs_grid(needs: Sequence[PlaneNeed], system: System) -> Grid:
     return Grid(title, heads, tuple(tuple(cells(*row)) for row in rows))
 
 
-def _card_grid(card: tuple[Bobweight, ...], system: System) -> Grid:
-    """Return quantity x each = sum; equal pins stand in one column."""
-    unit = system.scales
-    columns = group_equal_pins(card)
-    weighed = (line for pins in columns for line in pins[0].lines if line.sum_g)
-    labels = list(dict.fromkeys(line.part for line in weighed))
-    rows = [(part, *(_line_cell(pins[0], part, unit) for pins in columns)) for part in labels]
-    sums = {
-        "rotating": "rotating_g",
-        "reciprocating": "reciprocating_g",
-        f"bobweight ({percent(card[0].factor)})": "bobweight_g",
-    }
-    for name, key in sums.items():
-        sizes = (unit.of(getattr(pins[0], key) / 1e3) for pins in columns)
-        rows.append((name, *(number(size, 5) for size in sizes)))
-    heads = ("", *map(name_pins, columns))
-    return Grid(f"Bobweight card, {unit.name} for each pin", heads, tuple(rows))
+def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
+    """Return the masses that each pin balances, as quantity x each = sum; pins that are alike share
+    a table.
+
+    Args:
+        card: Bobweights of all pins.
+        units: Units of mass, of a column each; terms are in the first.
+    """
+    alike: dict[tuple[CardLine, ...], list[Bobweight]] = {}
+    for bobweight in card:
+        alike.setdefault(bobweight.lines, []).append(bobweight)
+    heads = ("", "quantity × each", *(unit.name for unit in units))
+    for pins in alike.values():
+        names = ", ".join("+".join(map(str, pin.cylinders)) for pin in pins)
+        rows = tuple(
+            (name, how, *(number(unit.of(grams / 1e3), 5) for unit in units))
+            for name, how, grams in _list_masses(pins[0], units[0])
+        )
+        note = "" if pins[0].throw_g else f"The throw itself {NO_THROW}."
+        yield Grid(f"Bobweight of pin{'s' * (len(pins) > 1)} {names}", heads, rows, note)
 
 
-def _line_cell(bobweight: Bobweight, part: str, unit: ShownUnit) -> str:
-    line = next((line for line in bobweight.lines if line.part == part), None)
-    if line is None:
-        return "–"
-    return f"{multiply(line, unit)} = {number(unit.of(line.sum_g / 1e3), 5)}"
+def _list_masses(pin: Bobweight, unit: ShownUnit) -> Iterator[tuple[str, str, float]]:
+    """Yield name, terms and sum (g) of the masses on a pin."""
+    for rotates, name, total in (
+        (True, "rotating", pin.rotating_g),
+        (False, "reciprocating", pin.reciprocating_g),
+    ):
+        for line in pin.lines:
+            if line.rotates == rotates and line.sum_g:
+                yield line.part, _multiply(line, unit), line.sum_g
+        yield f"{name} sum", "", total
+    whole = number(unit.of(pin.reciprocating_g / 1e3), 5)
+    share = f"{whole} × {percent(pin.factor)}"
+    yield "balanced share", share, pin.factor * pin.reciprocating_g
+    yield "bobweight (rotating + share)", "", pin.bobweight_g
+    if pin.throw_g:
+        yield "throw itself, at the crank radius", "", pin.throw_g
+        yield "counterweight opposite", "", pin.bobweight_g + pin.throw_g
+
+
+def _multiply(line: CardLine, unit: ShownUnit) -> str:
+    """Return the terms of a line's sum: `2 × 775`, or `775 + 780`."""
+    each = [number(unit.of(mass_g / 1e3)) for mass_g in line.each_g]
+    if len(set(line.each_g)) == 1:
+        return f"{len(each)} × {each[0]}"
+    return " + ".join(each)
+
+
+def percent(share: float) -> str:
+    """Return a balance factor in percent, as shops write it."""
+    return f"{number(100 * share)} %"
 
 
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:

@@ -25,14 +25,12 @@ from ..analysis.parts import lay_out_parts
 from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
 from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
-from ..errors import MOMENTS_UNKNOWN
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
-from ..limits import SMALL
-from ..show.csv import Columns, Rows
 from ..show.figures import figure_rows
-from ..show.formats import Renderer
+from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
     NAMELESS,
     NEGLIGIBLE,
@@ -49,15 +47,17 @@ from ..show.sheet import (
     size_cell,
     size_text,
 )
-from ..show.units import SI, ShownUnit, System
-from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
+from ..show.units import IMPERIAL, SI, ShownUnit, System
+from ..sizing.factor import name_one_cylinder
+from ..sizing.ladder import Ladder
 from ..sizing.planes import find_unbalance, name_kind
-from ..sizing.residual import is_small
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
 from .scheme_show import (
+    card_grids,
     details_document,
     details_parts,
+    percent,
     tell_best_factors,
     tell_change,
     tell_growing_rolls,
@@ -67,6 +67,7 @@ _TURNING_WEIGHTS = (
     "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
     "over pin 1 at crank angle 0; the pin stands still."
 )
+_SIGNED = "Weighed by ____________________   Date ______________   Checked ________________"
 
 
 def sheet(result: Balance, system: System) -> Sheet:
@@ -102,9 +103,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
         _tell_couple(result, system),
-        _tell_bearings(result, system),
         tell_best_factors(result, system),
-        _tell_negligible(result, loads),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
     )
@@ -145,41 +144,6 @@ def _tell_couple(result: Balance, system: System) -> str:
     return f"{after} No scheme changes the couple." if after and after == before else ""
 
 
-def _tell_bearings(result: Balance, system: System) -> str:
-    """Return in words the effect of weights at every throw on the main bearings, if counterweights
-    have no other use.
-    """
-    remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
-    loads = {step.step: step.main_bearing_N for step in steps}
-    before, after = loads.get(AS_DRAWN), loads.get(WEIGHTS_AT_THROWS)
-    if remedy.scheme != "counterweights" or remedy.devices or not (before and after):
-        return ""
-    unit = system.unit(FORCE).fit(before)
-    return (
-        "At every throw (--planes throws) they lower the largest main bearing load from "
-        f"{number(unit.of(before))} to {number(unit.of(after))} {unit.name}."
-    )
-
-
-def _tell_negligible(result: Balance, loads: Sequence[CrankLoads | None]) -> str:
-    """Return a sentence if the balanced order is small compared with one cylinder; not for the
-    scheme factor, which refers to the masses at the pins.
-    """
-    remedy, before = result.remedy, result.before
-    if remedy.order is None or remedy.scheme == "factor" or not (remedy.devices or remedy.beyond):
-        return ""
-    main = [each.main_N or 0.0 for each in loads if each is not None]
-    if main and not is_small(main[0] - main[-1], SMALL * before.scales.force):
-        return ""  # the lower bearing load is worth the devices
-    small = not result.every_order  # by default, an order that is not in the analysis is small
-    if remedy.order in (orders := before.orders.tolist()):
-        k, one = orders.index(remedy.order), before.of_one_cylinder
-        vectors = before.spectra.vectors()
-        small = all(p.major[k] < NEGLIGIBLE * one[kind.name] for kind, p in vectors)
-    negligible = f"Order {remedy.order} is negligible against one cylinder's"
-    return f"{negligible} and hardly worth a device." * small
-
-
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:
     """Yield the table of permitted unbalance if a grade was given. It is compared with the missing
     unbalance of existing counterweights, or shown as the tolerance of new ones.
@@ -217,6 +181,37 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
 
 
 # ------------------------------------------------------------------ before and after
+def card_sheet(result: Balance, system: System) -> Sheet:
+    """Return the bobweight card for the wall of a shop: masses in g and oz, then the counterweights
+    to add, the holes to drill and what may be left.
+
+    Raises:
+        BalcliError: The scheme has no card.
+    """
+    remedy, engine = result.remedy, result.before.engine
+    if not remedy.card:
+        raise BalcliError(
+            f"--format card: scheme {remedy.scheme} has no bobweight card; leave --scheme out, or "
+            "choose --scheme factor"
+        )
+    factor, rods = remedy.card[0].factor, len(remedy.card[0].cylinders)
+    told = f"{percent(factor)} of all reciprocating mass on the pin"
+    if rods > 1:
+        told += f" = {percent(factor * rods)} of {name_one_cylinder(engine)}"
+    parts: list[Grid | Facts | Text] = [Facts((("balance factor", told),))]
+    parts += card_grids(remedy.card, SI.scales, IMPERIAL.scales)
+    if remedy.devices:
+        what = "Still missing on the crankshaft" if remedy.needs else "Counterweights"
+        parts.append(device_grid(remedy, system)._replace(title=what))
+        if any(figures.holes for figures in result.practical):
+            parts.append(holes_grid(remedy, result.practical, result.tools, system))
+    if remedy.note:
+        parts.append(Text("Note", (sentence(remedy.note),)))
+    parts += _permitted(result, system)
+    parts.append(Text("", (_SIGNED,)))
+    return Sheet(f"Bobweight card: {engine.name or NAMELESS}", tuple(parts))
+
+
 def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
     """Return whether each value changes by 1 % of the larger one; False if it is not known (nan).
 

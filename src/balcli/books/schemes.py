@@ -23,7 +23,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..core.extrema import find_least
+from ..core.peaks import find_least
 from ..core.phasors import Array, unit
 from ..errors import BalcliError
 from .recomputed import (

@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 from ..core.records import Node, to_document
-from ..show.csv import Rows
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, number
 from ..show.table import WIDTH, fold
 from ..show.units import System

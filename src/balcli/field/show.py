@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from ..core.records import Node, angle_deg, list_figures, to_document
-from ..show.csv import Rows, name_cell
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows, name_cell
 from ..show.plot_style import BLUE, INK, MANY_LOOKS, PAPER, SOFT, fit_name, open_figure, put_title
 from ..show.sheet import UNKNOWN, Facts, Grid, Sheet, Text, degrees, number
 from ..show.units import System

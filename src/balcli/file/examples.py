@@ -142,10 +142,6 @@ def _read(path: Path) -> Example:
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")
 KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
-OTHER_WORDS = {
-    **dict.fromkeys(("twin-row", "double-row", "14-cylinder", "corncob"), "radial14"),
-    **dict.fromkeys(("steam", "hammer-blow", "coupled-wheels", "side-rods"), "locomotive"),
-}
 SCHEMA = (
     "#:schema balcli.schema.json\n"
     "# Editors that know TOML check and complete what you type, with that file here: "
@@ -161,7 +157,7 @@ def template(kind: str) -> str:
         BalcliError: There is no such kind; the error lists all kinds and names the nearest.
     """
     if kind not in KINDS:
-        near = OTHER_WORDS.get(kind.lower()) or nearest(kind, KINDS)
+        near = nearest(kind, KINDS)
         like = [name for name in names() if kind.lower() in name]
         hint = f" Did you mean {near}?" if near else ""
         if like:

@@ -27,8 +27,7 @@ from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Phasors, unit
-from ..core.piecewise import cut, merged_breaks, quadrature
-from ..core.vectors_over_cycle import Vectors, find_panels
+from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
 from ..errors import BalcliError

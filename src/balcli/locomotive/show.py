@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from ..core.records import Node, angle_deg, find_unit, list_figures, remove_unit, to_document
-from ..show.csv import Rows, name_cell
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
     NAMELESS,
     NOTHING,

@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..core.extrema import find_highest
-from ..core.peaks import find_longest, largest_of_ellipse
+from ..core.peaks import find_highest, find_longest, largest_of_ellipse
 from ..core.phases import RPM
 from ..core.vibration import (
     UNDAMPED,

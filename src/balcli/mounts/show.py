@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..engine.figures import find_first_largest
-from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
 from ..show.figures import clean, silent_entries
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
     NAMELESS,
     Facts,

@@ -12,6 +12,7 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -276,58 +277,48 @@ def _is_plain(text: str) -> bool:
     """Return whether each table has a header and each of its keys a line of its own. The page can
     then change the text line by line.
     """
-    data, lines = tomllib.loads(text), text.splitlines()
-    starts = [k for k, line in enumerate(lines) if HEADER.match(line)]
-    ends = [*starts[1:], len(lines)]
-    for name, table, place in _list_tables(data):
-        named = [k for k in starts if HEADER.match(lines[k])[1] == name]  # type: ignore[index]
-        if len(named) <= place:
+    _, *parts = HEADER.split(text.replace("\r\n", "\n"))
+    bodies: dict[str, list[str]] = {}
+    for name, body in zip(parts[::2], parts[1::2], strict=True):
+        bodies.setdefault(name, []).append(body)
+    for head, table in _list_tables(tomllib.loads(text)):
+        name = head.strip("[]")
+        if not name.startswith((*_TABLES, *_DEVICES)):
+            continue
+        own = bodies.get(name)
+        if not own or _read_lines(own.pop(0)) != table:
             return False
-        section = lines[named[place] + 1 : ends[starts.index(named[place])]]
-        for key, value in table.items():
-            rows = [line for line in section if re.match(rf"\s*{re.escape(key)}\s*=", line)]
-            if len(rows) != 1 or not _says(rows[0], {key: value}):
-                return False
     return True
 
 
-def _says(line: str, wanted: Node) -> bool:
-    try:
-        return tomllib.loads(line) == wanted
-    except tomllib.TOMLDecodeError:
-        return False
+def _read_lines(body: str) -> Node:
+    """Return the keys that have a line of their own."""
+    found: Node = {}
+    for line in body.splitlines():
+        with suppress(tomllib.TOMLDecodeError):
+            found |= tomllib.loads(line)
+    return found
 
 
-def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node, int]]:
-    """Yield the tables of a file that the page may change: name, content, and index in a list."""
-    for name in (*_TABLES, *_DEVICES):
-        found = data.get(name, {})
+def _list_tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Node]]:
+    """Yield header and content of each table of a file; keys above all tables have no header."""
+    yield "", {k: v for k, v in data.items() if not isinstance(v, (dict, list))}
+    for name, found in data.items():
         if name == "cylinder":
-            yield from ((f"cylinder.{number}", own, 0) for number, own in found.items())
+            yield from ((f"[cylinder.{number}]", own) for number, own in found.items())
         elif isinstance(found, list):
-            yield from ((name, table, k) for k, table in enumerate(found))
-        elif found:
-            yield name, found, 0
+            yield from ((f"[[{name}]]", table) for table in found)
+        elif isinstance(found, dict):
+            yield f"[{name}]", found
 
 
 def _write_plainly(text: str) -> str:
     """Return the text of a file with a line for each key, without comments."""
-    data = tomllib.loads(text)
-    blocks = [("", {k: v for k, v in data.items() if not isinstance(v, (dict, list))})]
-    blocks += [
-        (f"[[{name}]]" if isinstance(data.get(name), list) else f"[{name}]", table)
-        for name, table, _ in _list_tables(data)
-    ]
-    others = {k: v for k, v in data.items() if k not in (*_TABLES, *_DEVICES)}
-    blocks += [(f"[{k}]", v) for k, v in others.items() if isinstance(v, dict)]
-    blocks += [
-        (f"[[{k}]]", v) for k, each in others.items() if isinstance(each, list) for v in each
-    ]
-    written = (
-        "\n".join(filter(None, (head, *(f"{k} = {format_value(v)}" for k, v in table.items()))))
-        for head, table in blocks
-    )
-    return "\n\n".join(filter(None, written)) + "\n"
+    blocks = []
+    for head, table in _list_tables(tomllib.loads(text)):
+        keys = (f"{key} = {format_value(value)}" for key, value in table.items())
+        blocks.append("\n".join(filter(None, (head, *keys))))
+    return "\n\n".join(filter(None, blocks)) + "\n"
 
 
 def _free_throws(model: EngineFile, parts: Parts) -> Node | None:

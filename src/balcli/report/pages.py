@@ -27,7 +27,7 @@ from ..analysis.plot import (
     draw_vector_bars,
     visible_rows,
 )
-from ..balancing.bobweight_page import percent
+from ..balancing.scheme_show import percent
 from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
 from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
@@ -93,27 +93,6 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
         ax.axvline(banks.own_deg, color=INK, linewidth=0.9, linestyle=":")
     ax.set_title(f"Shafts at +{banks.order:g} and -{banks.order:g}: radii without a roll")
     put_legend_above(ax, 3)
-
-
-def draw_radius_roses(ax: Any, banks: Banks) -> None:
-    """Draw the same as radii in the directions of both banks, over a whole turn: a circle, a rose,
-    and for a flat-plane V8 the four-leaved rose of Liu (figure 8), thick where it counts.
-    """
-    half = np.radians(banks.angles_deg) / 2
-    ax.set_theta_zero_location("N")
-    ax.set_theta_direction(-1)
-    ratio = np.abs(banks.find_radii()[2])
-    drawn = ratio < _LARGEST_RATIO
-    for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
-        width = 1.0 if start else 2.4
-        ax.plot(start + sense * half[drawn], ratio[drawn], color=GREEN, linewidth=width)
-    both = np.concatenate([-half[::-1], half])
-    for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
-        ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
-    marks = np.arange(0, 360, 30)
-    angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
-    ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
-    ax.set_title("The same in the directions of the banks", pad=6)
 
 
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
@@ -353,8 +332,7 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
         size = size_text(largest, unit, 2)
         return f"Force of order {banks.order:g}: negligible ({size}), whatever the bank angle"
     if subject.study.pair:
-        draw_radii(fig.add_subplot(1, 2, 1), banks)
-        draw_radius_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks)
+        draw_radii(fig.subplots(), banks)
         return ""
     draw_end_curves(fig.add_subplot(1, 2, 1), banks, unit)
     draw_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks, unit)

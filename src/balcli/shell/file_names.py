@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from enum import StrEnum
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -27,36 +26,11 @@ TEXTS = {
     ".csv": Format.CSV,
     ".md": Format.MARKDOWN,
 }
+SERIES = {".csv": Format.CSV, ".json": Format.JSON}  # long series of numbers
+VARIANTS = {**TEXTS, ".parquet": Format.PARQUET}
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
 # Endings of other formats, which --format cannot override.
 _KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
-
-
-class SeriesFormat(StrEnum):
-    """Formats of long series of numbers."""
-
-    CSV = "csv"
-    JSON = "json"
-
-
-class VariantsFormat(StrEnum):
-    """Formats of the variants of a sweep."""
-
-    TABLE = "table"
-    MARKDOWN = "markdown"
-    CSV = "csv"
-    JSON = "json"
-    PARQUET = "parquet"
-
-
-SERIES = {".csv": SeriesFormat.CSV, ".json": SeriesFormat.JSON}
-VARIANTS = {
-    ".csv": VariantsFormat.CSV,
-    ".json": VariantsFormat.JSON,
-    ".parquet": VariantsFormat.PARQUET,
-    ".txt": VariantsFormat.TABLE,
-    ".md": VariantsFormat.MARKDOWN,
-}
 
 
 class Place(NamedTuple):
@@ -95,25 +69,26 @@ def choose_target(second: Path | None, output: Path | None, example: str) -> Pat
     return target
 
 
-def format_option(formats: type[StrEnum], text: str) -> object:
+def format_option(formats: Iterable[Format], text: str) -> object:
     """Declare an option `--format`, `-f`. Formats may be typed by name or ending, in upper or lower
     case.
 
     Args:
-        formats: Formats; their values are the names.
+        formats: Formats that can be chosen.
         text: Help of the option.
     """
 
-    def parse(name: str) -> StrEnum:
-        small = name.lower()
-        try:
-            return formats(_SHORT.get(small, small))
-        except ValueError:
-            known = ", ".join(f"'{one}'" for one in formats)
-            raise typer.BadParameter(f"'{name}' is not one of {known}.") from None
+    named = {str(one): one for one in formats}
 
-    names = "|".join(formats)
-    return optional(names, text, "--format", "-f", parser=parse)
+    def parse(name: str) -> Format:
+        small = name.lower()
+        found = named.get(_SHORT.get(small, small))
+        if found is None:
+            known = ", ".join(f"'{one}'" for one in named)
+            raise typer.BadParameter(f"'{name}' is not one of {known}.")
+        return found
+
+    return optional("|".join(named), text, "--format", "-f", parser=parse)
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:

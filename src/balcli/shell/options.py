@@ -19,7 +19,7 @@ from ..limits import (
 )
 from ..show.formats import Format, Units
 from ..sizing.options import check_small
-from .file_names import format_option, parse_output
+from .file_names import TEXTS, format_option, parse_output
 from .values import optional, read_length, read_share, read_speed
 
 # words of `analyze --only` for tables and texts of quantities that are computed anyway
@@ -44,7 +44,7 @@ EnginePaths = Annotated[
 FormatOption = Annotated[
     Format | None,
     format_option(
-        Format,
+        TEXTS.values(),
         "Default: by the ending of -o (.txt, .json, .csv, .md), else table.",
     ),
 ]
@@ -67,10 +67,6 @@ Output = Annotated[
         "-o",
         callback=parse_output,
     ),
-]
-ProgressAtOnce = Annotated[
-    bool,
-    typer.Option("--progress", help="Show progress from the start."),
 ]
 Target = Annotated[
     Path | None,

@@ -31,10 +31,10 @@ class Progress:
         stopped: Whether Ctrl-C asks the computation to end with the results so far.
     """
 
-    def __init__(self, what: str, total: float | None, at_once: bool, shown: bool) -> None:
+    def __init__(self, what: str, total: float | None, shown: bool) -> None:
         self.done, self.stopped = 0.0, False
         self._what, self._total = what, total
-        self._next = time.monotonic() + (0.0 if at_once else _SILENT_S)
+        self._next = time.monotonic() + _SILENT_S
         wanted = shown and not is_quiet() and sys.stderr.isatty()
         self._bar = _make_bar(what, total) if wanted else None
 
@@ -85,18 +85,15 @@ def _make_bar(what: str, total: float | None) -> Bar:
 
 
 @contextmanager
-def reporting(
-    what: str, total: float | None = None, at_once: bool = False, shown: bool = True
-) -> Iterator[Progress]:
+def reporting(what: str, total: float | None = None, shown: bool = True) -> Iterator[Progress]:
     """Yield a callback for the work done so far. Ctrl-C ends the command and prints the progress.
 
     Args:
         what: Noun for the work, such as "samples".
         total: Total number; None: the callback receives the share of the work, from 0 to 1.
-        at_once: Whether the bar appears at the start, not after two seconds.
         shown: Whether to show a bar; false if results are written to the terminal meanwhile.
     """
-    progress = Progress(what, total, at_once, shown)
+    progress = Progress(what, total, shown)
     try:
         yield progress
     except KeyboardInterrupt:
@@ -109,7 +106,7 @@ def reporting(
 
 @contextmanager
 def reporting_until_stopped(
-    what: str, total: float | None = None, at_once: bool = False, shown: bool = True
+    what: str, total: float | None = None, shown: bool = True
 ) -> Iterator[Progress]:
     """Report progress as `reporting` does, for a computation that can end early with a partial
     result: the first Ctrl-C only sets `stopped`, the second one ends the command. If the process
@@ -118,11 +115,10 @@ def reporting_until_stopped(
     Args:
         what: Noun for the work.
         total: Total number; None: the callback receives the share of the work, from 0 to 1.
-        at_once: Whether the bar appears without delay.
         shown: Whether to show a bar.
     """
     before = signal.getsignal(signal.SIGINT)
-    with reporting(what, total, at_once, shown) as progress:
+    with reporting(what, total, shown) as progress:
 
         def stop(*_: object) -> None:
             progress.stopped = True

@@ -10,8 +10,7 @@ from typing import Annotated
 from ..errors import BalcliError, warn
 from ..limits import LARGEST_FACTOR, MOST_FACTORS
 from ..show.formats import Units
-from ..sizing.options import SchemeOptions
-from ..sizing.schemes import NAMES
+from ..sizing.options import NAMES, SchemeOptions
 from .options import parse_small
 from .values import optional, read_lengths, read_mass_on_scales, read_share
 

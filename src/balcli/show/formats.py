@@ -1,31 +1,105 @@
-"""Formats of results, renderers, and the text of results in each format."""
+"""Formats of results, renderers, and the text of results in each format: rows as CSV in full
+precision, documents as JSON.
+"""
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, Generic, TypeVar, assert_never
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from ..core.records import Node, to_document
-from .csv import csv_text, json_text
+from ..version import __version__
 from .table import markdown, plain_text, terminal_text
 
 if TYPE_CHECKING:
-    from .csv import Columns, Rows
+    from numpy.typing import NDArray
+
     from .sheet import NamedResult, Sheet
     from .units import System
 
 
+# Beginnings of cells that spreadsheets run as formulas, in ASCII and full width.
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+_PARTED = re.compile(r'[",;\t\r\n]')
+
+
+Column: TypeAlias = "Sequence[Any] | NDArray[Any]"
+
+
+class Columns(NamedTuple):
+    """A result as columns of one length, for DataFrames.
+
+    Attributes:
+        values: Lists or arrays, by column name.
+        units: Units of some columns, by column name.
+    """
+
+    values: Mapping[str, Column]
+    units: Mapping[str, str] = MappingProxyType({})
+
+
+class Rows(NamedTuple):
+    """CSV of a result: names of the columns, and lines with a cell for each column."""
+
+    header: Sequence[str]
+    lines: Iterable[Sequence[object]]
+
+
+def csv_text(results: Sequence[Rows]) -> str:
+    """Return the lines of all results under the header of the first; None becomes an empty cell."""
+    lines = [results[0].header, *(line for rows in results for line in rows.lines)]
+    return "".join(",".join(map(_cell, line)) + "\n" for line in lines)
+
+
+def name_cell(name: str) -> str:
+    """Return a name from a user, with an apostrophe in front if a spreadsheet would run it as a
+    formula.
+    """
+    return f"'{name}" if name.startswith(FORMULA) else name
+
+
+def _cell(value: object) -> str:
+    """Return a cell, in quotes if a program might split it."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = str(value)
+    return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
+
+
+def json_text(document: object) -> str:
+    """Return a document on one line; raise ValueError if it has a nan or infinity (a bug)."""
+    return json.dumps(stamp(document), ensure_ascii=False, allow_nan=False)
+
+
+def stamp(document: object) -> Any:
+    """Return a document with the version of balcli inserted after its format; return anything else
+    unchanged.
+    """
+    if not isinstance(document, dict) or "format" not in document:
+        return document
+    return {"format": document["format"], "version": __version__} | document
+
+
 class Format(StrEnum):
-    """Format of a written result."""
+    """Format of a written result; the last three are of one command each."""
 
     TABLE = "table"
     JSON = "json"
     CSV = "csv"
     MARKDOWN = "markdown"
+    PARQUET = "parquet"
+    JUNIT = "junit"
+    CARD = "card"
+    MARINE = "marine"
 
 
 class Units(StrEnum):
@@ -83,16 +157,11 @@ def render(
     Args:
         seen: Whether a terminal shows the text, so that its colours and width are used.
     """
-    match form:
-        case Format.TABLE | Format.MARKDOWN:
-            sheets = [renderer.sheet(result, system) for result in results]
-            return lay_out(sheets, form, seen=seen)
-        case Format.CSV:
-            return csv_text([renderer.rows(result, system) for result in results])
-        case Format.JSON:
-            return "\n".join(json_text(renderer.document(result)) for result in results)
-        case _:
-            assert_never(form)
+    if form is Format.CSV:
+        return csv_text([renderer.rows(result, system) for result in results])
+    if form is Format.JSON:
+        return "\n".join(json_text(renderer.document(result)) for result in results)
+    return lay_out([renderer.sheet(result, system) for result in results], form, seen=seen)
 
 
 def lay_out(sheets: list[Sheet], form: Format, *, seen: bool) -> str:

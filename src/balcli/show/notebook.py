@@ -6,8 +6,8 @@ from html import escape
 from itertools import repeat
 
 from ..engine.engine import Engine
-from .csv import Columns
 from .engine_facts import engine_facts
+from .formats import Columns
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
 from .units import SI
 

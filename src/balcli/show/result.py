@@ -18,8 +18,7 @@ from ..errors import BalcliError
 from ..files import replacing
 from ..names import RENDERERS, import_name
 from ..version import __version__
-from .csv import Column, Columns, Rows, stamp
-from .formats import Columnar, Renderer
+from .formats import Column, Columnar, Columns, Renderer, Rows, stamp
 from .notebook import html_text, outline
 from .sheet import Sheet
 from .units import SI

@@ -14,9 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinders import DeviceKind
-from ..core.extrema import find_least
 from ..core.loads import share_by_lever
-from ..core.peaks import find_largest, find_peak
+from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
@@ -183,10 +182,6 @@ def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
         if abs(arms @ vectors) > LEFT * (np.abs(arms) @ np.abs(vectors)):
             return SAME_PLACE
-    if factor < 0:
-        return "a factor below 0: not even all rotating mass is balanced"
-    if factor > 1:
-        return "a factor above 1: more than all reciprocating mass on the pin is balanced"
     if fitting.remedy.devices:
         return ""
     if own:

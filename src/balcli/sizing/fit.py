@@ -21,6 +21,7 @@ from ..file.model import EngineFile
 from ..forces.kinds import ROLL_TOTAL
 from ..forces.spectrum import compute_spectra
 from .fitting import find_effects
+from .options import FIT
 from .planes import TABLES, DeviceTable, find_order, measure_direction
 from .remedy import Remedy
 from .residual import (
@@ -31,7 +32,6 @@ from .residual import (
     find_scales,
     hold_steady,
 )
-from .schemes import FIT
 
 # Quantities that can be targets, and their parts; roll_total includes the gas.
 TARGETS = {

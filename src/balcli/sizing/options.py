@@ -1,4 +1,6 @@
-"""Options of the balance schemes; they are checked here for command and Python function."""
+"""Names of the balance schemes, a line that describes each, and the options that each takes, which
+are checked here for command and Python function. This module does not load numpy.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,40 @@ from typing import Any, NamedTuple, cast
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
-from .schemes import CRITERIA, DESIGNS, FIT, KNUCKLES, NAMES, SCHEMES
+
+DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")  # remaining force of shafts that turn unevenly
+LADDER = ("auto", "step")  # schemes that fit steps of the ladder
+KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
+FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
+
+# Name, options and meaning of each scheme.
+_SCHEMES = """
+auto | | orders 1 and 2: counterweights, then shafts as far as they are worth one
+complete | | all of orders 1 and 2, however small: counterweights, then shafts
+step | step | a step of the ladder that balance prints, by its name or number
+counterweights | order planes | rotating masses, and the part of order 1 that turns with the crank
+factor | factor measured planes | the shop's balance factor, with the bobweight card
+minimax | planes position orders | the counterweight that leaves the smallest peak force
+ellipse | direction ratio planes position | the counterweight that leaves order 1 a wanted \
+direction and shape
+single-shaft | order at position planes | one shaft against the crank, and counterweights for the \
+rest
+two-shaft | order at position roll | two shafts turning against each other: force of one order
+four-shaft | at position | two such pairs, for the forces of orders 1 and 2
+couple-shaft | order at planes | shafts with two opposite eccentrics: moment of one order
+compensator | order at position | pairs of masses far from the engine: vertical moment of one order
+slider | order at position | reciprocating masses along the axes of one order's ellipse
+eccentric-slider | design criterion radius | a pair of shafts of variable speed, for one cylinder
+oldham | radius | an Oldham coupling for orders 1 and 2 of one cylinder
+knuckles | even | knuckle angles for even dead centres or strokes (articulated)
+fit | target | devices whose unbalance is "fit" in the file, in their places
+"""
+_ROWS = [[cell.strip() for cell in row.split("|")] for row in _SCHEMES.strip().splitlines()]
+MEANINGS = {name: meaning for name, _, meaning in _ROWS}
+NAMES = tuple(MEANINGS)
+OPTIONS = {name: tuple(options.split()) for name, options, _ in _ROWS}
+SCHEMES = {name: options for name, options in OPTIONS.items() if name not in (KNUCKLES, FIT)}
 
 # Kind of number of each option, and words for a right value.
 _NUMBERS: dict[str, tuple[type, str]] = {

@@ -60,7 +60,6 @@ class Residual(NamedTuple):
         noise: Rounding error of each part, in the same units.
         reference: Point about which moments and roll are taken.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
-        note: Reason why lower orders are left, if a scheme chose this order.
     """
 
     order: int
@@ -68,7 +67,6 @@ class Residual(NamedTuple):
     noise: dict[ResidualPart, float]
     reference: ReferencePoint
     newtons_per_kg_m: float
-    note: str = ""
 
     def force(self, sense: int) -> complex:
         """Return the force that turns in this sense (1 with the crank, -1 against it), kg m."""
@@ -213,10 +211,9 @@ def choose_residual(
     residual = find_residual(engine, options.order)
     if any(residual.has(kind, senses) for kind in kinds):
         return residual
-    rest = _tell_rest(residual, kinds, senses)
     with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: {'; '.join(['nothing to balance', *rest])}",
+        f"order {options.order} has no free {what}: nothing to balance",
         **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
@@ -228,99 +225,37 @@ def _find_lowest(
     senses: Sequence[int],
     what: str,
 ) -> Residual:
-    """Return the residual of the lowest order with a part of these kinds that is not small; its
-    note lists the parts of lower orders.
-    """
+    """Return the residual of the lowest order with a part of these kinds that is not small."""
     scales, least = find_scales(engine), options.read_small()
     sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
-    rests: dict[str, list[str]] = {}
-    found, small = [], []
+    found = []
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         residual = find_residual(engine, order)
         share = max(find_share(residual, part, scales) for part in sought)
         if not is_small(share, least):
-            break
-        rest = _tell_rest(residual, kinds, senses)
-        if share:
-            small.append((share, residual))
-            rest.append(f"its {what} is small")
-        if rest:
-            rests.setdefault("; ".join(rest), []).append(str(order))
-        found.append(residual)
-    each = (f"{', '.join(orders)} ({rest})" for rest, orders in rests.items())
-    stay = f". Orders that stay as they are: {'; '.join(each)}" if rests else ""
-    if len(found) < HIGHEST_ORDER_SOUGHT:
-        note = f"Order {order} is the lowest with a free {what}{stay}."
-        return residual._replace(note=note if rests else "")
-    if small:
-        largest = max(small, key=lambda one: one[0])[1]
-        raise OnlySmallError(tell_small(largest, sought, found, scales, least))
+            return residual
+        found.append((share, residual))
+    share, largest = max(found, key=lambda one: one[0])
+    if share:
+        raise OnlySmallError(tell_small(largest, sought, scales))
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
-        f"--order names a higher one{stay}"
+        "--order names a higher one"
     )
 
 
-def tell_small(
-    largest: Residual,
-    sought: Sequence[ResidualPart],
-    found: Sequence[Residual],
-    scales: Scales,
-    least: float,
-) -> str:
-    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
-    which scheme cancels the largest part of all.
+def tell_small(largest: Residual, sought: Sequence[ResidualPart], scales: Scales) -> str:
+    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel.
 
     Args:
-        largest: Residual of the order with the largest part that the scheme cancels.
-        sought: Parts that the scheme cancels.
-        found: Residuals of all orders.
-        scales: Force, moment and roll of one cylinder.
-        least: Share of one cylinder below which a part is small.
+        largest: Residual with that part.
+        sought: Parts that the scheme could cancel.
+        scales: Values of one cylinder.
     """
     part = max(sought, key=lambda one: find_share(largest, one, scales))
-    told = (
-        f"the largest {part.kind} {_turning(part)} is {_tell_size(largest, part)} "
-        f"(order {largest.order}), small compared with one cylinder's; "
-        f"--order {largest.order} fits it"
+    turning = "with" if part.sense > 0 else "against"
+    size = f"{largest.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
+    return (
+        f"the largest {part.kind} {turning} the crank is {size} (order {largest.order}), small "
+        f"compared with one cylinder's; --order {largest.order} fits it"
     )
-    every = [
-        (find_share(one, part, scales), one, part)
-        for one in found
-        for part in (*FORWARD, *BACKWARD)
-        if not is_small(find_share(one, part, scales), least)
-    ]
-    if not every:
-        return told
-    senses = {part.sense for part in sought}
-    alike = [each for each in every if each[2].sense in senses]
-    _, one, part = max(alike or every, key=lambda each: each[0])
-    ratio = part.sense * one.order
-    takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
-    takes = "single-shaft" if part == BACKWARD_FORCE else takes
-    takes = "counterweights" if ratio == 1 else takes
-    return f"{told}. {takes} takes the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
-
-
-def _turning(part: ResidualPart) -> str:
-    return "with the crank" if part.sense > 0 else "against the crank"
-
-
-def _tell_size(residual: Residual, part: ResidualPart) -> str:
-    return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
-
-
-def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
-    """Return the other parts of an order, and the schemes that cancel them."""
-    if 1 in senses:
-        far = "couple-shaft, or compensator with --order and --position far from the engine"
-        takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
-        others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
-        return [f"it has a free {kind}: {takes[kind]}" for kind in others]
-    rest = []
-    if forward := [part.kind for part in FORWARD if residual.parts[part]]:
-        cure = "the scheme counterweights" if residual.order == 1 else "two-shaft, couple-shaft"
-        rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
-    if "moment" not in kinds and residual.has("moment", senses):
-        rest.append("its moment turning against the crank: eccentrics in two planes")
-    return rest

@@ -67,7 +67,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if two and options.position is not None:
         raise BalcliError("--planes and --position both say where along the shaft: give one")
     residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
-    fitting = Fitting.start(engine, "single-shaft", residual.order, residual.note)
+    fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
         fitting = add_at_ends(fitting, residual)
     planes: tuple[float, ...]
@@ -101,7 +101,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if len(at) > len(senses):
         told = "two shafts" if len(senses) == 2 else "one shaft"
         raise BalcliError(f"--at: this moment takes {told}; give no more places")
-    fitting = Fitting.start(engine, "couple-shaft", residual.order, residual.note)
+    fitting = Fitting.start(engine, "couple-shaft", residual.order)
     for sense, place in reversed([*zip(senses, (*at, 0j, 0j), strict=False)]):
         slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
         unbalance = residual.moment(sense) / (high - low)
@@ -122,7 +122,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
         if options.roll:
             raise BalcliError(f"{reason}; leave out --roll") from None
         raise
-    fitting = Fitting.start(engine, "two-shaft", residual.order, residual.note)
+    fitting = Fitting.start(engine, "two-shaft", residual.order)
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
@@ -207,7 +207,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
     if not forces and any(sizes):
         largest = residuals[sizes.index(max(sizes))]
-        raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
+        raise OnlySmallError(tell_small(largest, FORCE, scales))
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:

@@ -30,9 +30,8 @@ from ..core.records import Node, to_document
 from ..engine.engine import Engine
 from ..errors import BalcliError
 from .fitting import Fitting
-from .options import SchemeOptions
+from .options import CRITERIA, DESIGNS, SchemeOptions
 from .remedy import Remedy
-from .schemes import CRITERIA, DESIGNS
 
 FORCES = ("orders 1+2", "all orders")  # first cos theta + lambda cos 2 theta, then the exact force
 _LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1 its series is too long

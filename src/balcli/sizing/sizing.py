@@ -172,7 +172,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fit = size_unbalances(slots, residual, FORCE)
     rounding = 2 * residual.noise[FORWARD_FORCE]
     unbalances = [u if abs(u) > rounding else 0j for u in fit.unbalances]
-    fitting = Fitting.start(engine, "slider", residual.order, residual.note)
+    fitting = Fitting.start(engine, "slider", residual.order)
     reason = (
         f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
         "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"

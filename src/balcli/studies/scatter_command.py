@@ -17,8 +17,7 @@ from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import refuse_overwriting, show
 from ..shell.progress import exit_if_cut_short, reporting_until_stopped
 from ..shell.values import optional
-from ..show.csv import Rows
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, number
 from ..show.units import name_with_unit, unit_of_name
 from .quantity_names import tell_speeds

@@ -17,7 +17,6 @@ from ..limits import MOST_THREADS
 from ..shell.file_names import (
     VARIANTS,
     Place,
-    VariantsFormat,
     format_of,
     format_option,
     picture_form,
@@ -25,12 +24,11 @@ from ..shell.file_names import (
     text_format,
 )
 from ..shell.inputs import read_engine, warn_each, warn_of_unknown_moments
-from ..shell.options import EnginePath, FormatOption, Output, ProgressAtOnce
+from ..shell.options import EnginePath, FormatOption, Output
 from ..shell.output import is_seen, refuse_overwriting, show, write_figure
 from ..shell.progress import reporting
 from ..shell.values import optional
-from ..show.csv import Rows
-from ..show.formats import Renderer
+from ..show.formats import Format, Renderer, Rows
 from ..show.sheet import NAMELESS, UNKNOWN, Grid, Sheet
 from ..show.units import System
 from .quantity_names import describe_names
@@ -123,12 +121,11 @@ def sweep(
         str | None,
         optional("WHAT,...", QUANTITY, "--quantity", "-q", show_default=DEFAULT_QUANTITIES),
     ] = None,
-    form: Annotated[VariantsFormat | None, format_option(VariantsFormat, FORM)] = None,
+    form: Annotated[Format | None, format_option(VARIANTS.values(), FORM)] = None,
     output: Annotated[
         Place | None, optional("FILE|FOLDER/", OUTPUT, "--output", "-o", parser=read_place)
     ] = None,
     force: Annotated[bool, typer.Option("--force", help=FORCE)] = False,
-    progress: ProgressAtOnce = False,
     plot: Annotated[Path | None, optional("FILE", PLOT)] = None,
     jobs: Annotated[
         int | None, optional("N", JOBS, "--jobs", "-j", min=1, max=MOST_THREADS)
@@ -157,7 +154,7 @@ def sweep(
     warn_each(job.doubts, job.name)
     if drawn is not None:
         sweep_show.check_drawable(job)
-    shown = not is_seen(file) or kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN)
+    shown = not is_seen(file) or kind in (Format.TABLE, Format.MARKDOWN)
     kept: list[Chunk] = []
 
     def report(chunks: Iterable[Chunk]) -> Iterator[Chunk]:
@@ -170,7 +167,7 @@ def sweep(
             watch(done)
 
     with (
-        reporting("variants", job.variants, progress, shown) as watch,
+        reporting("variants", job.variants, shown) as watch,
         sweep_write.share_work(jobs, dask) as share,
     ):
         if output is not None and output.is_folder:
@@ -183,8 +180,8 @@ def sweep(
 
 
 def _choose_target(
-    output: Place | None, form: VariantsFormat | None, plot: Path | None
-) -> tuple[Path | None, VariantsFormat]:
+    output: Place | None, form: Format | None, plot: Path | None
+) -> tuple[Path | None, Format]:
     """Return the path for the variants (None: standard output) and the format.
 
     Raises:
@@ -193,9 +190,9 @@ def _choose_target(
     """
     file = None if output is None else output.path
     if output is None or not output.is_folder:
-        usual = VariantsFormat.TABLE if is_seen(file) else VariantsFormat.CSV
+        usual = Format.TABLE if is_seen(file) else Format.CSV
         return file, format_of(file, form, VARIANTS, usual)
-    if form not in (None, VariantsFormat.PARQUET):
+    if form not in (None, Format.PARQUET):
         raise BalcliError(
             f"--output {output.path}/: a folder takes Parquet files, but --format is {form}; "
             "leave one of them out"
@@ -205,4 +202,4 @@ def _choose_target(
             f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
             "file, or leave --plot out"
         )
-    return file, VariantsFormat.PARQUET
+    return file, Format.PARQUET

@@ -17,9 +17,8 @@ from ..errors import BalcliError
 from ..file.model import EngineFile
 from ..limits import MOST_PICTURE_VARIANTS
 from ..show import plot_style as style
-from ..show.csv import Columns, json_text
 from ..show.figures import name_engine
-from ..show.formats import Columnar
+from ..show.formats import Columnar, Columns, json_text
 from ..show.sheet import NAMELESS, Grid, Sheet, assumed_facts, count_name, given, number
 from ..show.units import ShownUnit, name_with_unit, unit_of_name
 from .quantity_names import tell_speeds

@@ -27,7 +27,6 @@ from ..errors import BalcliError, tell_unwritable
 from ..files import replacing
 from ..limits import MOST_ROWS_READ, MOST_THREADS
 from ..process import count_cores
-from ..shell.file_names import VariantsFormat
 from ..shell.output import is_seen, standard_output
 from ..shell.progress import Progress
 from ..show.formats import Format, lay_out
@@ -92,22 +91,20 @@ def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> N
             writer.write_table(pyarrow.table(nulls, schema=schema))
 
 
-def write_sweep(
-    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, output: Path | None
-) -> None:
+def write_sweep(sweep: Sweep, chunks: Iterable[Chunk], kind: Format, output: Path | None) -> None:
     """Write all chunks as CSV, JSON, Parquet or a table. A file gets its name when it is complete.
 
     Raises:
         BalcliError: Parquet needs a file, the file cannot be written, or pyarrow is missing.
     """
-    if output is None and kind is VariantsFormat.PARQUET:
+    if output is None and kind is Format.PARQUET:
         raise BalcliError("parquet is written into a file: name one with -o")
     if output is None:
         with standard_output() as stream:
             stream.writelines(_make_text(sweep, chunks, kind, seen=is_seen(output)))
         return
     with replacing(output) as place:
-        if kind is VariantsFormat.PARQUET:
+        if kind is Format.PARQUET:
             write_sweep_parquet(sweep, chunks, place)
         else:
             with place.open("w", encoding="utf-8", newline="\n") as stream:
@@ -115,14 +112,14 @@ def write_sweep(
 
 
 def _make_text(
-    sweep: Sweep, chunks: Iterable[Chunk], kind: VariantsFormat, *, seen: bool = False
+    sweep: Sweep, chunks: Iterable[Chunk], kind: Format, *, seen: bool = False
 ) -> Iterator[str]:
     waiting = iter(chunks)
     # An impossible variant is reported before a heading is written.
     whole = chain(list(islice(waiting, 1)), waiting)
-    if kind in (VariantsFormat.TABLE, VariantsFormat.MARKDOWN):
-        return iter([lay_out([_make_table(sweep, whole)], Format(kind), seen=seen)])
-    return (sweep_json if kind is VariantsFormat.JSON else sweep_csv)(sweep, whole)
+    if kind in (Format.TABLE, Format.MARKDOWN):
+        return iter([lay_out([_make_table(sweep, whole)], kind, seen=seen)])
+    return (sweep_json if kind is Format.JSON else sweep_csv)(sweep, whole)
 
 
 def _make_table(sweep: Sweep, chunks: Iterable[Chunk]) -> Sheet:

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from ..core.phasors import Array
-from ..core.vectors_over_cycle import Vectors, find_panels
+from ..core.piecewise import Vectors, find_panels
 from ..engine.engine import Engine
 from ..forces.crankshaft import (
     ROUNDING,

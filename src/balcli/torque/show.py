@@ -11,10 +11,9 @@ from ..engine.engine import CylinderNumber
 from ..forces.curves import find_constant_inertia
 from ..forces.kinds import GAS, TORQUE, TORQUE_TOTAL
 from ..limits import MOST_HARMONICS_UNASKED
-from ..show.csv import Rows
 from ..show.engine_facts import list_silent, tell_speed, tell_strokes
 from ..show.figures import FigureRow, order_rows
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows
 from ..show.sheet import (
     NAMELESS,
     Facts,

@@ -11,7 +11,7 @@ from ..errors import BalcliError
 from ..file.toml import name_file
 from ..shell.file_names import picture_form, require_ending, text_format
 from ..shell.inputs import warn_each
-from ..shell.options import FormatOption, Misfire, Output, ProgressAtOnce, UnitsOption
+from ..shell.options import FormatOption, Misfire, Output, UnitsOption
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
 from ..shell.progress import reporting
 from ..shell.values import optional
@@ -61,7 +61,6 @@ def torsion(
         Literal["all", "modes", "campbell", "response", "waterfall"],
         typer.Option(help="Picture of --plot; the last two need --speeds."),
     ] = "all",
-    progress: ProgressAtOnce = False,
     units: UnitsOption = Units.SI,
     form: FormatOption = None,
     output: Output = None,
@@ -89,7 +88,7 @@ def torsion(
     answer.require_speeds(asked, what)
     source = load.load_source(path, answer.parse_half_orders(orders), misfire or ())
     warn_each(source.doubts, name_file(path))
-    with reporting("work", at_once=progress) as tell:
+    with reporting("work") as tell:
         result = answer.answer_question(source, asked, tell)
     sized = result.damper
     if sized is not None:

@@ -19,7 +19,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from ..core.extrema import ROUNDS, find_least
+from ..core.peaks import ROUNDS, find_least
 from ..core.phases import RPM
 from ..core.records import HIDDEN
 from ..core.vibration import Real

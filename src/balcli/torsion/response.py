@@ -14,8 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.extrema import find_highest, find_peaks_between
-from ..core.peaks import find_swing, sum_amplitudes
+from ..core.peaks import find_highest, find_peaks_between, find_swing, sum_amplitudes
 from ..core.phases import RPM
 from ..core.vibration import ROUNDING, Indices, Real
 from ..file.fields import order_number

@@ -12,9 +12,8 @@ import numpy as np
 
 from ..core.records import Figure, Node, list_figures, list_series, remove_unit, to_document
 from ..core.vibration import Real
-from ..show.csv import Rows, name_cell
 from ..show.engine_facts import list_silent
-from ..show.formats import Renderer
+from ..show.formats import Renderer, Rows, name_cell
 from ..show.sheet import (
     UNKNOWN,
     Facts,

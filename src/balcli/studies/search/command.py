@@ -18,8 +18,7 @@ from ...shell.options import EnginePath, FormatOption, Output
 from ...shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
 from ...shell.progress import exit_if_cut_short, reporting, reporting_until_stopped
 from ...shell.values import optional
-from ...show.csv import Column, Columns, Rows
-from ...show.formats import Renderer
+from ...show.formats import Column, Columns, Renderer, Rows
 from ...show.sheet import NAMELESS, Grid, Sheet, assumed_facts, number
 from ...show.units import name_with_unit, unit_of_name
 from ..quantity_names import tell_speeds
