@@ -23,8 +23,8 @@ SCHEMES: dict[str, tuple[str, ...]] = {
 }
 
 
-DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
-CRITERIA = ("largest", "mean")  # remaining force of shafts that turn unevenly
+DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")  # force that shafts of uneven speed leave, to be minimised
 
 
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
@@ -41,10 +41,10 @@ NAMES = (*SCHEMES, KNUCKLES, FIT)
 
 # Description of each scheme.
 MEANINGS = {
-    "auto": "orders 1 and 2: counterweights, then shafts as far as they are worth one",
+    "auto": "orders 1 and 2: counterweights, then shafts where they cancel enough",
     "complete": "all of orders 1 and 2, however small: counterweights, then shafts",
     "step": "a step of the ladder that balance prints, by its name or number",
-    "counterweights": "rotating masses, and the part of order 1 that turns with the crank",
+    "counterweights": "against rotating masses and the part of order 1 that turns with the crank",
     "factor": "the shop's balance factor, with the bobweight card",
     "minimax": "the counterweight that leaves the smallest peak force",
     "ellipse": "the counterweight that leaves order 1 a wanted direction and shape",
