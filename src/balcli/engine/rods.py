@@ -205,7 +205,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
         worst = spin.argmin()
         shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-        told = f"period {period.flat[worst]:g} s is too quick: a full swing takes more than "
+        told = f"period {period.flat[worst]:g} s is too short: a full swing takes more than "
         told += (
             f"{shortest:.4g} s with the centre of mass {1e3 * arm.flat[worst]:g} mm from the pivot"
         )
@@ -233,7 +233,7 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
-    aside = f", with the piston offset over rod length {lam + eps:.9g}" if eps else ""
-    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{aside}; at most 1 - "
+    sum_ = f"; with the piston offset over rod length, the sum is {lam + eps:.9g}" if eps else ""
+    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{sum_}; at most 1 - "
     told += f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
     yield Problem(place.path(*LENGTHS), told)

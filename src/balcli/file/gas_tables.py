@@ -254,7 +254,7 @@ class Gas(FileTable):
         if len(given) > 1:
             yield f"has {join_words(given)}; {choice}"
         elif not given:
-            yield f"does not say how much is burnt; {choice}"
+            yield f"has no key for the heat; {choice}"
         if self.cycle == "dual" and not self.has("max_pressure"):
             yield "needs max_pressure, the pressure of the second part of the burn in a dual cycle"
         if self.has("bmep") and self.mechanical_efficiency is None:

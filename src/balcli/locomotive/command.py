@@ -1,4 +1,4 @@
-"""`balcli locomotive`"""
+"""The command `balcli locomotive`: its options and its output."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ Factor = Annotated[
 ]
 HammerBlow = Annotated[
     str | None,
-    optional("N", "The factor that this hammer blow of a wheel allows, such as '40 kN'."),
+    optional("N", "Largest hammer blow of a wheel, instead of a factor, such as '40 kN'."),
 ]
-Speed = Annotated[str | None, optional("KM_H|RPM", "As '80 km/h', '50 mph', or crank speed, rpm.")]
+Speed = Annotated[str | None, optional("KM_H|RPM", "Such as '80 km/h', '50 mph', or 300 (rpm).")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
 
 
@@ -42,12 +42,13 @@ def locomotive(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Hammer blow of a steam locomotive: balance masses in the wheels, rail loads, wheel lift,
-    variation of tractive effort and swaying couple.
+    """Balance of a steam locomotive: balance masses in the wheels, hammer blow, rail loads, wheel
+    lift, variation of tractive effort and swaying couple.
 
     The file has [locomotive] and, for coupled wheels, [[axle]] with the masses of the coupling rods
     (side rods); `balcli new locomotive` writes one to start from. Several factors make a table with
-    a row for each: more overbalance means less nosing and a larger dynamic augment.
+    a row for each: a larger factor (more overbalance) means less nosing and a larger dynamic
+    augment.
 
     \b
     Examples:
@@ -81,7 +82,7 @@ def locomotive(
 
 
 def _read_bare(text: str | None) -> float | str | None:
-    """Return a number without a unit as a number, anything else as it is."""
+    """Return a text without a unit as a number, and any other text unchanged."""
     try:
         return None if text is None else float(text)
     except ValueError:
@@ -89,14 +90,14 @@ def _read_bare(text: str | None) -> float | str | None:
 
 
 def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float | None) -> str:
-    """Return the text of an engine file with the balance masses as counterweights and without
-    its factor.
+    """Return the text of an engine file with the balance masses as counterweights, and without
+    `locomotive.factor`.
 
     Args:
         text: Text of the file, UTF-8.
-        result: Its balance.
-        file: Its name in messages.
-        rpm: Crank speed that is not the file's; None: it is.
+        result: Balance of the locomotive.
+        file: Name of the file, for messages.
+        rpm: Crank speed to write; None: the speed of the file remains.
     """
     from ..balancing.answer import insert_remedy
 

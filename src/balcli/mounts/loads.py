@@ -122,7 +122,7 @@ class BodyLoads:
         return load
 
     def to_crank_rpm(self, omega: Real) -> Real:
-        """Return the mean speeds over the crank angle, rpm, for mean speeds over the time, rad/s."""
+        """Return the mean speeds over the crank angle, rpm, for those over the time, rad/s."""
         return np.asarray(omega / self.turns / RPM)
 
     @property

@@ -37,8 +37,12 @@ _UNCHANGED = 1e-9  # share of the wanted weight; a smaller change counts as 0
 
 
 class _Pin(NamedTuple):
-    """Load of one crank pin: numbers of its cylinders; unbalance that is to be balanced (throw
-    included) at crank angle 0, kg m; centre of these masses along z, m.
+    """Load of one crank pin.
+
+    Attributes:
+        cylinders: Numbers of its cylinders.
+        unbalance: Unbalance to be balanced (throw included) at crank angle 0, kg m.
+        z: Centre of these masses along the crank, m.
     """
 
     cylinders: tuple[int, ...]
@@ -47,9 +51,13 @@ class _Pin(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    """Planes of counterweights: their z, m, shape (planes,); the unbalance that each needs, has and
-    lacks at crank angle 0, kg m, shape (3, planes); and, without given planes, the pins of each
-    plane.
+    """Planes of counterweights.
+
+    Attributes:
+        z: Positions of the planes, m, shape (planes,).
+        needs: Unbalance that each plane needs, has and lacks at crank angle 0, kg m, shape (3,
+            planes).
+        sets: Pins of each plane; empty if planes are given.
     """
 
     z: Array
@@ -62,8 +70,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
     planes; pins and weights are transferred to them by the lever rule. Default planes are those of
-    the file's counterweights, or, if these are in fewer than two planes, those of the pins. Pins in
-    the same plane are added.
+    the file's counterweights, or, if these are in fewer than two planes, those of the pins. If the
+    file has a counterweight, pins in the same plane are added; else each pin has its own plane.
 
     For several factors, the peaks of each are listed, and the factor with the smallest peak force
     is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
@@ -97,7 +105,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     note = _note(fitting, best, found.z, own)
     if not note and options.planes is None and planes is not None:
         note = (
-            "these planes are where the counterweights of the file stand; --planes throws computes "
+            "these are the planes of the counterweights of the file; --planes throws computes "
             "weights at every throw instead"
         )
     return fitting.remedy._replace(
@@ -347,8 +355,8 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
 
 
 def name_one_cylinder(engine: Engine) -> str:
-    """Return in words the reciprocating mass to which a factor refers: that of any cylinder, or the
-    mean of unequal ones.
+    """Return in words the reciprocating mass to which a factor refers: that of any cylinder if all
+    are equal, else the mean of all.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
     return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"

@@ -157,7 +157,7 @@ def check_small(share: float) -> float:
 
 
 def _are(values: object, kind: type, finite: bool) -> bool:
-    """Return whether there are values and all are numbers of this kind and, with `finite`, finite."""
+    """Return whether there are values, and all are numbers of this kind (`finite`: and finite)."""
     if not isinstance(values, tuple) or not values:
         return False
     try:

@@ -275,7 +275,7 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
         named = _name_loop(chain, paths, mesh, roots, meshes)
-        hint = "the file does not determine how they share the torque; leave it out, or give a stiffness"
+        hint = "their shares of the torque are not determined; leave it out, or give a stiffness"
         yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts with {named}: {hint}")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
