@@ -1,5 +1,5 @@
-"""Orders and largest values of forces in a plane over a cycle, which are smooth between common
-breakpoints.
+"""Compute orders and largest values over a cycle of forces in a plane that are smooth between
+common breakpoints.
 
 All forces are sampled at the Gauss-Legendre nodes of the same panels, on which each is a short
 series (`core.piecewise`). A sum of forces is then a sum of samples, so that each force is computed
@@ -22,9 +22,9 @@ from .piecewise import PiecewiseCurve, cut, gauss, quadrature, resolved, values_
 
 Vectors: TypeAlias = Callable[[Array], Complex]  # values at angles, shape (vectors, angles)
 
-_TERMS = 16  # of a series: as many as `quadrature` has nodes
+_TERMS = 16  # number of terms of a series: as many as `quadrature` has nodes
 _TURN_ON_PANEL = 4.0  # rad; if e^{in angle} turns no farther on a panel, these terms suffice
-_AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
+_AT_ONCE = 1 << 20  # largest number of orders x angles, which bounds the memory
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class Panels:
             forward.append(turned @ weighed)
             backward.append(np.conj(turned) @ weighed)
         ahead, against = np.concatenate(forward), np.concatenate(backward)
-        against[orders == 0] = 0.0  # a mean is kept in one of both
+        against[orders == 0] = 0.0  # only the other vector holds the mean
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
         there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has
         ahead[~there] = against[~there] = 0.0
@@ -95,7 +95,7 @@ def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
     """Return panels for forces that are smooth between breakpoints, fine enough for these orders.
 
     Args:
-        forces: Returns the values of all forces at angles (rad).
+        forces: Function that returns the values of all forces at angles (rad).
         breaks: Rising breakpoints, rad; the last is one period after the first.
         highest_order: Highest order that is wanted.
     """

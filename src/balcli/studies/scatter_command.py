@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from .scatter import Scatter, Spread
 
 
-SHOWN = 6  # changes of each quantity in a table
-BOUND = "Bound: nominal value plus all changes below; a variant may lie slightly beyond"
+SHOWN = 6  # largest number of changes of each quantity in a table
+BOUND = "Bound: nominal value plus the changes by all tolerances; a variant may lie slightly beyond"
 _SHAPES = {
     "uniform": "evenly distributed",
     "normal": (
