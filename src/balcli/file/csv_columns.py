@@ -238,7 +238,7 @@ def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
         cell, line = pointed[0]
         raise ValueError(
             f"line {line}: {cell}: is the point between thousands? Write "
-            f"{cell.replace('.', '')}, or {cell}0 if it parts decimals"
+            f"{cell.replace('.', '')}, or {cell}0 if it separates decimals"
         )
 
 

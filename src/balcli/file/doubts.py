@@ -168,7 +168,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
         yield (
             f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
-            f"at {speed:g} rpm are two-strokes: say layout.strokes = 2, or 4 if it is so"
+            f"at {speed:g} rpm are two-strokes: give layout.strokes = 2, or 4 if that is right"
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
@@ -193,7 +193,7 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
     mean, right = stroke * speed / 30e3, "are operation.speed and crank.stroke right?"
     yield Figure("the mean piston speed is", mean, 0, PISTON_SPEED, " m/s", right)
-    thousands = "a point parts decimals, not thousands"
+    thousands = "a point separates decimals, not thousands"
     yield Figure("operation.speed is", speed, SPEED, math.inf, " rpm", thousands)
 
 

@@ -29,11 +29,11 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # share of one cylinder's mass; weighed pistons of an engine differ by less
-_FLAT = 1e-9  # share of the largest value; factors with smaller differences are equally good
-_ROUNDS = 32  # of the search: they reach 2e-7 of the range of factors
+_NEARLY = 0.05  # masses within this share of one cylinder's nearly cancel; pistons differ by less
+_FLAT = 1e-9  # factors whose peaks differ by less than this share of the largest are equally good
+_ROUNDS = 32  # steps of the search, which narrow the range of factors to 2e-7
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
-_UNCHANGED = 1e-9  # share of the wanted weight; a smaller change counts as 0
+_UNCHANGED = 1e-9  # a change of a weight by a smaller share counts as 0
 
 
 class _Pin(NamedTuple):
@@ -275,7 +275,7 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
     if not reciprocating:
-        raise BalcliError("--measured: nothing goes to and fro in this engine: there is no factor")
+        raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
     told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
@@ -284,7 +284,9 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
             "pin rotate; is the unit right?"
         )
     if factor < 0:
-        warn(f"{told}: is less than the {turning} g that rotate on a pin, a factor of {factor:.2%}")
+        warn(
+            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
+        )
     return factor
 
 
@@ -332,7 +334,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     counterweights if there are at least two, else None (the planes of the pins).
     """
     if options.planes is None:
-        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding
+        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding errors
         own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
@@ -359,7 +361,7 @@ def name_one_cylinder(engine: Engine) -> str:
     are equal, else the mean of all.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
-    return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
+    return f"one cylinder's{' mean' if len(masses) > 1 else ''} reciprocating mass"
 
 
 # ------------------------------------------------------------------ what is wanted, what is there
@@ -368,14 +370,14 @@ def _fit_factor(
 ) -> tuple[Fitting, _Planes]:
     """Fit the missing weight in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
-    counted = "; what the counterweights of the file do is counted"
+    counted = "; less the counterweights of the file"
     less = counted if _find_counterweights(engine)[1].any() else ""
     taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
     found = _find_needs(engine, factor, planes)
     slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
     missing = found.needs[2].tolist()
     if planes is not None:
-        reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
+        reason = f"In these planes, divided by the lever rule: {taken} of every pin{less}"
         return fitting.add(slots, missing, reason), found
     for slot, unbalance, pins in zip(slots, missing, found.sets, strict=True):
         numbers = [str(number) for pin in pins for number in pin.cylinders]

@@ -1,5 +1,5 @@
-"""`Residual`: free force, moment and roll of one order that a scheme has to cancel, as rotating
-vectors; and how large they are compared with one cylinder.
+"""Compute the free force, moment and roll of one order that a scheme has to cancel (`Residual`), as
+rotating vectors, and their sizes compared with one cylinder.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ class ResidualPart(NamedTuple):
 
     Attributes:
         kind: "force", "moment" or "roll".
-        sense: 1 if the vector turns with the crank, -1 if against it; 0 for the roll, a scalar.
+        sense: 1 if the vector turns with the crank, -1 if it turns against it; 0 for the roll, a
+            scalar.
     """
 
     kind: PartKind
@@ -189,7 +190,7 @@ def choose_residual(
         engine: Engine with its devices.
         options: Options of the scheme.
         kinds: Kinds of parts that the scheme cancels.
-        senses: Senses of rotation that it cancels: 1 with the crank, -1 against it.
+        senses: Senses of rotation that the scheme cancels: 1 with the crank, -1 against it.
 
     Raises:
         NothingToBalanceError: There is no such part.
@@ -290,7 +291,7 @@ def tell_small(
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes
     takes = "counterweights" if ratio == 1 else takes
-    return f"{told}. {takes} takes the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
+    return f"{told}. {takes} cancels the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
 
 
 def _turning(part: ResidualPart) -> str:

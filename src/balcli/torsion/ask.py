@@ -35,7 +35,7 @@ def parse_half_orders(text: str | None) -> Real | None:
     """
     if text is None:
         return None
-    right = "give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4"
+    right = "give multiples of 0.5 such as 0.5-8 (with halves), 1-8 (whole ones) or 1,2.5,4"
     bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
     found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
     return np.array(sorted(set(found)), float)
@@ -70,7 +70,7 @@ def parse_question(
     """Return the request in these options.
 
     Raises:
-        BalcliError: one of them cannot be read.
+        BalcliError: An option cannot be read.
     """
     heavy = damper_inertia
     inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
@@ -83,7 +83,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
     """Check that a picture over speed has a range of speeds.
 
     Raises:
-        BalcliError: no range was given.
+        BalcliError: No range was given.
     """
     if asked.speeds_rpm is None and what in ("response", "waterfall"):
         raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")
