@@ -408,7 +408,7 @@ def tell_couple(result: Analysis, system: System) -> str:
     causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
     told = f"Transverse couple: up to {size} (order {order_name(order)}), from {join_words(causes)}"
     alone = causes == [_RODS] and result.engine.cylinders.linkage is None
-    return f"{told}{'; rods with H = 0 have none' * alone}."
+    return f"{told}{'; rods equal to two masses at their ends (H = 0) have none' * alone}."
 
 
 def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:

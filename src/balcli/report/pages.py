@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_LARGEST_RATIO = 10.0  # of radii that are drawn
+_LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -96,8 +96,9 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
 
 
 def draw_radius_roses(ax: Any, banks: Banks) -> None:
-    """Draw the same as radii in the directions of both banks, over a whole turn: a circle, a rose,
-    and for a flat-plane V8 the four-leaved rose of Liu (figure 8), thick where it counts.
+    """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks over a
+    whole turn: a circle, a rose, and for a flat-plane V8 the four-leaved rose of Liu (figure 8),
+    thick in the range of real bank angles.
     """
     half = np.radians(banks.angles_deg) / 2
     ax.set_theta_zero_location("N")
@@ -151,7 +152,7 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 
 @dataclass(frozen=True)
 class PageSubject:
-    """The engine of a page, the units in which it is drawn, and the cylinder of the page piston."""
+    """Engine of a page, units in which it is drawn, and cylinder of the page piston."""
 
     study: Study
     system: System = SI
@@ -213,7 +214,7 @@ class PageSubject:
         """Return the title of one of the pictures of a quantity."""
         title = _TITLES[quantity]
         if quantity == ABOUT and self.now.engine.gas is not None:
-            title += ", with gas" if what == "spectrum" else ", of inertia alone"
+            title += ", with gas" if what == "spectrum" else ", of inertia only"
         return title.replace("the crank", tell_pivot(self.now.engine).removesuffix(" axis"))
 
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from ..file.model import EngineFile
 
 
-# Words of --only whose results include moments, among other things.
+# Words of --only whose results include moments.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "pru", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
@@ -153,7 +153,7 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
     hidden folders and pyproject.toml are skipped.
 
     Raises:
-        BalcliError: a path does not exist, or a folder has no engine files.
+        BalcliError: A path does not exist, or a folder has no engine files.
     """
     files: list[Path] = []
     for path in paths:

@@ -1,5 +1,5 @@
-"""Table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
-meanings, and the chapter that computes each. Help, errors and completion use it.
+"""Define the table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names,
+units, meanings, and the chapter that computes each. Help, errors and completion use it.
 
 `N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
 x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
@@ -16,7 +16,7 @@ ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
 JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
-# Chapter, pattern, unit, table of the file that is needed, meaning.
+# Columns: chapter, pattern, unit, table of the file that is needed, meaning.
 _TABLE = f"""
 engine   force.N.PART         N           free force: {_OF_VECTOR}
 engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
@@ -99,7 +99,8 @@ class Form(NamedTuple):
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
-# Quantities that are the largest of a range of speeds: its ends over the engine's speed, in words.
+# Quantities that are largest values over a range of speeds: beginnings of their names, subject of
+# the note, ends of the range over the engine's speed, and this range in words.
 _RANGES = (
     (("mount.", "point."), "Mounts and points", (1 / 8, 1.0), "1/8 to 1 times the engine's speed"),
     (("shaft.",), "Shafts", (0.5, 1.5), "0.5 to 1.5 times the engine's speed"),

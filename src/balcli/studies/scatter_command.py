@@ -72,7 +72,7 @@ def sheet(result: Scatter, system: System) -> Sheet:
         note=" ".join(filter(None, notes)),
     )
     changes = Grid(
-        "Change by each tolerance alone, largest first",
+        "Change by each single tolerance, largest first",
         ("quantity", "change", "made by each of"),
         tuple(causes),
         words=(0, 2),
@@ -110,7 +110,7 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 MASS = "Tolerance of piston, rod and throw masses, and of inertias."
 ANGLE = "Tolerance of throw angles, such as 0.2 deg."
 STIFFNESS = "Tolerance of mounts or shafts."
-OF_EACH = "15% of mounts, 5% of shafts"
+OF_EACH = "15% for mounts, 5% for shafts"
 SAMPLES = "Default: 100000, or 500 for quantities that are computed one by one."
 SHAPES = "Uniform within the tolerances, or normal with a third of them as standard deviation."
 QUANTITY = "Such as force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."

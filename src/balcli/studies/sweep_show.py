@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from .sweep import Chunk, Sweep, Swept
 
 
-FIRST = 20  # first rows in a table of many variants
+FIRST = 20  # number of first rows in a table of many variants
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,7 +143,7 @@ def check_drawable(sweep: Sweep) -> None:
     """Check that a picture of the sweep is possible, before anything is computed.
 
     Raises:
-        BalcliError: not one or two parameters have several values, or there are too many variants.
+        BalcliError: Not one or two parameters have several values, or there are too many variants.
     """
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:

@@ -1,4 +1,4 @@
-"""Compute the fluctuation of the speed of a shaft under a torque, and the inertia that limits it."""
+"""Compute the fluctuation of a shaft's speed under a torque, and the inertia that limits it."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def parse_half_orders(text: str | None) -> Real | None:
     """Return the orders in a text: `0.5-8` in steps of a half, `1-8` in whole steps, or `1,2.5,4`.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if text is None:
         return None
@@ -45,7 +45,7 @@ def _parse_trial(text: str) -> HolzerAsked:
     """Return the number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
         return HolzerAsked(int(text))

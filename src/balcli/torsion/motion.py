@@ -261,7 +261,7 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
         and the angles of pendulums (rad). Heat (speeds, dampers), W: viscous rings, then rubber.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     curves, heat = zip(*compute_in_parts(system, rpm), strict=True)
     return np.concatenate(curves, axis=1), np.concatenate(heat)
@@ -272,7 +272,7 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     """Check that the vibration over a range of speeds (rpm) is bounded and fits into memory.
 
     Raises:
-        BalcliError: there are too many torques by order, shaft and speed, or an undamped mode is
+        BalcliError: There are too many torques by order, shaft and speed, or an undamped mode is
             driven at its own frequency.
     """
     excitation = system.require_excitation()

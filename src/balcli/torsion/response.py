@@ -48,7 +48,7 @@ def find_largest(
         together: Whether only the highest of all columns is needed, which takes less time.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
     orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
@@ -248,7 +248,7 @@ def find_response(
         tell: Called with the share of the speeds computed so far.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
     excitation, end, found = system.require_excitation(), len(system.shafts), []
