@@ -106,7 +106,7 @@ NO_H = "; rods with H = 0 have none."
         ({"rod.inertia": 9000}, f"the rods{NO_H}"),
         ({"piston.offset": 10}, "offset pistons."),
         ({"rod.inertia": 9000, "piston.offset": 10}, "the rods and offset pistons."),
-        ({"frame.reference": [0, 80, 0]}, "forces that pass the reference at a distance."),
+        ({"frame.reference": [0, 80, 0]}, "forces whose lines miss the reference."),
         ({"operation.speed_ripple": [{"order": 2, "amplitude": 0.05}]}, "the acceleration of turning parts."),
     ],
 )

@@ -339,7 +339,7 @@ DOUBTS = [
     (trials(1, 1, ([10.5, 10], [10.5, 10.1])), "the trial weight in p1 changes no reading by more than 0.5, 5% of the largest; use a heavier one"),
     (trials(1, 1, ([10.5, 10], [10.5, 10.1])), "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read again, and add that run to the file"),
     (at_speeds(), "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the largest; use a heavier one"),
-    (three_runs("radius = [0.1, 0.45]"), 'radius is 0.45 mm; is it in mm? Another unit is said as in "0.45 m"'),
+    (three_runs("radius = [0.1, 0.45]"), 'radius is 0.45 mm; is it in mm? Give another unit as in "0.45 m"'),
     (trials(0.02, 15), "the weights tried are 0.02 g in p1 and 15 g in p2; are both in g?"),
     (in_radians(), "all phases of readings are within 2.01 deg of 0; are they in radians? One of 2.01 rad is 115.0 deg"),
     *((in_other_sense(known, 'weights = "with"\n'), f"'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; with {TURNED}") for known in (False, True)),
@@ -389,8 +389,8 @@ def test_runs_that_do_not_tell_are_refused(text, message):
 
 
 def test_planes_to_leave_out_must_be_there():
-    assert refused(three_runs(), without=["reer"]) == ('--without "reer": is no plane; did you mean rear?')
-    assert refused(three_runs(), without=["rear", "front"]) == ("--without: leaves no plane to put a weight in")
+    assert refused(three_runs(), without=["reer"]) == ('--without "reer" is not a plane; did you mean rear?')
+    assert refused(three_runs(), without=["rear", "front"]) == ("--without leaves no plane for a weight")
 
 
 def test_a_rotor_without_unbalance_needs_nothing():

@@ -35,7 +35,7 @@ def runs(tmp_path):
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
     out = ask("field", runs)
     for text, way in ((out, ""), (ask("field", "-", stdin=three_runs('weights = "against"')), "against ")):
-        told = f"a weight at 30 deg stands 30 deg on from the 0 mark, going {way}the way the rotor turns."
+        told = f"a weight at 30 deg is 30 deg from the 0 mark, going {way}the way the rotor turns."
         assert told in " ".join(text.split())
     assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
     assert re.search(r"^front +\d+ of 12 ", out, re.MULTILINE)
@@ -56,7 +56,7 @@ def test_holes(runs, tmp_path):
     assert round(grams) == 38
     told = "earlier ones are not in the file"
     out = " ".join(run_here("field", runs).out.split())
-    assert "Each does as much as this weight at the rim; its steel, further in, weighs more." in out
+    assert "Each has the effect of this weight at the rim; the removed steel, further in, weighs more." in out
     assert told not in out
     last = '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     text = runs.read_text() + last
@@ -98,7 +98,7 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     out = run_here("field", path, "--minimise", minimise).out
     assert "All readings are cancelled" not in out
     assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
-    assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
+    assert "Without its limit, front would need 1.979 g at 236.2 deg." in " ".join(out.split())
     said = ask_json("field", path, "--minimise", minimise)
     front, rear = said["corrections"]
     assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)

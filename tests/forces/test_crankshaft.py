@@ -134,7 +134,7 @@ def near_the_lock(throws, more=""):
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
     with pytest.raises(
         BalcliError,
-        match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
+        match=r"^32768 orders of 34 single cylinders and counterweights are 1114112 forces, "
         r"and at most 1100000 are kept: an engine with longer rods has fewer orders$",
     ):
         compute_inner_loads(near_the_lock([10 * k for k in range(34)]))

@@ -75,7 +75,7 @@ def test_why_a_force_is_the_largest(tmp_path):
 
     near = tell(even + mounts, "660:3000:20", "--orders", "2")
     assert " at 660 rpm at mount 1; order 2 alone makes " in near
-    assert re.search(rf"the slowest speed of the range; most of the force is {of_roll}\.", near)
+    assert re.search(rf"the slowest speed of the range; most of the force is from {of_roll}\.", near)
     out = tell(even + mounts, "500:3000:20", "--orders", "2")
     assert re.search(rf"Order 2 meets {of_roll} at [\d.]+ rpm: resonance", out)
     stiff = even + mounts.replace("[300, 300, 900]\nloss = 0.1", "4000\nloss = 1.2")
@@ -206,7 +206,7 @@ def test_an_engine_that_shakes_nothing():
 def test_what_is_refused(four):
     assert "stays as it is" in refusal("mounts", four, "-o", four)
     told = refusal("mounts", four, "--orders", "0-2")
-    assert told.endswith("order 0 is steady and does not vibrate; leave it out (see the table At rest)")
+    assert told.endswith("order 0 is steady and does not vibrate; leave it out (see the table \"At rest\")")
     mounts = "".join(
         f'[[mount]]\nname = "{k}"\nat = [{k + 9}, {k % 7}, {k % 3}]\nstiffness = [9, 9, 9]\nloss = 1\n'
         for k in range(100)
