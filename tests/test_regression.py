@@ -343,4 +343,4 @@ def test_an_enormous_record_or_a_pipe_is_a_difference(check, file):
     assert "has more than" in check(file)[1]
     find_record(file).unlink()
     os.mkfifo(find_record(file))
-    assert "no regular file" in check(file)[1]
+    assert "not a regular file" in check(file)[1]

@@ -96,7 +96,7 @@ def test_the_couple_is_judged_with_force_and_moment(couple: float, told: str) ->
 
 
 HEAVY = {"crank.stroke": 90, "rod.length": 200, "rod.mass": 2, "rod.cg": 50, "rod.inertia": 15000, "piston.mass": 1}
-NO_H = "; rods with H = 0 have none."
+NO_H = "; rods equal to two masses at their ends (H = 0) have none."
 
 
 @pytest.mark.parametrize(

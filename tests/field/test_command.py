@@ -54,7 +54,7 @@ def test_holes(runs, tmp_path):
     grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
     assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
     assert round(grams) == 38
-    told = "earlier ones are not in the file"
+    told = "the file has no earlier ones"
     out = " ".join(run_here("field", runs).out.split())
     assert "Each has the effect of this weight at the rim; the removed steel, further in, weighs more." in out
     assert told not in out
@@ -155,7 +155,7 @@ def test_a_trim_is_shown_next_to_the_total(tmp_path, head):
     path = write(tmp_path / "runs.toml", three_runs(head, last=last))
     out = run_here("field", path, "-f", "markdown").out
     assert "add now, g" in out
-    assert "on top of what was on in 'in'" in out
+    assert "in addition to 'in'" in out
     assert json.loads(run_here("field", path, "-f", "json").out)["trimmed"] == "in"
     told = "Left out: rear. What was on in 'in' stays on in rear: 1 g at 122.0 deg."
     assert told in " ".join(run_here("field", path, "--without", "rear").out.split())
@@ -182,7 +182,7 @@ def test_picture(runs, tmp_path):
         assert words in picture.read_text(encoding="utf-8")
     message = refusal("field", runs, "--plot", tmp_path / "x.gif")
     assert "give a name that ends in .svg, .png or .pdf" in message
-    assert "stays as it is" in refusal("field", runs, "-o", runs)
+    assert "must not change" in refusal("field", runs, "-o", runs)
 
 
 def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):

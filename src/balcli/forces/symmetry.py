@@ -210,7 +210,7 @@ class Reason(NamedTuple):
             if alone == "0":
                 rest = f"{built} {self.unit} as built (0 without rotating masses and stagger)"
         return {
-            "none": "no cylinder has this order",
+            "none": "no cylinder has any",
             "symmetry": "balanced by symmetry of the layout",
             "chance": "balanced by chance, for these figures only",
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
