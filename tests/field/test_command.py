@@ -155,9 +155,9 @@ def test_a_trim_is_shown_next_to_the_total(tmp_path, head):
     path = write(tmp_path / "runs.toml", three_runs(head, last=last))
     out = run_here("field", path, "-f", "markdown").out
     assert "add now, g" in out
-    assert "in addition to 'in'" in out
+    assert "in addition to the weights of 'in'" in out
     assert json.loads(run_here("field", path, "-f", "json").out)["trimmed"] == "in"
-    told = "Left out: rear. What was on in 'in' stays on in rear: 1 g at 122.0 deg."
+    told = "Left out: rear. The weight of 'in' in rear stays on: 1 g at 122.0 deg."
     assert told in " ".join(run_here("field", path, "--without", "rear").out.split())
     path.write_text(three_runs(head), encoding="utf-8")
     assert "stays on" not in run_here("field", path, "--without", "rear").out
