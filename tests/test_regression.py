@@ -163,7 +163,10 @@ def test_what_others_expect_is_no_record(check, file, tmp_path, text):
         ("[]", "it is not a result of balcli analyze"),
         ('{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}', "a figure is not finite"),
         ('{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}', "a figure is not finite"),
-        (f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}', "it is not a result of balcli analyze"),
+        (
+            f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}',
+            "it is not a result of balcli analyze",
+        ),
     ],
     ids=["text", "object", "list", "infinity", "too large", "whole, too large"],
 )

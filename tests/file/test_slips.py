@@ -161,7 +161,10 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     """What turns with the crank has no second order; of one value nobody knows."""
-    file, nothing = (write(tmp_path / "i4.toml", GOOD), "No effect on force.2.major, which is the same at every searched value.")
+    file, nothing = (
+        write(tmp_path / "i4.toml", GOOD),
+        "No effect on force.2.major, which is the same at every searched value.",
+    )
     told = search(file, "crank.throw_mass=0:6", "force.2.major")
     assert nothing in told
     assert "an end of its range" not in told
