@@ -104,8 +104,8 @@ def ladder_grid(
     notes = []
     if tell_fitted:
         option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
-        what = f"step {fitted}" if fitted else "nothing"
-        notes.append(f"`balcli balance{option}` fits {what}.")
+        what = f"step {fitted}" if fitted else "no step"
+        notes.append(f"By default, `balcli balance{option}` applies {what}.")
         if fitted < len(steps) - 1:
             first = size_text(scale.force_N, system.force)
             if scale.moment_Nm is not None:
