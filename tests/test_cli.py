@@ -77,12 +77,12 @@ def test_an_option_given_twice_is_told_so(balcli, good):
     once = balcli("analyze", good, "--only", "moment")
     status, out, err = balcli("analyze", good, "--only", "force", "--only", "moment")
     assert (status, out) == (0, once[1])
-    assert err == "warning: --only is given 2 times: the last one counts\n"
+    assert err == "warning: --only is given 2 times; the last one is used\n"
     assert balcli("analyze", good, "--only", "force", "-q", "--only", "moment")[2] == ""
     forms = ("--format", "marine", "-f", "csv")
     assert balcli("analyze", good, *forms)[2] == ""
     assert balcli("analyze", good, *forms, "-f", "json")[2] == (
-        "warning: --format is given 2 times: the last one counts\n"
+        "warning: --format is given 2 times; the last one is used\n"
     )
     several = ("sweep", good, "--vary", "rod.length=150", "--vary", "crank.stroke=90")
     assert balcli(*several)[::2] == (0, "")

@@ -160,10 +160,13 @@ def test_what_others_expect_is_no_record(check, file, tmp_path, text):
     [
         ("{", "it is not JSON: line 1"),
         ("{}", "orders is missing"),
-        ("[]", "it is no result of balcli analyze"),
+        ("[]", "it is not a result of balcli analyze"),
         ('{"orders": [], "peak": {"force_N": Infinity, "moment_Nm": 0}}', "a figure is not finite"),
         ('{"orders": [], "peak": {"force_N": 1e999, "moment_Nm": 0}}', "a figure is not finite"),
-        (f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}', "it is no result of balcli analyze"),
+        (
+            f'{{"orders": [], "peak": {{"force_N": 1{400 * "0"}, "moment_Nm": 0}}}}',
+            "it is not a result of balcli analyze",
+        ),
     ],
     ids=["text", "object", "list", "infinity", "too large", "whole, too large"],
 )
@@ -343,4 +346,4 @@ def test_an_enormous_record_or_a_pipe_is_a_difference(check, file):
     assert "has more than" in check(file)[1]
     find_record(file).unlink()
     os.mkfifo(find_record(file))
-    assert "no regular file" in check(file)[1]
+    assert "not a regular file" in check(file)[1]

@@ -1,4 +1,4 @@
-"""Benchmark: run time and error, on this machine, of several methods for the same figures.
+"""Measure run time and error, on this machine, of several methods for the same figures.
 
 The methods are the two-term formula, the series that books print, the closed form (balcli itself),
 the FFT of samples, and differences of the piston's position (time stepping). All but the closed
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 ORDERS = [1, 2, 4, 6, 8]
-POWERS = (3, 5, 7)  # highest powers of lambda in the series that books print
+POWERS = (3, 5, 7)  # highest powers of lambda in series that books print
 POINTS = (8, 16, 32, 64)
 STEPS = (64, 360, 720, 3600)
 EXACT_POWER = 81  # lambda^81 is below 1e-40 at lambda = 0.3
@@ -77,7 +77,7 @@ def main(number: float = 1.0) -> None:
 typer.run(main)
 """
 _PAIRS = 9
-_SHORTEST = 1e-7  # s; a shorter run counts as this long
+_SHORTEST = 1e-7  # shortest run time, s; a shorter one is replaced by it
 
 
 @dataclass(frozen=True, kw_only=True)

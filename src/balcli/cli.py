@@ -95,7 +95,7 @@ class _Command(TyperCommand):
         rest = super().parse_args(ctx, args)
         for option in dict.fromkeys(each for each in given if isinstance(each, TyperOption)):
             if given.count(option) > 1 and not (option.multiple or option.is_flag):
-                warn(f"{option.opts[0]} is given {given.count(option)} times: the last one counts")
+                warn(f"{option.opts[0]} is given {given.count(option)} times; the last one is used")
         return rest
 
 
@@ -262,11 +262,11 @@ def _run() -> int | None:
     """Return the exit status of the command of `sys.argv`."""
     set_loudness(Loudness.USUAL)
     status: int | None = app(prog_name="balcli", standalone_mode=False)
-    note(f"{time.process_time():.2f} s of processor time, the start of Python included")
+    note(f"{time.process_time():.2f} s of processor time, including the start of Python")
     return status
 
 
-# What failed, if a system error names no file. The key None is an error whose text says it.
+# Name of the thing that failed, if a system error names no file; empty if its text is enough.
 _UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
 
 

@@ -205,7 +205,7 @@ def _describe_file(kind: File) -> Node:
 
 def _describe_result(name: str, kind: File | None) -> Node:
     if kind is not None:
-        raise BalcliError(f"--of {name}: is of a result; leave {kind} out, which is a file")
+        raise BalcliError(f"--of {name} names a result; leave out {kind}, which is a kind of file")
     if name not in DOCUMENTS:
         hint = suggest_nearest(name, DOCUMENTS, f"there are {', '.join(DOCUMENTS)}")
         raise BalcliError(f"--of {name[:60]}: there is no such result; {hint}")

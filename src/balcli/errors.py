@@ -1,4 +1,4 @@
-"""The errors that a user can cause, messages on standard error, and the exit codes."""
+"""Define the errors that a user can cause, the exit codes, and messages on standard error."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ class Loudness(IntEnum):
     """How much balcli prints in addition to results and errors."""
 
     QUIET = 0  # nothing
-    USUAL = 1  # warnings; on a terminal, how far a long computation is
-    VERBOSE = 2  # also what was read and assumed, and how long it took
+    USUAL = 1  # warnings; on a terminal, the progress of a long computation
+    VERBOSE = 2  # also notes on files, assumed values and run time
 
 
 _loudness = Loudness.USUAL
@@ -192,7 +192,7 @@ def check_number(name: str, value: object, wanted: str) -> float:
         wanted: A right value, in words.
 
     Raises:
-        TypeError: The value is no number.
+        TypeError: The value is not a number.
     """
     check_type(name, value, Real, wanted)
     try:
@@ -249,7 +249,7 @@ def list_words(
         example: A right value, as it is typed.
 
     Raises:
-        TypeError: A member is no word.
+        TypeError: A member is not a word.
     """
     if isinstance(words, str):
         return [word.strip() for word in words.split(",")]
@@ -282,6 +282,6 @@ NO_GAS = (
     "compression_ratio = 10.5, imep = 10"
 )
 MOMENTS_UNKNOWN = (
-    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
-    "that all throws stand in one plane"
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 "
+    "means that all throws are in one plane"
 )

@@ -1,4 +1,4 @@
-"""Atomic writes: a temporary file next to the target replaces it once it is complete."""
+"""Write files atomically: a temporary file next to the target replaces it once it is complete."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names of modules that are imported on demand: the only module that holds such names as strings.
+"""Hold the names of modules that are imported on demand; no other module has such names as strings.
 
 It lists the package's public names, the renderers of results, the types of JSON documents, the
 tables of a chapter (such as torsion) in an engine file, and the quantities of chapters. It loads no

@@ -33,7 +33,7 @@ from .torque.answer import analyze_torque
 from .torsion.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a group; rounding is allowed in addition
-PEAK_ANGLE_DEG = 1e-3  # a peak is flat: rounding moves its angle more than its value
+PEAK_ANGLE_DEG = 1e-3  # allowed move of a peak's angle, which rounding moves more than its value
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
@@ -52,7 +52,7 @@ class Difference:
         figure: The figure that moved, or the reason.
         recorded: Recorded value; null without one.
         now: Present value; null without one.
-        share: Size of the move over the largest figure of its group; null if it has no size.
+        share: Size of the move divided by the largest figure of its group; null if it has no size.
     """
 
     cause: str | None
@@ -63,7 +63,7 @@ class Difference:
 
     @classmethod
     def of_record(cls, reason: str) -> Difference:
-        """Return the difference that stands for a record that cannot be compared."""
+        """Return the difference for a record that cannot be compared."""
         return cls(cause=None, figure=reason, recorded=None, now=None, share=None)
 
     def __str__(self) -> str:
@@ -83,7 +83,7 @@ class CheckedEngine:
     Attributes:
         engine: Path of the engine file.
         differences: Every figure that moved.
-        error: Why the file could not be compared; None if it was compared.
+        error: Reason why the file could not be compared; None if it was compared.
     """
 
     engine: str
@@ -156,11 +156,11 @@ def _read(record: Path) -> Any:
     """Return the content of a record.
 
     Raises:
-        BalcliError: The file is no regular file, or is larger than an engine file may be.
+        BalcliError: The file is not a regular file, or is larger than an engine file may be.
         OSError, ValueError: The file cannot be read.
     """
     if not record.is_file():
-        raise BalcliError("it is no regular file")
+        raise BalcliError("it is not a regular file")
     with record.open("rb") as file:
         content = file.read(LARGEST_FILE_BYTES + 1)
     if len(content) > LARGEST_FILE_BYTES:
@@ -272,7 +272,7 @@ def _describe_error(error: Exception) -> str:
         return f"it is not JSON: line {error.lineno}"
     if isinstance(error, KeyError):
         return f"{error.args[0]} is missing"
-    return str(error) if isinstance(error, BalcliError) else "it is no result of balcli analyze"
+    return str(error) if isinstance(error, BalcliError) else "it is not a result of balcli analyze"
 
 
 def _list_leaves(value: object, path: _Path = ()) -> Iterator[tuple[_Path, Any]]:
@@ -333,8 +333,8 @@ def _compare(
 
 
 def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """Return how far rounding may move a figure, by group and order. The same bound decides whether
-    an order is balanced. Where the large orders cancel, it exceeds a share of the rest.
+    """Return the largest move of a figure by rounding, by group and order. The same bound decides
+    whether an order is balanced. If large orders cancel, it may exceed a share of the remainder.
     """
     errors: dict[tuple[str, str], float] = {}
     for kind, phasors in found.items():

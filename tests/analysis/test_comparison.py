@@ -56,7 +56,7 @@ def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     lines = {(line.kind.name, line.order): line for line in several.figures}
     assert lines["guide_h", 2].ratios == (1, 1)
     assert lines["guide_x", 0.5].values == (0, 0)
-    assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia alone"
+    assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia only"
     both = compare_engines([fired, fired], ["fired", "again"], [0.5, 1, 2], ["guide"])
     lines = {(line.kind.name, line.order): line for line in both.figures}
     assert lines["guide_x", 0.5].values[0] > 0

@@ -125,7 +125,9 @@ def test_the_crank_of_a_rotary_engine_gives_no_torque_off():
 
 def test_uneven_speed_does_not_count_and_nothing_is_largest_without_torque():
     uneven = GOOD + "speed_ripple = [{ order = 2, amplitude = 0.02 }]\n"
-    assert "rpm, the file's uneven one does not count" in ask("analyze", "-", "--only", "journals", stdin=uneven)
+    assert "rpm, steady; the uneven speed of the file is not used" in ask(
+        "analyze", "-", "--only", "journals", stdin=uneven
+    )
     still = changed(("mass = 0.5", "mass = 0"), ("mass = 0.6", "mass = 0"))
     assert "The range is largest" not in run_here("analyze", "-", "--only", "journals", stdin=still).out
 

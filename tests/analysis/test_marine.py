@@ -89,7 +89,7 @@ def test_moments_that_are_not_known_are_none(balcli, tmp_path) -> None:
     assert (status, out) == (0, "")
     assert err == (
         f"warning: {file}: moments are not known, because crank.spacing is missing: give it (or "
-        "crank.positions); 0 says that all throws stand in one plane\n"
+        "crank.positions); 0 means that all throws are in one plane\n"
     )
     entry = json.loads((tmp_path / "s.json").read_text())["speeds"][0]["orders"][0]
     assert entry["force_v_N"] > 0

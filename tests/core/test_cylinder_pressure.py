@@ -186,7 +186,7 @@ WRONG = {
     "gap": (
         np.delete(np.arange(0, 720, 20), [4, 5]),
         np.ones(34),
-        [(4, "lies 60° after the row before it: give rows at most 30° apart")],
+        [(4, "is 60° after the row before it: give rows at most 30° apart")],
     ),
     "gap at the end": (
         np.arange(0, 660, 20),
@@ -212,6 +212,6 @@ def test_a_gap_may_be_wider_where_the_pressure_hardly_changes():
     values[-1] = 4e5
     (wrong,) = find_diagram_mistakes(angle, values)
     assert wrong[0] == len(angle) - 1
-    assert wrong[1].startswith("lies 34° after the row before it")
+    assert wrong[1].startswith("is 34° after the row before it")
     assert list(find_diagram_mistakes(angle[:-1], values[:-1])) == []
     assert [row for row, _ in find_diagram_mistakes(angle[:-2], values[:-2])] == [None]

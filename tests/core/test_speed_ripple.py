@@ -115,7 +115,7 @@ def test_the_least_speed_is_that_of_a_dense_grid(lines):
 def test_a_crank_that_stops_or_turns_back_is_refused(lines, what):
     tables = [{"order": n, "amplitude": a, "angle": angle} for n, a, angle in lines]
     assert refused(operation={"speed": 60, "speed_ripple": tables}) == (
-        f"engine: operation.speed_ripple: the crank would {what}: make the amplitudes smaller, "
+        f"engine: operation.speed_ripple: the crank would {what}: make the amplitudes smaller; "
         "they are shares of the mean speed"
     )
 

@@ -57,7 +57,7 @@ def test_a_rod_that_cannot_follow_names_the_cylinder_and_the_crank_angle():
     first, *rest = mistakes(("length = 188", "length = 60"), ("cg = 90", "cg = 30"))
     found = re.fullmatch(
         r"articulation\.rod\.length: the crank cannot turn: at crank angle ([\d.]+) deg the "
-        r"knuckle pin of cylinder 3 stands ([\d.]+) rod lengths off the path of its piston pin; at most 1 - 1e-06 is "
+        r"knuckle pin of cylinder 3 is ([\d.]+) rod lengths off the path of its piston pin; at most 1 - 1e-06 is "
         r"allowed: make the articulated rod longer or the knuckle radius smaller",
         first,
     )

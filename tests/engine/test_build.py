@@ -201,7 +201,7 @@ def test_a_pendulum_that_swings_too_quickly_for_a_cylinders_own_rod():
     )
     shortest = 2 * math.pi * math.sqrt(0.15 / STANDARD_GRAVITY)
     assert text == (
-        "engine: cylinder.2.rod_pendulum: period 0.1 s is too quick: a full swing takes more "
+        "engine: cylinder.2.rod_pendulum: period 0.1 s is too short: a full swing takes more "
         f"than {shortest:.4g} s with the centre of mass 150 mm from the pivot"
     )
 

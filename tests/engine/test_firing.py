@@ -165,7 +165,7 @@ def test_an_order_is_not_doubted_where_it_is_even_or_none_is(parts):
 @pytest.mark.parametrize(
     ("splay", "more", "words"),
     [
-        (60, {}, "crank.splay = 60: what turns against the crank in order 1 is 75 % of one"),
+        (60, {}, "crank.splay = 60: the part of order 1 that turns against the crank is 75 % of one"),
         (-60, {}, ""),
         (60, {"firing_order": [1, 2, 3, 4, 5, 6]}, ""),
     ],

@@ -36,7 +36,7 @@ def test_standard_input(monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(GOOD.encode())))
     assert read("-") == parse(GOOD)
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"[1, 2]")))
-    with pytest.raises(InputError, match=r"^standard input: is no engine file"):
+    with pytest.raises(InputError, match=r"^standard input: is not an engine file"):
         read("-")
 
 
@@ -79,7 +79,7 @@ def test_files_that_would_take_too_much():
 def test_what_is_no_text():
     last = GOOD.count("\n") + 1
     assert mistakes_in(GOOD.encode() + b"# \xff\n") == f"is not UTF-8 text (line {last}); save it as UTF-8"
-    assert mistakes_in(b"\0" * 9).startswith("is no engine file; that is TOML text with tables such as [crank]")
+    assert mistakes_in(b"\0" * 9).startswith("is not an engine file, which is TOML text with tables such as [crank]")
 
 
 def test_messages_carry_no_control_characters():

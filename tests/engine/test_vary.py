@@ -59,7 +59,7 @@ def parse_of(tables):
 def test_keys_are_text(source, key):
     with pytest.raises(balcli.InputError) as caught:
         balcli.load(source)
-    assert str(caught.value) == f'engine: the key {key} is no text; write it as a file has it, such as "stroke"'
+    assert str(caught.value) == f'engine: the key {key} is not a text; write it as in a file, such as "stroke"'
 
 
 @pytest.mark.parametrize(

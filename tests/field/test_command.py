@@ -35,7 +35,7 @@ def runs(tmp_path):
 def test_the_sheet_says_how_angles_count_and_what_to_do(runs):
     out = ask("field", runs)
     for text, way in ((out, ""), (ask("field", "-", stdin=three_runs('weights = "against"')), "against ")):
-        told = f"a weight at 30 deg stands 30 deg on from the 0 mark, going {way}the way the rotor turns."
+        told = f"a weight at 30 deg is 30 deg from the 0 mark, going {way}the way the rotor turns."
         assert told in " ".join(text.split())
     assert re.search(r"^front +1\.979 +123\.8 +200 +395\.9 +86%$", out, re.MULTILINE)
     assert re.search(r"^front +\d+ of 12 ", out, re.MULTILINE)
@@ -54,9 +54,9 @@ def test_holes(runs, tmp_path):
     grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
     assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
     assert round(grams) == 38
-    told = "earlier ones are not in the file"
+    told = "the file has no earlier ones"
     out = " ".join(run_here("field", runs).out.split())
-    assert "Each does as much as this weight at the rim; its steel, further in, weighs more." in out
+    assert "Each has the effect of this weight at the rim; the removed steel, further in, weighs more." in out
     assert told not in out
     last = '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     text = runs.read_text() + last
@@ -98,7 +98,7 @@ def test_what_does_not_fit_is_said_in_every_form(tmp_path, minimise):
     out = run_here("field", path, "--minimise", minimise).out
     assert "All readings are cancelled" not in out
     assert re.search(r"^front +– +– +–$", out, re.MULTILINE)
-    assert "Without its limit, front would take 1.979 g at 236.2 deg." in " ".join(out.split())
+    assert "Without its limit, front would need 1.979 g at 236.2 deg." in " ".join(out.split())
     said = ask_json("field", path, "--minimise", minimise)
     front, rear = said["corrections"]
     assert (front["weight"], front["pieces"], front["at_limit"]) == (0, [], True)
@@ -155,9 +155,9 @@ def test_a_trim_is_shown_next_to_the_total(tmp_path, head):
     path = write(tmp_path / "runs.toml", three_runs(head, last=last))
     out = run_here("field", path, "-f", "markdown").out
     assert "add now, g" in out
-    assert "on top of what was on in 'in'" in out
+    assert "in addition to the weights of 'in'" in out
     assert json.loads(run_here("field", path, "-f", "json").out)["trimmed"] == "in"
-    told = "Left out: rear. What was on in 'in' stays on in rear: 1 g at 122.0 deg."
+    told = "Left out: rear. The weight of 'in' in rear stays on: 1 g at 122.0 deg."
     assert told in " ".join(run_here("field", path, "--without", "rear").out.split())
     path.write_text(three_runs(head), encoding="utf-8")
     assert "stays on" not in run_here("field", path, "--without", "rear").out
@@ -182,7 +182,7 @@ def test_picture(runs, tmp_path):
         assert words in picture.read_text(encoding="utf-8")
     message = refusal("field", runs, "--plot", tmp_path / "x.gif")
     assert "give a name that ends in .svg, .png or .pdf" in message
-    assert "stays as it is" in refusal("field", runs, "-o", runs)
+    assert "must not change" in refusal("field", runs, "-o", runs)
 
 
 def test_mistakes_of_the_file_and_standard_input(runs, tmp_path):

@@ -126,7 +126,7 @@ def test_thousands_in_columns_are_no_decimals(tmp_path, rows, answer):
 def test_a_file_of_another_format_is_refused_in_one_line(text):
     with pytest.raises(BalcliError, match="balcli new") as caught:
         parse_toml(text, "file")
-    assert str(caught.value).startswith("file: is no engine file; that is TOML text with tables")
+    assert str(caught.value).startswith("file: is not an engine file, which is TOML text with tables")
     assert "\n" not in str(caught.value)
 
 

@@ -137,7 +137,7 @@ def test_what_a_command_cannot_do_names_the_one_that_does(tmp_path, monkeypatch)
     Path("i4.toml").write_text(GOOD)
     told = run_here("compare", "i4.toml", "i4.toml", "--only", "verdict").err
     assert told == (
-        "balcli: --only verdict: is of one engine; balcli analyze i4.toml i4.toml --only verdict shows each\n"
+        "balcli: --only verdict describes a single engine; balcli analyze i4.toml i4.toml --only verdict shows it\n"
     )
     told = run_here("tables", "kvasnikov").err
     assert told == "balcli: no table 'kvasnikov'; did you mean kvasnikov-2?\n"
@@ -161,7 +161,10 @@ def test_a_search_says_that_the_best_is_an_end_of_the_range(tmp_path):
 
 def test_a_search_says_that_a_number_changes_nothing(tmp_path):
     """What turns with the crank has no second order; of one value nobody knows."""
-    file, nothing = (write(tmp_path / "i4.toml", GOOD), "No effect on force.2.major: the same at every value searched.")
+    file, nothing = (
+        write(tmp_path / "i4.toml", GOOD),
+        "No effect on force.2.major, which is the same at every searched value.",
+    )
     told = search(file, "crank.throw_mass=0:6", "force.2.major")
     assert nothing in told
     assert "an end of its range" not in told

@@ -11,8 +11,8 @@ from balcli.file.doubts import find_suspicious
 
 FREE = ("firing_order = [1, 3, 4, 2]\n", "")  # no firing order, which throws would have to fit
 DEGREES = (
-    'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers of '
-    "cylinders stand in layout.firing_order"
+    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad", and numbers of '
+    "cylinders in layout.firing_order"
 )
 LAMBDA = (
     "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance of its two centres"
@@ -45,7 +45,7 @@ def test_gas_of_no_engine_is_doubted(key, value):
     """Psi and MPa for bar."""
     gas = {"cycle": '"otto"', "compression_ratio": 10, "imep": 9} | {key: value}
     text = "\n".join(f"{name} = {figure}" for name, figure in gas.items())
-    told = 'where 0.15 to 12 is usual; is it in bar? Another unit is said as in "130 psi" or "0.9 MPa"'
+    told = 'where 0.15 to 12 is usual; is it in bar? Give another unit as in "130 psi" or "0.9 MPa"'
     assert find_suspicious(parse(changed(more=f"[gas]\n{text}\n"))) == [f"gas.{key} is {value:g} bar absolute, {told}"]
 
 
@@ -67,7 +67,7 @@ stiffness = 1e6
 """
 
 
-LIGHT = "where at least 89 is usual; is it in kg mm^2? Another unit is said as in "
+LIGHT = "where at least 89 is usual; is it in kg mm^2? Give another unit as in "
 
 
 @cases("file/suspicious", "inertias_in_kg_m2_are_asked_back", LIGHT=LIGHT)
@@ -77,7 +77,7 @@ def test_inertias_in_kg_m2_are_asked_back(more, told):
 
 def test_loss_factors_in_percent_are_asked_back():
     more = (TWIST % ("20000", "250000")).replace("[torsion]\n", "[torsion]\nloss = 3.5\n", 1)
-    told = "where at most 1 is usual; {} % is {}, and of a relative damping psi the loss factor is"
+    told = "where at most 1 is usual; {} % is {}, and a relative damping psi is a loss factor of"
     assert find_suspicious(parse(changed(more=more + "loss = 1.13\n"))) == [
         f"torsion.loss is 3.5, {told.format(3.5, 0.035)} psi/(2 pi)",
         f"torsion.rear.1.loss is 1.13, {told.format(1.13, 0.0113)} psi/(2 pi)",
@@ -89,7 +89,7 @@ def test_a_flywheel_that_torsion_lacks():
     wheel, twist = "[flywheel]\ninertia = 250000\n", TWIST % ("25000", "250000")
     alone = twist.partition("[[torsion.rear]]")[0]
     assert find_suspicious(parse(changed(more=wheel + alone))) == [
-        "[flywheel] counts for `torque`, not for `torsion`; also write it as [[torsion.rear]]"
+        "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
     ]
     assert find_suspicious(parse(changed(more=wheel + twist))) == []
     assert find_suspicious(parse(changed(more=alone))) == []

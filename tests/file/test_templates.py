@@ -93,7 +93,7 @@ def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
     assert str(caught.value) == (
-        '"boxxer" is no kind of file; there are single, inline, vee, boxer, radial, '
+        '"boxxer" is not a kind of file; there are single, inline, vee, boxer, radial, '
         "radial14, w, mounts, locomotive, field, torsion. Did you mean boxer?"
     )
     with pytest.raises(BalcliError, match=r"w, mounts, locomotive, field, torsion\.$"):

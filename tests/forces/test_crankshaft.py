@@ -134,11 +134,11 @@ def near_the_lock(throws, more=""):
 def test_so_many_loads_that_they_would_fill_the_memory_are_refused():
     with pytest.raises(
         BalcliError,
-        match=r"^32768 orders of 34 cylinders and counterweights one by one are 1114112 forces, "
+        match=r"^32768 orders of 34 single cylinders and counterweights are 1114112 forces, "
         r"and at most 1100000 are kept: an engine with longer rods has fewer orders$",
     ):
         compute_inner_loads(near_the_lock([10 * k for k in range(34)]))
-    with pytest.raises(BalcliError, match=r"32773 orders of 17 cylinders .* at most 550000 are kept"):
+    with pytest.raises(BalcliError, match=r"32773 orders of 17 single cylinders .* at most 550000 are kept"):
         compute_guide_moments(
             near_the_lock([10 * k for k in range(17)], "speed_ripple = [{order = 2, amplitude = 0.01}]\n")
         )

@@ -282,7 +282,7 @@ def test_what_the_command_refuses_and_doubts(tmp_path):
     ):
         assert refusal("locomotive", file, option).startswith(message)
     assert refusal("locomotive", file, "--factor=1", "--hammer-blow=1") == (
-        "--hammer-blow gives the factor; leave --factor out"
+        "--hammer-blow determines the factor; leave --factor out"
     )
     text = template("locomotive")
     for old, new, message in (

@@ -114,7 +114,7 @@ def test_about_the_crank_the_gas_is_drawn_by_order_and_curves_are_of_inertia():
     assert {"inertia torque T", "gas torque", "total roll", "½"} <= set(bars)
     assert "About the crank, with gas" in bars
     curves = re.findall(r">([^<>]*)</text>", draw_panel(PageSubject(Study(fired)), "curves", "about"))
-    assert {"About the crank, of inertia alone", "couple C", "roll moment", "360"} <= set(curves)
+    assert {"About the crank, of inertia only", "couple C", "roll moment", "360"} <= set(curves)
     assert "720" not in curves
 
 

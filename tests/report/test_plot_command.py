@@ -60,7 +60,7 @@ def test_standard_input_is_read_once(tmp_path):
 def test_no_page_goes_onto_the_engine_file(tmp_path):
     path = write(tmp_path / "x-pin.svg", FOUR.read_text(encoding="utf-8"))
     told = refusal("plot", path, "--what", "torque,pin", "-o", tmp_path / "x.svg")
-    assert told == (f"--what pin {path}: this is a file that is read, which stays as it is; choose another name")
+    assert told == (f"--what pin {path}: this file is read and must not change; choose another name")
 
 
 def test_names_of_pages():

@@ -160,7 +160,7 @@ def test_the_study_of_factors_takes_planes_alone():
     assert [row.peak_moment_Nm for row in ends] == pytest.approx([row.peak_moment_Nm for row in free], abs=1)
     assert ends[0].counterweight_kg_m > 1.02 * free[0].counterweight_kg_m
     for asked, reason in (
-        ({"scheme": "minimax"}, "--what factor is of the scheme factor: leave --scheme minimax out"),
+        ({"scheme": "minimax"}, "--what factor shows the scheme factor: leave --scheme minimax out"),
         ({"options": SchemeOptions(factor=(0.5,))}, "--what factor shows all factors: leave"),
         ({"options": SchemeOptions(at=(0j,))}, "scheme factor has no --at"),
     ):

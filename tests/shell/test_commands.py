@@ -36,7 +36,7 @@ def four(tmp_path):
 
 
 def test_plot_refuses_a_scheme_where_nothing_is_compared(tmp_path):
-    more = ("", "; it takes --scheme two-shaft with --order alone")
+    more = ("", "; it takes only --scheme two-shaft with --order")
     for what in ("bank", "modes", "pressure"):
         for option in ("--scheme=factor", "--factor=51%", "--planes=ends"):
             told = refusal("plot", ENGINES / "i6_diesel.toml", tmp_path / "x.svg", "--what", what, option)

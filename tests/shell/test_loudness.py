@@ -35,4 +35,4 @@ def test_verbose_tells_what_was_read_taken_and_written(tmp_path: Path):
         WARNING.strip(),
         f"note: {target}: written, {target.stat().st_size} bytes",
     ]
-    assert re.fullmatch(r"note: \d+\.\d\d s of processor time, the start of Python included", took)
+    assert re.fullmatch(r"note: \d+\.\d\d s of processor time, including the start of Python", took)

@@ -44,5 +44,5 @@ def test_bearings_without_places():
     """Beside a warning that moments are not known."""
     status, out, err = run_here("torque", "nowhere.toml", "--loads", "main")
     assert (status, out) == (2, "")
-    wanted = "balcli: main bearings: crank.spacing is missing, so that no bearing is known to stand\n"
+    wanted = "balcli: main bearings: crank.spacing is missing, so their positions are not known\n"
     assert err.endswith(wanted)

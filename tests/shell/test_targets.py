@@ -66,7 +66,7 @@ def test_never_onto_the_engine_file(good, target):
         option = command[-1] if command[-1].startswith("--") else "--output"
         name, *rest = command if command[-1] != option else command[:-1]
         assert refusal(name, good, *rest, option, target) == (
-            f"{option} {Path(target)}: this is a file that is read, which stays as it is; choose another name"
+            f"{option} {Path(target)}: this file is read and must not change; choose another name"
         )
     assert contents() == before
 
@@ -79,7 +79,7 @@ def test_never_onto_a_file_that_the_engine_file_names(good, command, table):
     Path("p.csv").write_text("measured")
     before = contents()
     assert refusal(command[0], good, *command[1:], "-o", "./p.csv") == (
-        "--output p.csv: this is a file that is read, which stays as it is; choose another name"
+        "--output p.csv: this file is read and must not change; choose another name"
     )
     assert contents() == before
 
@@ -91,7 +91,7 @@ def test_two_results_never_go_to_one_place(balcli, good, before):
     assert balcli("balance", good, "-o", "x.toml", "--write", "./x.toml") == (
         2,
         "",
-        "balcli: --write x.toml: another result goes there as well; choose another name\n",
+        "balcli: --write x.toml: another result is written there as well; choose another name\n",
     )
     assert {name: text for name, text in contents().items() if name == "x.toml"} == before
 

@@ -14,8 +14,8 @@ from support.paths import write
 from balcli import analyze, load
 
 UNKNOWN = (
-    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 says "
-    "that all throws stand in one plane"
+    "moments are not known, because crank.spacing is missing: give it (or crank.positions); 0 "
+    "means that all throws are in one plane"
 )
 FLAT_CRANK = ("throws = [0, 180, 180, 0]", "throws = [0, 180]")
 NO_ORDER = ("firing_order = [1, 3, 4, 2]", "")

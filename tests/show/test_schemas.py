@@ -170,5 +170,5 @@ def test_a_result_that_there_is_not() -> None:
         "--of zzz: there is no such result; there are analysis, balance, "
     )
     assert refusal("schema", "field", "--of", "field") == (
-        "--of field: is of a result; leave field out, which is a file"
+        "--of field names a result; leave out field, which is a kind of file"
     )

@@ -10,7 +10,9 @@ from balcli.sizing.sizing import size, size_auto
 def test_every_device_has_its_reason():
     remedy = size(build_text(write_engine(0, 240, 120)), "complete")
     assert len(remedy.reasons) == len(remedy.devices) == 8
-    assert remedy.reasons[0] == ("Order 1 moment turning with the crank: counterweights turn with it too and cancel it")
+    assert remedy.reasons[0] == (
+        "Order 1 moment turning with the crank: counterweights also turn with it and cancel it"
+    )
     assert remedy.reasons[-1].endswith(
         "turning against the crank: nothing on the crankshaft can cancel it; "
         "two opposite eccentrics on a shaft at -2 times crank speed can"

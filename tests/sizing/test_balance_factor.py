@@ -181,7 +181,7 @@ position = 25
         assert need.missing == pytest.approx(need.wanted - need.present, rel=1e-12)
         assert abs(need.missing) * 1e6 == pytest.approx(left.unbalance, rel=1e-12)
         assert math.degrees(np.angle(need.missing)) == pytest.approx(left.angle, abs=1e-9)
-    assert "what the counterweights of the file do is counted" in remedy.reasons[0]
+    assert "less the counterweights of the file" in remedy.reasons[0]
     assert not bare.needs
     assert "counted" not in bare.reasons[0]
 
@@ -196,7 +196,7 @@ def test_what_is_missing_is_told_where_the_counterweights_of_the_file_stand():
     assert chosen.devices == asked.devices
     assert [need.position_mm for need in chosen.needs] == [-228.6, 228.6]
     assert chosen.note == (
-        "these planes are where the counterweights of the file stand; --planes throws computes "
+        "these are the planes of the counterweights of the file; --planes throws computes "
         "weights at every throw instead"
     )
     assert asked.note == ""

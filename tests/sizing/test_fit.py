@@ -158,7 +158,7 @@ def test_other_commands_name_the_device(tmp_path, command):
 def test_what_does_not_go_together(tmp_path):
     (tmp_path / "e.toml").write_text(THREE + device("shaft", ratio=-1))
     (tmp_path / "plain.toml").write_text(THREE)
-    assert "no other scheme (here auto)" in refusal("balance", tmp_path / "e.toml", "--scheme", "auto")
+    assert "scheme auto and its options cannot be used" in refusal("balance", tmp_path / "e.toml", "--scheme", "auto")
     for options in (("--scheme", "fit"), ("--target", "force")):
         assert 'no device has unbalance = "fit"' in refusal("balance", tmp_path / "plain.toml", *options)
     told = refusal("balance", tmp_path / "e.toml", "--target", "forces")
@@ -175,7 +175,7 @@ def test_an_engine_in_which_nothing_reciprocates(tmp_path):
     still = THREE.replace("mass = 0.32", "mass = 0").replace("cg = 36\ninertia = 1200", "cg = 0")
     (file := tmp_path / "still.toml").write_text(still + device("counterweight", position=0))
     status, _, err = run_here("balance", file)
-    assert (status, "nothing reciprocates" in err) == (2, True)
+    assert (status, "needs reciprocating masses" in err) == (2, True)
     file.write_text(still.replace("[0, 240, 120]", "[0]").replace("spacing = 82", ""))
     status, out, _ = run_here("balance", file, "--scheme", "two-shaft", "--order", "1", "-f", "json")
     fitted = json.loads(out)

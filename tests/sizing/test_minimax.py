@@ -39,7 +39,7 @@ def test_minimax_with_nothing_to_fit_says_so_and_fits_no_rounding():
     """An in-line four in two planes: neither a force nor a moment turns with the crank."""
     remedy = size_scheme(build_text(SMALL["four"]), "minimax", planes="ends")
     assert remedy.devices == ()
-    assert remedy.note.startswith("no counterweight makes the largest force smaller than it is: ")
+    assert remedy.note.startswith("no counterweight makes the largest force smaller: ")
     assert (figures(remedy)["improvement"], figures(remedy)["relative error bound"]) == (0, 0)
 
 

@@ -63,7 +63,7 @@ def test_one_eccentric_promises_the_force_alone_where_a_moment_stays():
     remedy = size_scheme(load(TWIN), "single-shaft", at=(-0.07 + 0.09j,))
     assert remedy.reasons[-1] == (
         "Order 1 force turning against the crank: nothing on the crankshaft can cancel it; one "
-        "eccentric on a shaft at -1 times crank speed can; a moment stays, which eccentrics in two "
+        "eccentric on a shaft at -1 times crank speed can; a moment remains, which eccentrics in two "
         "planes cancel"
     )
     assert not left(TWIN, "single-shaft", SchemeOptions(), 1).moment.balanced.all()
@@ -120,7 +120,7 @@ def test_a_force_has_no_free_place():
     """
     table = " ".join(run_here("analyze", I4, "--only", "sizing").out.split())
     assert "free: " not in table
-    assert "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere" in table
+    assert "At 0, 0 (on the crank axis), a shaft adds no roll about this axis" in table
 
 
 # ------------------------------------------------------------------ an order that was not asked for

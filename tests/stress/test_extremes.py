@@ -211,7 +211,7 @@ def test_articulated_rods_near_dead_lock_keep_the_bound_they_state(short, master
 
 def test_an_articulated_rod_nearer_to_dead_lock_is_refused_with_the_number():
     assert len(find_relevant_orders(vee(2e-6))) == 1 << 14
-    with pytest.raises(InputError, match=r"stands 0\.9999995\d* rod lengths off .*at most 1 - 1e-06 is allowed"):
+    with pytest.raises(InputError, match=r"is 0\.9999995\d* rod lengths off .*at most 1 - 1e-06 is allowed"):
         vee(5e-7)
 
 

@@ -115,7 +115,7 @@ def test_what_can_be_varied_of_the_gas_changes_it(kind, strokes, tmp_path):
             first, second = done.out.splitlines()[1:]
             assert first.split(",")[-2:] != second.split(",")[-2:]
         else:
-            assert done.err == f"balcli: gas.{key}: changes nothing of the gas in this file\n"
+            assert done.err == f"balcli: gas.{key} has no effect on the gas of this file\n"
 
 
 @pytest.mark.parametrize(

@@ -80,7 +80,7 @@ def test_a_bank_angle_is_that_of_a_vee() -> None:
 def test_firing_intervals_vary_together_or_not_at_all() -> None:
     """They add up to a cycle: with one of them changed, no file could say the rest."""
     text = GOOD.replace("[layout]", "[layout]\nfiring_intervals = [180, 180, 180, 180]")
-    with pytest.raises(BalcliError, match=r"1: firing intervals add up to a cycle, so that none varies alone$"):
+    with pytest.raises(BalcliError, match=r"1: firing intervals add up to a cycle, so that a single one cannot vary$"):
         parse_parameter("layout.firing_intervals.1=170,180", load(text))
 
 

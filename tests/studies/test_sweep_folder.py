@@ -118,7 +118,7 @@ def test_a_folder_of_somebody_else_is_refused(name):
     Path("out", name).write_text("mine")
     for force in ((), ("--force",)):
         assert refuse_sweep(*ASKED, "-o", "out/", *force) == (
-            f"out/: holds {name}, which is no part of a sweep; choose a folder that is empty or not there"
+            f"out/: holds {name}, which is not part of a sweep; choose an empty or new folder"
         )
     assert Path("out", name).read_text() == "mine"
     os.remove(f"out/{name}")
@@ -132,7 +132,7 @@ def test_what_does_not_go_into_a_folder_is_refused():
         "--output out/: a folder takes Parquet files, but --format is csv; leave one of them out"
     )
     assert refuse_sweep(*ASKED, "-o", "out/", "--plot", "a.svg") == (
-        "--plot a.svg: figures that go into a folder are not kept for a picture; write one file, or leave --plot out"
+        "--plot a.svg: figures in a folder are not kept for a picture; write one file, or leave --plot out"
     )
     assert refuse_sweep(*ASKED, "-o", "nowhere/out/") == "nowhere/out: cannot be written (there is no folder nowhere)"
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0

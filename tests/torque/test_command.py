@@ -328,4 +328,4 @@ def test_one_curve_in_other_words(tmp_path, text):
 @cases("shell/torque", "quantities_that_are_none")
 def test_quantities_that_are_none(four, text, message):
     err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
-    assert err == f"balcli: {text} is no quantity: {message}\n"
+    assert err == f"balcli: {text} is not a quantity: {message}\n"

@@ -102,7 +102,7 @@ def test_a_limit_of_stress_without_any_diameter_is_not_judged():
     asked = ("torsion", "-", "--speeds", "800,1600")
     said = run_here(*asked, stdin=text).out
     assert "barred speeds" not in said
-    assert "not checked  engine-flywheel, flywheel-pinion, wheel-pump: no diameter" in said
+    assert "not checked  engine-flywheel, flywheel-pinion, wheel-pump: stress unknown" in said
     said = run_here(*asked, stdin=text.replace("limit = 40", "limit = 40\nangle_limit = 0.1")).out
     assert "limit          40 N/mm² and ±0.1 deg at engine\nbarred speeds  800 to " in said
     assert "not checked    engine-flywheel" in said
@@ -189,7 +189,7 @@ def test_a_node_alone_swings_rigidly(tmp_path):
     swing = [np.degrees(3 / (rpm * np.pi / 30) ** 2) for rpm in (100, 200)]
     assert said["response"]["free_end_deg"] == pytest.approx(swing)
     out = run_here("torsion", "-", "--speeds", "100,200", stdin=LONE).out
-    assert "None: nothing has inertia that could swing on a shaft." in out
+    assert "None: no inertia can swing on a shaft." in out
     assert "a swings by ±1.567 deg at 100 rpm." in out
     assert refusal("torsion", "-", "--holzer", "1", stdin=LONE) == (
         "standard input: has 0 modes, but --holzer asks for 1"

@@ -167,7 +167,7 @@ def test_meshes_with_a_clamped_gear_agree_with_50_digits():
 def test_a_dashpot_alone_at_rest():
     chain = chain_of([1, 1], [0])
     damping = Damping(np.zeros(1), np.ones(1), np.zeros(2))
-    said = "^a shaft that is a dashpot alone carries nothing at a frequency of 0$"
+    said = "^a shaft that is only a dashpot carries no torque at a frequency of 0$"
     with pytest.raises(ValueError, match=said):
         respond_chain(chain, damping, np.array([0.0, 1]), np.ones(2))
     assert respond_chain(chain, damping, 1.0, np.array([1, -1])).torque[0] != 0

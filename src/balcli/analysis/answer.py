@@ -56,7 +56,7 @@ UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
 
-# Quantities that depend on a key, or on a table, that does not count for all of them.
+# Quantities that depend on a key or table on which other quantities do not depend.
 _WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
 _WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
@@ -71,7 +71,7 @@ _DEPENDENT = {
     "flywheel.inertia": _WITH_UNEVEN_SPEED,
     **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
     "layout.stagger": _WITH_PLACES,
-    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # of forces: why there are no moments
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force: explains missing moments
 }
 DEFAULT_ORDERS = (1.0, 2.0)
 _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
@@ -79,7 +79,8 @@ _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Analysis(Result):
-    """Free forces and moments of an engine, order by order. Whatever was not requested is None.
+    """Free forces and moments of an engine, order by order. Results that were not requested are
+    None.
 
     Attributes:
         engine: Engine as analyzed.
@@ -90,15 +91,15 @@ class Analysis(Result):
         sizing: Devices of the scheme `auto`, and the forces left with them.
         ladder: Devices that balance the engine, step by step.
         cylinders: Each cylinder alone, without devices.
-        inner: Shear force and bending moment along the crankshaft; of an engine with gas, in its
-            bearings and in the block as well.
+        inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
+            loads of bearings and block.
         guide: H- and X-type guide-force moments.
         travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
             all cylinders are plain slider-cranks.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
-        parts: Balancer shafts and counterweights as parts.
-        power_related_unbalance: Free moments over the power.
+        parts: Bearing loads of balancer shafts and shapes of counterweights.
+        power_related_unbalance: Free moments divided by the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
         small: Share of one cylinder's first order below which a part is small.
     """
@@ -140,8 +141,8 @@ class Analysis(Result):
 
     @property
     def moments_known(self) -> bool:
-        """Whether the file gives the positions of the throws. If not, moments are those of throws
-        in one plane.
+        """Whether the file gives the positions of the throws. If not, moments are computed as if
+        all throws were in one plane.
         """
         return self.engine.places_known
 
@@ -221,9 +222,9 @@ def analyze(
             unbalanced.
 
     Raises:
-        BalcliError: an unknown quantity, an order that is negative or above 4096, too many orders
-            of too many cylinders; a height that is not above 0.
-        TypeError: an argument of another type.
+        BalcliError: A quantity is unknown, an order is negative or above 4096, there are too many
+            orders of too many cylinders, or a height is not above 0.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> analyze(load("v8.toml"), orders=[1, 2]).spectra.moment.major
@@ -248,7 +249,7 @@ def analyze(
     if engine.gas is None or computed.max() <= HIGHEST_ORDER_UNASKED:
         everything = compute_spectra(engine, computed, shown | peaked)
         visible = everything.only(shown)
-    else:  # an engine close to locking has tens of thousands: only peaks need all of them
+    else:  # an engine close to locking has tens of thousands of orders, which only peaks need
         few = every[every <= HIGHEST_ORDER_UNASKED] if asked is None else asked
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
@@ -328,7 +329,7 @@ def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
 
     Args:
         engine: Engine without trailing axes.
-        wanted: Quantities, as of `_choose_quantities`.
+        wanted: Quantities from `_choose_quantities`.
     """
     due = {*wanted}
     if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:

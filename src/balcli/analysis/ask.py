@@ -1,5 +1,5 @@
 """Answer a request of `balcli analyze`: analyze files at one speed, at several speeds, or for the
-sheet of marine builders, and print the results.
+sheet that marine builders use, and print the results.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def sheet(one: NamedResult[Analysis], system: System) -> Sheet:
 
 
 def rows(one: NamedResult[Analysis], system: System) -> Rows:
-    """Return CSV: the rows of the analysis, each after the engine's name.
+    """Return the rows of CSV: those of the analysis, each with the engine's name first.
 
     Args:
         one: Analysis with the engine's name.

@@ -131,11 +131,11 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
     """
     if of_one := [word for word in words if word in OF_ONE]:
         command = shlex.join(["balcli", "analyze", *paths, "--only", of_one[0]])
-        raise BalcliError(f"--only {of_one[0]}: is of one engine; {command} shows each")
+        raise BalcliError(f"--only {of_one[0]} describes a single engine; {command} shows it")
 
 
 Cylinder = Annotated[
-    str | None, optional("N|NAME.N", "Motion of this piston, also pressure with [gas].")
+    str | None, optional("N|NAME.N", "Motion of this piston; with [gas], also its pressure.")
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
@@ -216,7 +216,9 @@ Phase = Annotated[
     ),
 ]
 At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Origin of the second engine, mm.")]
-Turn = Annotated[str, typer.Option(metavar="DEG", help="Angle by which it is turned about z.")]
+Turn = Annotated[
+    str, typer.Option(metavar="DEG", help="Angle by which the second engine is turned about z.")
+]
 Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write both as a file with [[engine]].")]
 LoadOption = Annotated[

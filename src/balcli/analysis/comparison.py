@@ -61,13 +61,14 @@ LEFT = {
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """One figure of every engine, SI: the amplitude of an order, or the peak over a revolution.
+    """One figure of every engine in SI units: the amplitude of an order, or the peak over a
+    revolution.
 
     Attributes:
         quantity: Name of the figure, which ends in its unit.
         order: Order; null for a peak.
         values: Value for each engine; null for moments that are not known.
-        ratios: Ratios to the first engine's value; null where that is 0.
+        ratios: Ratios to the first engine's value; null if that value is 0.
         kind: Kind of force or moment.
         single: Scale with which each value is compared, such as the value of one cylinder; 0 if
             there is none.
@@ -93,7 +94,7 @@ class Line:
 
     @property
     def low(self) -> bool:
-        """Whether it is a peak, or an order up to 2."""
+        """Whether the figure is a peak, or an order up to 2."""
         return self.order is None or self.order <= 2
 
 
@@ -143,10 +144,10 @@ def compare_engines(
         engines: At least two engines without trailing axes.
         names: Names of the engines.
         orders: Orders to show; default: all that `analyze` shows for one of them.
-        only: As in `analyze` (sizing gives the peaks with the devices); default: force to peak, and
-            gas if all engines have some.
+        only: Quantities as for `analyze` (sizing gives the peaks with the devices); default: force
+            to peak, and gas if all engines have some.
         whole: Whether tables show negligible orders as well; they do if orders are given.
-        small: As in `analyze`.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part.
 
     Raises:
         BalcliError: There are fewer than two engines.
@@ -214,7 +215,7 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
         every_order: Whether to include orders above 2 that are balanced in all analyses.
     """
     guides = _list_guides(analyses)
-    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia alone"
+    alone = "" if all(guide is None or guide.with_gas for guide in guides) else " of inertia only"
     tables = [
         {(kind, order): size for kind, order, size in _list_sizes(one, guide)}
         for one, guide in zip(analyses, guides, strict=True)
@@ -303,7 +304,7 @@ def compare(
     Raises:
         BalcliError: There are fewer than two engines, not one name for each, or a quantity is
             unknown.
-        TypeError: An argument is no engine, or names are no texts.
+        TypeError: An argument is not an engine, or names are not texts.
 
     Example:
         >>> compare(load("i4.toml"), load("i6.toml")).to_pandas()

@@ -1,5 +1,5 @@
-"""Parts of the crank drive: torque in journals and pins, and masses (`analyze --only journals` and
-`--only masses`). Also free moments over the power (`--only pru`).
+"""Compute the torque in journals and crank pins (`analyze --only journals`), the masses of the
+cylinders (`--only masses`), and the free moments divided by the power (`--only pru`).
 
 The crankshaft is rigid, turns at the steady mean speed and delivers its torque at the flywheel end.
 If T_i is the torque of the cylinders on throw i, main journal j (1 to n + 1) carries the torque of
@@ -108,7 +108,7 @@ class CrankTorques(NamedTuple):
     Attributes:
         orders: Orders of inertia, shape (orders,).
         each: Phasors of inertia torque, N m, shape (orders, cylinders).
-        gas: Gas of the cylinders; None: none.
+        gas: Gas of the cylinders; None: the engine has no gas.
     """
 
     orders: Array
@@ -274,7 +274,7 @@ def _grid(
 
 
 def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
-    """Yield every figure of the journals, SI."""
+    """Yield every figure of the journals in SI units."""
     for each in journals:
         for name, value, unit in list_figures(to_document(each), ("place",)):
             yield FigureRow(0, each.place, None, name, value, unit)
@@ -282,7 +282,8 @@ def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
 
 # ------------------------------------------------------------------ masses
 def list_masses(engine: Engine) -> tuple[Masses, ...]:
-    """Return the masses of each distinct set of parts, sorted by the lowest cylinder number.
+    """Return the masses of each set of cylinders with equal parts, sorted by the lowest cylinder
+    number.
 
     Args:
         engine: Engine without trailing axes.
@@ -336,7 +337,7 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
     """Return a table with a row for each figure and a column for cylinders with equal parts.
 
     Args:
-        masses: Masses of each distinct set of parts.
+        masses: Masses of each set of cylinders with equal parts.
         system: System of units.
     """
     units = system.of_parts
@@ -351,15 +352,15 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
 
 
 def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
-    """Yield every figure of the masses, SI, with the lowest cylinder number of each set."""
+    """Yield every figure of the masses in SI units, with the lowest cylinder number of each set."""
     for one in masses:
         for name, value, unit in list_figures(to_document(one), ("cylinders",)):
             yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)
 
 
 # ------------------------------------------------------------------ power related unbalance
-# Need of a compensator, and the power related unbalance up to which it holds, N m/kW, as project
-# guides of marine engines (MAN) class it
+# Power related unbalance, N m/kW, up to which a moment compensator is needed to this degree, by the
+# project guides of marine engines (MAN).
 _NEEDS = (
     (60, "not relevant"),
     (120, "unlikely"),
@@ -369,7 +370,8 @@ _NEEDS = (
 
 
 def relate_to_power(engine: Engine) -> PowerRelatedUnbalance:
-    """Return the largest free moments of orders 1 and 2 over the power, at the speed of the file.
+    """Return the largest free moments of orders 1 and 2 divided by the power, at the speed of the
+    file.
 
     Args:
         engine: Engine without trailing axes.
@@ -422,7 +424,7 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
 
 
 def list_related(related: PowerRelatedUnbalance) -> Iterator[FigureRow]:
-    """Yield CSV of the power related unbalance, SI."""
+    """Yield every figure of the power related unbalance in SI units."""
     for each in write_each(related.orders):
         order = each.pop("order")
         for name, value, unit in list_figures(each):

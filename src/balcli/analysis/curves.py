@@ -1,5 +1,5 @@
-"""Curves over the crank angle of an engine or one of its cylinders, with gas if it has some:
-`curves`, its result, and its output formats.
+"""Compute curves over the crank angle of an engine or of one of its cylinders, with gas if the
+engine has some; and define the result `Curves` and its output formats.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class Curves(Result):
         speed_rpm: Crank speed.
         crank_deg: Crank angles, shape (angles,).
         curves: Figures by name with unit (`force_x_N`), each of the shape of `crank_deg`.
-        assumed: Values that are used because the engine file leaves them out: with `crank.spacing =
-            0`, moments are those of throws in one plane.
+        assumed: Values that are used because the engine file leaves them out. With `crank.spacing =
+            0`, moments are computed as if all throws were in one plane.
     """
 
     format: Literal["balcli.curves/1"] = "balcli.curves/1"
@@ -95,16 +95,16 @@ def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
 
 
 def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Array) -> Curves:
-    """Return the same figures as `compute_engine_curves`, with gas if there is some, as the sum of
-    some orders alone.
+    """Return the curves of `compute_engine_curves`, with gas if the engine has some, but as sums of
+    only the given orders.
 
     Args:
         engine: Engine without trailing axes.
-        orders: multiples of 1/2.
-        crank_deg: shape (angles,).
+        orders: Orders to add up, multiples of 1/2.
+        crank_deg: Crank angles, shape (angles,).
 
     Raises:
-        BalcliError: a number that is no order.
+        BalcliError: A number is not an order.
     """
     kinds = EVERY_KIND if engine.gas is not None else KINDS
     spectra = compute_spectra(engine, check_orders(orders), tuple(kinds))
@@ -124,7 +124,9 @@ def compute_order_curves(engine: Engine, orders: Iterable[float], crank_deg: Arr
 
 
 def _add_upright(engine: Engine, found: Curves) -> Curves:
-    """Return the curves of an engine with those by which way is up, if that is known."""
+    """Return the curves of an engine; if `frame.up` is given, with vertical and horizontal
+    components of force and moment.
+    """
     curves = dict(found.curves)
     if engine.up_deg is not None:
         for kind in VECTORS:
@@ -255,7 +257,7 @@ def _force_of_cylinders(motion: EngineMotion) -> Complex:
 def _couple_of_cylinders(motion: EngineMotion) -> Array:
     """Return the free couple of each cylinder about the crank's axis, N m, shape (cylinders,
     angles), from the moment of momentum h = -m_rec e s' + m_rot r^2 - H spin (+ masses of the
-    linkage), s' = -r v.
+    linkage), with s' = -r v.
     """
     c, r, m = motion.cylinders, motion.radius, motion.moved
     pull = as_rows(c.reciprocating) * as_rows(c.offset) * r
@@ -328,10 +330,10 @@ def curves(
         engine: Engine from `load`.
         step_deg: Step of the crank angle, which runs from 0 over a revolution, or with gas over a
             cycle.
-        cylinder: Number of the cylinder (of geared engines "upper.3") whose piston travel, speed,
-            acceleration and rod angle are wanted, with its pressure if it has gas; default: the
+        cylinder: Number of a cylinder (of geared engines "upper.3"). The curves are its piston
+            travel, speed, acceleration and rod angle, and its pressure if it has gas; default: the
             whole engine.
-        orders: Orders of the whole engine whose sum alone is wanted; default: all.
+        orders: Orders of the whole engine to add up; default: all.
 
     Returns:
         `crank_deg` and, by name with unit (`force_x_N`), `curves` of the same shape (angles,).
@@ -371,7 +373,7 @@ def compute_curves_by_step(
     crank_deg = divide_revolution(step_deg, engine.cycle_revolutions)
     if orders is not None:
         if cylinder is not None:
-            raise BalcliError("--orders: of the whole engine; leave --cylinder out")
+            raise BalcliError("--orders needs the whole engine; leave --cylinder out")
         return compute_order_curves(engine, orders, crank_deg)
     if cylinder is None:
         found = compute_engine_curves(engine, crank_deg)

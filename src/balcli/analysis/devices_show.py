@@ -34,12 +34,12 @@ if TYPE_CHECKING:
     from ..sizing.workshop import Practical, Tools
 
 
-_ROUNDING = 1e-12  # share of one cylinder's value
-_HARDLY = 0.05  # % of one cylinder; smaller values would be printed as 0.0
+_ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
+_HARDLY = 0.05  # a smaller share of one cylinder, %, would be printed as 0.0
 _ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # keys in CSV
 ANGLES = (
-    "Angles count in the sense of rotation, clockwise seen from the free end (front): of "
-    "counterweights from cylinder 1's crank pin, of shafts from x."
+    "Angles count in the sense of rotation, clockwise seen from the free end (front); those of "
+    "counterweights from cylinder 1's crank pin, those of shafts from x."
 )
 
 
@@ -105,8 +105,8 @@ def ladder_grid(
     notes = []
     if tell_fitted:
         option = "" if ladder.small == SMALL else f" --small {100 * ladder.small:g}%"
-        what = f"step {fitted}" if fitted else "nothing"
-        notes.append(f"balcli balance{option} fits {what}.")
+        what = f"step {fitted}" if fitted else "no step"
+        notes.append(f"By default, `balcli balance{option}` applies {what}.")
         if fitted < len(steps) - 1:
             first = size_text(scale.force_N, system.force)
             if scale.moment_Nm is not None:
@@ -146,18 +146,18 @@ def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Ite
     """Yield notes on shafts and sliders: how angles count, and where a shaft may be."""
     if any(isinstance(device, Shaft) for device in devices):
         yield (
-            "Shafts stand so at crank angle 0; angles of those that turn against the crank count "
-            "in its sense, too."
+            "Angles of shafts are those at crank angle 0. They count in the sense of the crank, "
+            "even if a shaft turns against it."
         )
     if any(isinstance(device, Slider) for device in devices):
-        yield "Of sliders: the phase at crank angle 0, along a path that counts from x."
+        yield "Sliders: phase at crank angle 0, and direction of the path from x."
     if any(free):
-        yield "free: the shaft may stand anywhere, for it makes a moment alone."
+        yield "free: the shaft may be anywhere, because it makes only a moment."
     shafts = zip(devices, free, strict=True)
     if any(isinstance(d, Shaft) and not any(d.at) and not anywhere for d, anywhere in shafts):
         yield (
-            "At 0, 0, the crank's centre line, a shaft adds no roll about it; elsewhere, where a "
-            "real one stands, it does."
+            "At 0, 0 (on the crank axis), a shaft adds no roll about this axis; a real shaft "
+            "elsewhere does."
         )
 
 
@@ -181,9 +181,9 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
     """
     length, mass, force = system.length, system.mass, system.force
     radius = list_radii(practical, length)
-    note = f"Force: centrifugal; mass at a radius of {radius}; disc: a semicircular one of steel."
+    note = f"Centrifugal force; mass at a radius of {radius}; disc: semicircular, of steel."
     if remedy.sliders:
-        note = f"Force: the largest of a stroke; mass at an amplitude of {radius}."
+        note = f"Largest force of a stroke; mass at an amplitude of {radius}."
     rows = []
     for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
         disc = [UNKNOWN, UNKNOWN]
@@ -227,7 +227,9 @@ def holes_grid(
         what = "Holes remove steel opposite to the weight to add"
     else:
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
-        what = "Slugs stand where weight is to be added and count less the steel removed for them"
+        what = (
+            "Slugs are on the side of the weight to add and count less the steel that they replace"
+        )
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, rows, note)
@@ -240,7 +242,7 @@ def tell_rim(tools: Tools, radius: str) -> str:
         tools: Tools of the workshop.
         radius: Radius as it is printed.
     """
-    why = "--radius" if tools.radius else "the crank radius, assumed: --radius says where it is"
+    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
     return f"from a rim at {radius} ({why})"
 
 

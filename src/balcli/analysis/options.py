@@ -41,8 +41,8 @@ class Request(NamedTuple):
     """Options of an analysis, the same for every engine.
 
     Attributes:
-        speeds_rpm: Crank speeds; empty: the file's.
-        orders: Orders to show; None: those that the engine has.
+        speeds_rpm: Crank speeds; empty: the speed of the file.
+        orders: Orders to show; None: all orders of the engine.
         quantities: Quantities to compute; None: the default ones of each engine.
         parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
@@ -91,9 +91,9 @@ class Request(NamedTuple):
             if self.marine:
                 raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")
             if self.over_speed:
-                raise BalcliError(f"{option}: is of one speed; give one, such as --speed 3000")
+                raise BalcliError(f"{option} needs a single speed, such as --speed 3000")
         if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):
-            warn("--guide-height changes guide-force moments alone; --only guide shows them")
+            warn("--guide-height changes only guide-force moments; --only guide shows them")
         return self
 
 
@@ -110,7 +110,7 @@ def choose_analysis_format(
     given = asked or ()
     plain = [one for one in given if one is not Format.MARINE]
     if len(plain) > 1:
-        warn(f"--format is given {len(plain)} times: the last one counts")
+        warn(f"--format is given {len(plain)} times; the last one is used")
     return text_format(output, plain[-1] if plain else None), Format.MARINE in given
 
 

@@ -1,5 +1,5 @@
-"""Tables of forces and moments order by order, of their largest values over a revolution, and of
-torque and roll of gas and inertia.
+"""Make tables of forces and moments order by order, of their largest values over a revolution, and
+of torque and roll of gas and inertia.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ if TYPE_CHECKING:
     from ..show.units import ShownUnit, System
 
 
-WHOLE_TURN = 360 - 1e-6  # deg
+WHOLE_TURN = 360 - 1e-6  # deg; a longer interval between peaks counts as a whole turn
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _LEVERS = "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
 _UPRIGHT_LEVERS = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
 _AS_BUILT = (
-    "Reciprocating masses in the planes of the throws; as built: with rotating masses and stagger, "
-    "without devices, at steady speed."
+    "For reciprocating masses in the planes of the throws; as built: also with rotating masses and "
+    "stagger. Without devices, at steady speed."
 )
 
 

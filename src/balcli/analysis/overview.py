@@ -1,6 +1,6 @@
-"""An analysis in brief: tables of the orders that matter, roll and peaks in a line each, and the
-verdict. The verdict tells in a sentence for each order which part turns with the crank, so that
-counterweights can cancel it, and which part needs shafts.
+"""Lay out an analysis in brief: a table of the orders that matter, one line each on roll and peaks,
+and the verdict. The verdict has a sentence for each order: which part of it turns with the crank,
+so that counterweights can cancel it, and which part needs shafts.
 """
 
 from __future__ import annotations
@@ -152,11 +152,11 @@ def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: 
 
 
 _NAMES = ("First", "Second", "Third", "Fourth", "Fifth", "Sixth", "Seventh", "Eighth")
-_ROUNDING = 1e-9  # share of a force or moment below which a sum of opposite ones is 0
-_MOST_WORDS = 25  # words in a sentence
-_MOST_NAMED = 5  # orders that a sentence names
+_ROUNDING = 1e-9  # a sum of opposite vectors below this share of one of them is 0
+_MOST_WORDS = 25  # largest number of words in a sentence
+_MOST_NAMED = 5  # largest number of orders that a sentence names
 _AXES = {"0.0": "x", "90.0": "y"}
-_NAMED = {"moment": "longitudinal moment"}  # the couple is a moment, too
+_NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, another moment
 _SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
     "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
@@ -165,7 +165,7 @@ _UNEVEN = (
 
 
 class _Vector(NamedTuple):
-    """Force or moment, with the value of one cylinder (`scale`; 0: not known)."""
+    """Free force or moment of all orders; `scale` is its size for one cylinder (0: not known)."""
 
     kind: Kind
     phasors: Phasors
@@ -207,10 +207,11 @@ class _Order(NamedTuple):
     """An order, and the parts of its sentence in the verdict.
 
     Attributes:
-        k, order: Its index, and the order.
-        large: Force and moment, as far as they are not small.
-        rest: Force and moment, as far as they are small.
-        couple: Whether its transverse couple was computed and is balanced.
+        k: Index of the order in the spectra.
+        order: Order.
+        large: Force and moment of this order if they are not small.
+        rest: Force and moment of this order if they are small.
+        couple: Whether the transverse couple of this order was computed and is balanced.
         cures: Devices that would cancel the parts that are not small, by sense of rotation.
     """
 
@@ -228,7 +229,7 @@ class _Order(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The order in words, as a sentence begins with it."""
+        """The order in words, for the beginning of a sentence."""
         n = int(self.order)
         if self.order % 1:
             return f"Order {order_name(self.order)}"
@@ -283,16 +284,17 @@ def verdict(
     omega: float = 0.0,
     turning: Collection[int] = (1,),
 ) -> tuple[str, ...]:
-    """Return a sentence for every order to 2 that is not small, one on higher orders that are not,
-    and one on the others, each of at most 25 words; none without forces and moments.
+    """Return a sentence for every order up to 2 that is not small, one sentence on the higher
+    orders that are not small, and one on the small orders; empty if the spectra have neither forces
+    nor moments. A sentence has at most 25 words.
 
     Args:
         spectra: Spectra to judge.
         system: System of units.
-        scales: What one cylinder makes; None: not known, and nothing is small.
-        small: Share of it below which a part is small.
-        steady: Whether the speed is. If not, no cure is named: most of an order may come from
-            another one through the unevenness, and vanishes with that one.
+        scales: Force and moment of one cylinder; None: not known, so that no order is small.
+        small: Share of one cylinder's force or moment below which a part is small.
+        steady: Whether the speed is steady. At uneven speed no cure is named, because most of an
+            order may come from another order, and vanishes when that one is cancelled.
         devices: Devices of the file; a device that turns like one of these is a further one.
         omega: Crank speed, rad/s, for the force of compensators among the devices.
         turning: Senses in which cranks turn, seen from the first: they carry counterweights.
@@ -349,7 +351,7 @@ def verdict(
 
 def _tell_compensated(one: _Order, devices: Sequence[Device], system: System, omega: float) -> str:
     """Return sentences on an order with moment compensators: the vertical moment (about y, of
-    forces along x), the force that the compensators introduce, and what the engine leaves itself.
+    forces along x), the force that the compensators introduce, and the engine's own force.
     """
     pairs = [device for device in devices if device.compensates and device.order == one.order]
     places = sorted({float(device.z) for device in pairs})
@@ -387,8 +389,8 @@ _RODS = "the rods"
 
 
 def find_couple(result: Analysis) -> Phasors | None:
-    """Return the orders of the transverse couple that are not negligible, by the size that counts
-    for moments; None if there are none.
+    """Return the orders of the transverse couple that are not negligible compared with the moment
+    of one cylinder; None if there are none.
     """
     couple, least = result.spectra.couple, NEGLIGIBLE * result.scales.moment
     if couple is None:
@@ -411,12 +413,12 @@ def tell_couple(result: Analysis, system: System) -> str:
     causes = _find_causes(result.engine, couple.orders, NEGLIGIBLE * result.scales.moment)
     told += f", from {join_words(causes)}"
     alone = causes == [_RODS] and result.engine.cylinders.linkage is None
-    return f"{told}{'; rods with H = 0 have none' * alone}."
+    return f"{told}{'; rods equal to two masses at their ends (H = 0) have none' * alone}."
 
 
 def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
-    """Return what makes the transverse couple in some orders, in words: parts are added to the rods
-    one after the other, and each that changes the couple is a cause.
+    """Return in words the causes of the transverse couple in some orders. Parts are added to the
+    rods one after the other; each part that changes the couple is a cause.
 
     Args:
         engine: Engine.
@@ -431,7 +433,7 @@ def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
     steps = {
         _RODS: rods,
         pistons: about_crank,
-        "forces that pass the reference at a distance": steady,
+        "forces whose lines miss the reference": steady,
         "the acceleration of turning parts": engine,
     }
     before: Complex = np.zeros(len(orders), complex)
@@ -471,7 +473,7 @@ def _tell_higher(high: Sequence[_Order]) -> str:
 
 
 def name_orders(orders: Sequence[float]) -> str:
-    """Return these orders by their numbers, or how many there are."""
+    """Return these orders in words: their numbers, or, if they are many, their count."""
     if len(orders) > _MOST_NAMED:
         return f"{len(orders)} orders up to {order_name(max(orders))}"
     return f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"

@@ -1,13 +1,14 @@
-"""Balancer shafts in their bearings, and counterweights as sectors (`analyze --only parts`).
+"""Compute the bearing loads and bending of balancer shafts, and the shapes of counterweights
+(`analyze --only parts`).
 
 The load `F_i = U_i k^2 omega^2 e^{i angle_i}` of an eccentric at z_i turns with its shaft, which
-turns k times as fast as the crank. Of its two bearings A takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
-B the rest. The bending moment at a section is the sum of all loads and bearing forces before it,
-each times its arm; it is largest at a load or bearing.
+turns k times as fast as the crank. Of its two bearings, A takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
+and B takes the rest. The bending moment at a section is the sum of all loads and bearing forces
+before it, each times its arm; it is largest at a load or bearing.
 
 A gear that drives the shaft against a drag T presses on it, at the mesh in direction d, with `T/R
-e^{i d} (i sign(k) - tan alpha)`, R the pitch radius, alpha the pressure angle. This force stands
-still; the lever rule shares it, too.
+e^{i d} (i sign(k) - tan alpha)`, where R is the pitch radius and alpha the pressure angle. This
+force has a fixed direction; the lever rule shares it between the bearings as well.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
-_ROUNDING = 1e-12  # of the sum of all loads: less is no load
+_ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
 
 
 def find_parts(
@@ -61,7 +62,7 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
 
     Args:
         name: Name of the shaft.
-        entries: Its tables.
+        entries: The `[[shaft]]` tables of this shaft.
         omega: Crank speed, rad/s.
     """
     devices = [build_device(entry, 0.0) for entry in entries]
@@ -89,12 +90,13 @@ def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> Balanc
 def _describe_gear(
     entries: Sequence[Shaft], omega: float, planes: Array
 ) -> tuple[ShaftGear | None, Complex]:
-    """Return the gear of a shaft, None without one, and its loads of the bearings, N, shape (2,).
+    """Return the gear of a shaft (None if it has none) and the bearing loads that the gear causes,
+    N, shape (2,).
 
     Args:
         entries: Tables of the shaft.
         omega: Speed of the shaft, rad/s.
-        planes: Places of the bearings, m, shape (2,).
+        planes: Positions z of the bearings, m, shape (2,).
     """
     gear = next((entry.gear for entry in entries if entry.gear), None)
     if gear is None:
@@ -107,7 +109,7 @@ def _describe_gear(
 
 
 def _share(loads: Complex, places: Array, planes: Array) -> Complex:
-    """Return the loads of two bearings, N, shape (2,).
+    """Return the loads of two bearings, N, shape (2,), by the lever rule.
 
     Args:
         loads: Forces on the shaft, N, shape (loads,).
@@ -133,7 +135,7 @@ def _find_direction(vector: complex) -> float | None:
 def _find_bending(
     loads: Complex, places: Array, reactions: Complex, planes: Array
 ) -> tuple[float, float | None]:
-    """Return the largest bending moment, N m, and its place, mm; None where nothing bends.
+    """Return the largest bending moment, N m, and its position z, mm; (None, None) without bending.
 
     Args:
         loads: Forces on the shaft, N, shape (loads,).
@@ -168,11 +170,11 @@ def _describe_counterweight(table: Counterweight, lowest: float | None) -> Count
 
 # ------------------------------------------------------------------ how it is shown
 _BEARINGS_NOTE = (
-    "Bearing loads depend on the resultant force and moment and on the bearing places only; "
-    "moving weights without changing both changes bending only."
+    "Bearing loads depend only on the resultant force and moment and on the bearing positions. "
+    "Moving weights so that both resultants stay the same changes only the bending."
 )
-_RADIUS_NOTE = "Radius: of the centre of mass."
-_CLEARANCE_NOTE = "Clearance: to the lowest piston, as if it stood over the counterweight."
+_RADIUS_NOTE = "Radius: distance of the centre of mass from the crank axis."
+_CLEARANCE_NOTE = "Clearance: gap to the lowest piston, as if it stood over the counterweight."
 
 
 _BEARING = {
@@ -219,7 +221,7 @@ def _list_columns(
     """Yield heading and cells of each figure that some records have.
 
     Args:
-        records: One a row.
+        records: Records, one for each row.
         labels: Labels of the figures, by their keys.
         units: Units of unbalance and force.
         system: System of units.
@@ -258,7 +260,7 @@ def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) 
 
 
 def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
-    """Yield every figure of shafts and counterweights, SI."""
+    """Yield every figure of shafts and counterweights in SI units."""
     shafts = ((f"shaft {one.name.removeprefix('shaft ')}", one) for one in parts.shafts)
     weights = ((f"counterweight {k}", one) for k, one in enumerate(parts.counterweights, 1))
     for label, record in (*shafts, *weights):

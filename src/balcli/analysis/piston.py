@@ -1,5 +1,5 @@
-"""Motion of the pistons: strokes, dead centres, mean and largest speed, and accelerations; exact,
-and by the two terms that textbooks use.
+"""Compute the motion of the pistons: strokes, dead centres, mean and largest speed, and
+accelerations; exactly, and by the two terms that textbooks use.
 
 Angles named "own" are crank angles of a cylinder, which are 0 when its pin points along its axis.
 The acceleration towards the crank is a series of cosines (`core.mechanisms.closed_form`), and the
@@ -40,7 +40,7 @@ _USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and T
     "Usual rod ratios of car engines: {:.3f} to {:.3f}; mean speed of high-speed engines: above {} "
     "(Lu and Meng, 1990)."
 )
-_HIGH_SPEED = 9.0  # m/s
+_HIGH_SPEED = 9.0  # mean piston speed above which an engine is a high-speed one, m/s
 _SAMPLES = 32  # samples per period of the highest order, to count minima
 
 
@@ -103,7 +103,7 @@ class TwoTerm:
 
 @dataclass(frozen=True, kw_only=True)
 class PistonMotion:
-    """Motion of the pistons of equal mechanisms.
+    """Motion of the pistons of cylinders with equal mechanisms.
 
     Attributes:
         cylinders: Numbers of the cylinders.
@@ -287,7 +287,7 @@ _PARTS = ("mean_speed", "max_speed", "max_acceleration", "stroke")
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of the quantities of piston 1, and of any other."""
+    """Yield the names of the quantities of piston 1, and patterns of those of other pistons."""
     if model.engine:
         return
     for stem in ("piston", "piston.N"):
@@ -303,7 +303,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 def evaluate_engine(engine: Engine, quantities: Sequence[TargetQuantity]) -> list[float]:
-    """Return the value of each quantity of one engine, SI."""
+    """Return the value of each quantity of one engine in SI units."""
     found = analyze_pistons(engine).mechanisms
     of_cylinder = {number: one for one in found for number in one.cylinders}
     return [_read_quantity(of_cylinder[int(q.target or 1)], q.part) for q in quantities]
@@ -330,8 +330,8 @@ _TWO_TERM = {  # figures of the two terms, by the paths of the exact figures
 
 
 def sheet(result: Pistons, system: System) -> Sheet:
-    """Return a table with a row for each figure and a column for each mechanism, followed by one
-    for the two terms.
+    """Return a table with a row for each figure, and for each mechanism a column of exact figures
+    followed by one of the two-term figures.
 
     Args:
         result: Motion of the pistons.
@@ -388,8 +388,8 @@ def _label(name: str, system: System) -> str:
 
 
 def rows(result: Pistons, system: System) -> Rows:
-    """Return the rows of CSV, SI: a line for each figure, with the cylinder numbers in the first
-    column.
+    """Return the rows of CSV in SI units: a line for each figure, with the cylinder numbers in the
+    first column.
     """
     del system
     lines = [

@@ -1,5 +1,5 @@
-"""Draw bars by order, curves over crank angle and balance factor, and values along the
-crankshaft.
+"""Draw the figures of an analysis: bars by order, curves over crank angle and balance factor, and
+values along the crankshaft.
 """
 
 from __future__ import annotations
@@ -203,7 +203,7 @@ def draw_along(
         what: "force" or "moment".
         system: System of units.
         steps: matplotlib's drawstyle of the line between the places; empty: columns.
-        over: Span of which the values are the largest, such as "the cycle".
+        over: Span over which the values are the largest ones, such as "the cycle".
     """
     unit = system.force if what == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
@@ -222,7 +222,7 @@ def draw_along(
 
 
 # ------------------------------------------------------------------ crank drive
-_STEP = 0.5  # deg
+_STEP = 0.5  # step of drawn crank angles, deg
 _MOTIONS = {  # titles, by names of curves
     "travel_m": "Piston {}: travel from the outer dead centre",
     "velocity_m_per_s": "Velocity towards the crank",
@@ -238,7 +238,7 @@ def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> Non
 
     Args:
         fig: Empty figure, whose height is set.
-        engine: Engine without trailing axes; its mean speed counts.
+        engine: Engine without trailing axes; the curves are those at its mean speed.
         number: Number of the cylinder.
         system: System of units.
 

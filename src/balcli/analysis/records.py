@@ -1,4 +1,4 @@
-"""Records of the parts of an analysis: each cylinder's share, loads along the crank, guide-force
+"""Define the records of an analysis: each cylinder's share, loads along the crank, guide-force
 moments, strokes, devices, journals and masses.
 """
 
@@ -194,8 +194,8 @@ class GuideOrder(NamedTuple):
     Attributes:
         order: Order.
         h_Nm: H-type: sum of the roll moments of all cylinders.
-        x_Nm: X-type: sum of roll moments times their axial distances, over the height of the
-            guides; left out where all cylinders have one position, or positions are not known.
+        x_Nm: X-type: sum of roll moments times their axial distances, divided by the height of the
+            guides; left out if all cylinders have the same position, or positions are not known.
     """
 
     order: float
@@ -207,7 +207,7 @@ class Guide(NamedTuple):
     """Guide-force moments.
 
     Attributes:
-        includes: Whether they include the gas.
+        includes: Whether the moments include the gas.
         height_m: Height of each cylinder's guide, sorted by cylinder number.
         orders: Moments by order.
     """
@@ -225,7 +225,7 @@ def describe_guide(guide: GuideMoments) -> Guide:
 
 
 def name_included(with_gas: bool) -> Includes:
-    """Return the words that say whether moments include the gas."""
+    """Return in words whether moments include the gas."""
     return "inertia and gas" if with_gas else "inertia, without gas"
 
 
@@ -237,7 +237,8 @@ class Stroke(NamedTuple):
         stroke_m: Stroke.
         top_deg: Crank angle at top dead centre, measured from the position of the pin along the
             axis.
-        bottom_deg: Crank angle at bottom dead centre, measured from half a turn later.
+        bottom_deg: Crank angle at bottom dead centre, measured from half a turn after this
+            position.
     """
 
     cylinder: int
@@ -264,7 +265,7 @@ class Counterweight(NamedTuple):
 
 
 class Shaft(NamedTuple):
-    """A balancer shaft, as it stands at crank angle 0.
+    """A balancer shaft, in its position at crank angle 0.
 
     Attributes:
         ratio: Speed over crank speed; negative: it turns against the crank.
@@ -273,7 +274,7 @@ class Shaft(NamedTuple):
         at_mm: Position of its axis: x, y.
         position_mm: Position along the crank.
         free: Whether the shaft may be anywhere.
-        role: Compensator; left out of balancer shafts.
+        role: "compensator"; left out for balancer shafts.
     """
 
     ratio: int
@@ -413,10 +414,10 @@ class Journal(NamedTuple):
     Attributes:
         place: Name: `main 1`, `pin 1`, ...
         inertia: Torque of inertia.
-        position_mm: Position along the crank; left out where throws have no known positions.
+        position_mm: Position along the crank; left out if positions of throws are not known.
         total: Torque of gas and inertia; left out without gas.
-        stress: Stress by the total torque (without gas: that of inertia); left out where the file
-            gives no diameter.
+        stress: Stress under the total torque (without gas: under that of inertia); left out if the
+            file gives no diameter.
     """
 
     place: str
@@ -430,12 +431,12 @@ class ShaftBearing(NamedTuple):
     """Load of one bearing of a balancer shaft.
 
     Attributes:
-        position_mm: Place along the crank.
-        rotating_N: Constant load that turns with the shaft, of its eccentrics.
-        fixed_N: Load that stands still, of the gear force.
-        largest_N: Largest load over a turn: the sum of both.
+        position_mm: Position along the crank.
+        rotating_N: Load of the eccentrics, which turns with the shaft.
+        fixed_N: Load of the gear force, whose direction is fixed.
+        largest_N: Largest load over a turn: the sum of both loads.
         rotating_deg: Direction of the turning load at crank angle 0; left out without load.
-        fixed_deg: Direction of the other; left out without load.
+        fixed_deg: Direction of the fixed load; left out without load.
     """
 
     position_mm: float
@@ -466,11 +467,11 @@ class BalancerShaft(NamedTuple):
     Attributes:
         name: Name of the shaft.
         ratio: Speed over crank speed; negative: it turns against the crank.
-        inertia_at_crank_kg_m2: Its moment of inertia times the square of the ratio.
-        bearings: Its bearings; left out, like all that follows, where the file gives none.
+        inertia_at_crank_kg_m2: Moment of inertia of the shaft times the square of the ratio.
+        bearings: Loads of the bearings; left out, like all that follows, if the file gives none.
         bending_Nm: Largest bending moment of the turning loads.
-        bending_position_mm: Its place; left out where nothing bends the shaft.
-        gear: Its gear; left out where the file gives none.
+        bending_position_mm: Position of this bending moment; left out if nothing bends the shaft.
+        gear: Gear of the shaft; left out if the file gives none.
     """
 
     name: str
@@ -483,18 +484,18 @@ class BalancerShaft(NamedTuple):
 
 
 class CounterweightPart(NamedTuple):
-    """A counterweight; all beyond its unbalance only of a sector.
+    """A counterweight. Mass and all that follows are known only for a sector.
 
     Attributes:
-        position_mm: Place along the crank.
+        position_mm: Position along the crank.
         angle_deg: Angle from cylinder 1's crank pin, in (-180, 180].
         unbalance_kg_m: Unbalance.
         mass_kg: Mass.
-        center_of_mass_m: Distance of its center of mass from the crank axis.
+        center_of_mass_m: Distance of the centre of mass from the crank axis.
         thickness_m: Thickness.
         inertia_kg_m2: Polar moment of inertia about the crank axis.
-        clearance_m: Least distance of a piston's lowest edge from the rim, as if each piston stood
-            at its inner dead centre over the counterweight; left out without `piston.skirt`.
+        clearance_m: Smallest distance of a piston's lowest edge from the rim, as if each piston
+            were at its inner dead centre over the counterweight; left out without `piston.skirt`.
     """
 
     position_mm: float
@@ -508,7 +509,7 @@ class CounterweightPart(NamedTuple):
 
 
 class BalanceParts(NamedTuple):
-    """Balancer shafts and counterweights as parts.
+    """Bearing loads of balancer shafts, and shapes of counterweights.
 
     Attributes:
         shafts: Balancer shafts.
@@ -520,7 +521,7 @@ class BalanceParts(NamedTuple):
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings: counterweights that meet a piston."""
+        """Warnings of counterweights that touch a piston."""
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:
                 gap = f"{1e3 * part.clearance_m:.4g} mm"
@@ -541,7 +542,7 @@ class RelatedMoment(NamedTuple):
     Attributes:
         order: Order.
         moment_Nm: Largest free moment; null where it is not known.
-        Nm_per_kW: This moment over the power; null where it is not known.
+        Nm_per_kW: This moment divided by the power; null where it is not known.
         need: Need of a compensator; null where the moment is not known.
     """
 
@@ -552,12 +553,12 @@ class RelatedMoment(NamedTuple):
 
 
 class PowerRelatedUnbalance(NamedTuple):
-    """Free moments over the power, as builders of marine engines list them.
+    """Free moments divided by the power, as builders of marine engines list them.
 
     Attributes:
         power_W: Power.
-        power_kind: Source of the power: file (the brake power that it gives), or brake or indicated
-            power of the gas.
+        power_kind: Source of the power: "file" (brake power in the file), or "brake" or "indicated"
+            (power of the gas).
         orders: Orders 1 and 2.
     """
 
@@ -571,12 +572,13 @@ class Masses(NamedTuple):
 
     Attributes:
         cylinders: Numbers of the cylinders.
-        piston_kg: Piston with pin, rings and locks.
-        crosshead_kg: Crosshead with piston rod and pin.
-        reciprocating_kg: Piston, crosshead and small end.
-        rotating_kg: Big end with bearing shells and oil, without the throw.
-        throw_kg: Share of the throw at the pin.
-        rod_kg: Rod; left out, with all figures that depend on it, where the file gives no mass.
+        piston_kg: Mass of the piston with pin, rings and locks.
+        crosshead_kg: Mass of the crosshead with piston rod and pin.
+        reciprocating_kg: Mass of piston, crosshead and small end.
+        rotating_kg: Mass of the big end with bearing shells and oil, without the throw.
+        throw_kg: Share of the throw's mass at the pin.
+        rod_kg: Mass of the rod; left out, with all figures that depend on it, if the file gives no
+            mass.
         rod_small_end_kg: Share of the rod's mass at the piston pin.
         rod_big_end_kg: Share of the rod's mass at the crank pin.
         rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.

@@ -1,4 +1,4 @@
-"""Tables and rows of CSV for parts of an analysis: shear forces, bending moments and bearing loads
+"""Show parts of an analysis as tables and CSV: shear forces, bending moments and bearing loads
 along the crankshaft, guide-force moments by order, strokes and dead centres, and the reasons why
 orders are balanced.
 """
@@ -38,19 +38,19 @@ if TYPE_CHECKING:
 
 
 _OPEN_END = (
-    "Without bearings: the value at the last place is the free moment of all these loads about it, "
-    "which the mounts carry."
+    "Without bearings: the value at the last position is the free moment of all these loads about "
+    "it, which the mounts carry."
 )
 _TOGETHER = (
-    "Of inertia: gas presses on throw and head alike, so that it shears and bends crankshaft and "
-    "block together nowhere."
+    "Loads of inertia: gas presses on throw and head alike, so that it does not bend crankshaft "
+    "and block as a whole."
 )
 _BEHIND = "Values just behind each load."
 _CUT = (
-    "Main bearings half-way between throws and as far outside the end ones; the shaft counts as "
-    "cut in each."
+    "Main bearings half-way between throws, and as far outside the end throws; the shaft is taken "
+    "as cut in each bearing."
 )
-ORDERS_SHOWN = 6  # orders in a table, which has a column for each
+ORDERS_SHOWN = 6  # largest number of orders in a table, which has a column for each
 
 
 _LABELS = {  # labels of loads by name, in the order of `InnerLoads` and `LoadsWithGas`
@@ -101,8 +101,8 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
 
 
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
-    """Yield the figures of every place. Places are numbered along the crank (`shear 1`); their
-    position is a figure, too.
+    """Yield the figures of every place. Places are numbered along the crank (`shear 1`), and the
+    position of each is also a figure.
 
     Args:
         inner: Loads along the crankshaft.
@@ -144,7 +144,7 @@ def _tell_largest(bending: AlongCrank, system: System) -> str:
     return f"{moment} at {place} {system.length.name}"
 
 
-_ALONE = "of inertia alone, without gas"
+_ALONE = "of inertia only, without gas"
 
 
 def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
@@ -198,7 +198,7 @@ def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
 def _heights(height_m: Array, system: System) -> str:
     """Return in words the height of all guides, or the lowest and the highest."""
     found = (float(height_m.min()), float(height_m.max()))
-    if not np.isfinite(found).all():  # of a harmonic motion
+    if not np.isfinite(found).all():  # the rods of harmonic motion have no length
         return UNKNOWN
     texts = dict.fromkeys(number(system.length.of(height)) for height in found)
     return f"{' to '.join(texts)} {system.length.name}"
@@ -224,8 +224,8 @@ def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
             )
             for one in travel
         ),
-        note="Dead centres: crank degrees after the pin lies along the cylinder's axis, and half "
-        "a turn later.",
+        note="Dead centres: top in crank degrees after the pin lies along the cylinder's axis, "
+        "bottom from half a turn later.",
     )
 
 
@@ -245,8 +245,8 @@ def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow
 
 
 UNITS = (
-    "Fn: largest force of order n of one cylinder's reciprocating masses; a: least axial distance "
-    "of two throws; as built: with rotating masses and stagger."
+    "Fn: largest force of order n of one cylinder's reciprocating masses; a: smallest axial "
+    "distance of two throws; as built: with rotating masses and stagger."
 )
 
 

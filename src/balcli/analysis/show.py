@@ -56,8 +56,8 @@ _UNCOUNTED = (
     "[flywheel] for all turning parts."
 )
 Part: TypeAlias = Grid | Facts | Text
-STEADY = ("journals", "masses", "parts", "pru")  # words in which an uneven speed does not count
-TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # need no crank speed beside them
+STEADY = ("journals", "masses", "parts", "pru")  # parts that are computed at the mean speed
+TEXTS = frozenset({"verdict", "sizing", "ladder", "textbook"})  # parts shown without the speed
 TABLES = TEXTS - {"verdict"} | {"xy", "peak", *EXTRAS}  # parts that are shown without a verdict
 
 
@@ -186,7 +186,7 @@ def _tell_uncounted(result: Analysis) -> Iterator[Text]:
 
 
 def _judge(result: Analysis, system: System) -> Iterator[Text]:
-    """Yield the verdict. If moments are not known, it is only on forces and says so."""
+    """Yield the verdict. If moments are not known, it covers only forces and states this."""
     if not result.spectra.vectors():
         return
     spectra, known = result.spectra, result.moments_known

@@ -134,7 +134,7 @@ class MarineOrder:
     torque_Nm: float
 
 
-FIGURES = (  # names as engineers write them, `n` for the order
+FIGURES = (  # names as engineers write them, with `n` for the order
     Kind("force_v", "external vertical force FnV", "FnV", "force_v_N", dimension="force"),
     Kind("force_h", "external horizontal force FnH", "FnH", "force_h_N", dimension="force"),
     Kind("moment_v", "external vertical moment MnV", "MnV", "moment_v_Nm"),
@@ -182,7 +182,7 @@ class MarineSheet:
     list them.
 
     Attributes:
-        engine: Engine at the first speed.
+        engine: Name and number of cylinders of the engine.
         includes: Whether guide-force moments and torque include the gas.
         axes: Axes that are called vertical and horizontal.
         height_m: Distance from the crankshaft to the middle of each guide, sorted by cylinder
@@ -357,8 +357,8 @@ RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 _AXES = "V is along x, from which bank angles count, H along y."
 _NAMES = (
-    "FnV, FnH, MnV, MnH: n is the order, so that M1V and M2V stand in column MnV. Amplitudes; a "
-    "vertical force makes a vertical moment."
+    "FnV, FnH, MnV, MnH: n is the order, so that column MnV has M1V and M2V. Values are "
+    "amplitudes. A vertical force makes a vertical moment."
 )
 
 
@@ -374,7 +374,7 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
     head = engine_facts(
         result.engine, system, higher=False, whole=False, speeds_rpm=result.speeds_rpm
     )
-    alone = "of inertia alone, without gas"
+    alone = "of inertia only, without gas"
     of_what = alone if result.engine.gas is None else "of inertia and gas"
     parts: list[Facts | Grid | Text] = [head]
     if len(result.speeds) == 1:

@@ -73,10 +73,10 @@ class Arrangement:
     Attributes:
         phase_deg: Crank angle by which the second engine leads, in its own sense of rotation.
         at_m: Position of its origin (its crank axis at its z = 0) in the first engine's axes.
-        turn_deg: Angle by which it is turned about z, with all its banks.
-        reverse: Whether its crank turns against the first. It is then a mirror image of the engine
-            in its file (y with opposite sign), so that angles in the file still count in its own
-            sense of rotation.
+        turn_deg: Angle by which the second engine is turned about z, with all its banks.
+        reverse: Whether the second crank turns against the first. The second engine is then a
+            mirror image of the engine in its file (y with opposite sign), so that angles in the
+            file still count in its own sense of rotation.
         load: Crank with flywheel and load, which carries the whole inertia torque; "both": each
             crank carries its own torque, and the gears carry none of it. If both cranks turn alike,
             the choice makes no difference.
@@ -166,7 +166,8 @@ def combine_engines(
     of them has some.
 
     Args:
-        first, second: Engines without trailing axes.
+        first: Engine without trailing axes.
+        second: Engine without trailing axes.
         arrangement: Arrangement of the second engine.
         orders: Orders to show; default: as in `analyze`.
 
@@ -270,8 +271,8 @@ def _name_beside(path: str, target: Path) -> str:
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL = {
     "first": "It drives the load, and the roll is C − T.",
-    "second": "The second one drives the load, against its sense: the roll is C + T.",
-    "both": "Each has its own flywheel and load: the roll is C − T1 + T2.",
+    "second": "The second crank drives the load in the opposite sense: the roll is C + T.",
+    "both": "Each crank has its own flywheel and load: the roll is C − T1 + T2.",
 }
 
 

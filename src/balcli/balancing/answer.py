@@ -1,6 +1,6 @@
-"""Balance an engine: the devices of a scheme, and the analyses without and with them. Find knuckle
-angles that make strokes or dead centres of articulated rods even. Write a remedy into an engine
-file.
+"""Balance an engine: compute the devices of a scheme, and the analyses without and with them. Find
+knuckle angles that make strokes or dead centres of articulated rods even. Write a remedy (new
+devices or knuckle angles) into an engine file.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
 
-SHAPES = ("name", "bearings", "sector")  # keys of new devices as parts
+SHAPES = ("name", "bearings", "sector")  # keys that describe the shape of new devices
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
 
@@ -54,7 +54,7 @@ class PermittedUnbalance:
         grade: Permitted speed of the centre of mass, mm/s.
         mass_kg: Mass of the crankshaft.
         each_g_mm: Permitted unbalance at each counterweight, or in each plane of the remedy's
-            `needs`; it is the same for all.
+            `needs`; it is the same in all planes.
     """
 
     grade: float
@@ -68,11 +68,12 @@ class Balance(Result):
 
     Attributes:
         remedy: New devices and the reasons for them.
-        before: Analysis of the engine without them.
-        after: Analysis with them, for the same orders.
+        before: Analysis of the engine without the new devices.
+        after: Analysis with the new devices, for the same orders.
         practical: Figures of each device for the workshop, in the order of `remedy.devices`.
         tools: Tools of the workshop.
-        speed_note: How remedy and analyses differ in speed; empty if they do not.
+        speed_note: Difference in speed between remedy and analyses, in words; empty if they do not
+            differ.
         permitted: Residual unbalance that a grade permits, if one was given.
         every_order: Whether orders were given; then all of them are shown.
         ladder: Ladder of the engine; None where articulated rods are changed.
@@ -111,17 +112,18 @@ def balance_engine(
     Devices are sized for a steady speed; under uneven speed both analyses include it.
 
     Args:
-        engine: without trailing axes.
-        scheme: its name, such as "counterweights" or "factor"; `balcli balance --schemes` lists and
-            explains all schemes.
-        options: of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
-        orders: which to show; default: 1 and 2 and all that are not negligible before or after.
-        tools: of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
-        shapes: of new devices, such as Shapes(bearings=(-0.13, 0.13), sector=(0.03, 0.075, 140)).
+        engine: Engine without trailing axes.
+        scheme: Name of the scheme, such as "counterweights" or "factor"; `balcli balance --schemes`
+            lists and explains all schemes.
+        options: Options of the scheme, such as SchemeOptions(factor=(0.51,), planes="ends").
+        orders: Orders to show; default: 1, 2 and all that are not negligible before or after.
+        tools: Tools of the workshop, for masses and holes, such as Tools(radius=0.08, drill=0.012).
+        shapes: Shapes of new devices, such as Shapes(bearings=(-0.13, 0.13), sector=(0.03, 0.075,
+            140)).
 
     Raises:
-        BalcliError: an unknown scheme, or options that cannot be met, with the reason.
-        TypeError: an argument of another type.
+        BalcliError: The scheme is unknown, or its options cannot be met (with the reason).
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> balance(load("i3.toml"), "counterweights").after.peak.moment.value
@@ -157,8 +159,8 @@ def balance_fit(
     """Fit the devices whose unbalance is "fit" in an engine file.
 
     Args:
-        engine: Engine without them (`sizing.fit.remove_to_fit`).
-        model: Engine file with them.
+        engine: Engine without these devices (`sizing.fit.remove_to_fit`).
+        model: Engine file with these devices.
         targets: Quantities to cancel, of "force", "moment", "roll" and "roll_total".
         orders: Orders to show, as in `balance_engine`.
         tools: Tools of the workshop, as in `balance_engine`.
@@ -241,8 +243,8 @@ balance.__name__ = balance.__qualname__ = "balance"
 balance.__module__ = __name__  # where pickle finds it
 
 
-_STEP_DEG = 1e-3  # step for the slope
-_STAYS_DEG = 1e-9  # smaller turns of a pin are rounding
+_STEP_DEG = 1e-3  # step of the difference quotient in Newton's method
+_STAYS_DEG = 1e-9  # a smaller turn of a pin is rounding
 _FARTHEST_DEG = 30.0  # largest turn of a knuckle pin
 _CLOSE = {"dead-centres": 1e-9, "strokes": 1e-12}  # goals, and their tolerance in degrees or metres
 
@@ -254,7 +256,8 @@ class Knuckles:
     Attributes:
         model: Engine file with the new `articulation.knuckle_angles`.
         angles_deg: Angle of each bank's knuckle pin.
-        before, after: Strokes and dead centres of all cylinders.
+        before: Strokes and dead centres of all cylinders with the old angles.
+        after: Strokes and dead centres of all cylinders with the new angles.
         reasons: The changes, and the banks that cannot be made even.
     """
 
@@ -286,7 +289,9 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     if not isinstance(linkage, Articulated) or engine.rotary:
         raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
     if len(set(Parts(model).find_master_places())) > 1:
-        raise BalcliError("knuckles: one list of angles needs masters in one place of every row")
+        raise BalcliError(
+            "knuckles: one list of angles needs the master rods of all rows in the same bank"
+        )
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
 
@@ -438,7 +443,7 @@ def _insert_devices(text: str, remedy: Remedy) -> str:
         data = tomllib.loads(text)
         for device in remedy.devices:
             data.setdefault(name_kind(device), []).append(_list_entries(device))
-        return rewrite(data, "it has devices in one list, to which TOML lets nothing be added")
+        return rewrite(data, "its devices are in an inline list, which TOML cannot extend")
     return new
 
 

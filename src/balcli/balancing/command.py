@@ -93,7 +93,7 @@ Schemes = Annotated[
         help="List all schemes with their options.",
     ),
 ]
-Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: of the crank.")]
+Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
 Thickness = Annotated[str | None, optional("MM", "Thickness of the half discs; default: 20.")]
 Disc = Annotated[str | None, optional("MM", "Radius of the half discs; instead of --thickness.")]
 Drill = Annotated[str | None, optional("MM", "List holes to drill, from --radius inwards.")]
@@ -101,7 +101,7 @@ MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the a
 Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]
 Width = Annotated[
     str | None,
-    optional("MM", "Room for holes along z; default: of a throw."),
+    optional("MM", "Room for holes along z; default: that of a throw."),
 ]
 Bearings = Annotated[str | None, optional("Z1,Z2", "Bearings of the new shafts, along z in mm.")]
 SectorOption = Annotated[
@@ -119,9 +119,7 @@ Target = Annotated[
 Direction = Annotated[str | None, optional("DEG", "Direction of the force to leave, from x.")]
 Ratio = Annotated[str | None, optional("SHARE", "Smallest over largest force to leave: 50%.")]
 Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
-Criterion = Annotated[
-    str | None, optional("largest|mean", "Force that it makes small; default: largest.")
-]
+Criterion = Annotated[str | None, optional("largest|mean", "Force to minimise; default: largest.")]
 Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
@@ -156,7 +154,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
         lengths: Texts of the options with lengths, by their names in `Tools`.
 
     Raises:
-        BalcliError: A text is no length, or no metal.
+        BalcliError: A text is not a length, or not a metal.
     """
     from ..sizing.workshop import Tools
 
@@ -175,7 +173,7 @@ def parse_tools(units: Units, slug: str | None, **lengths: str | None) -> Tools:
 def parse_shapes(
     units: Units, bearings: str | None, sector: str | None
 ) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
-    """Return the figures of `Shapes`; each argument is an option as typed, or None.
+    """Return the shapes of new devices; each argument is the text of an option, or None.
 
     Args:
         units: Units of the command.
@@ -183,7 +181,7 @@ def parse_shapes(
         sector: Inner radius, outer radius and opening.
 
     Raises:
-        BalcliError: A text that cannot be read.
+        BalcliError: A text cannot be read.
     """
     places = None
     if bearings is not None:
@@ -225,8 +223,8 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
         )
     if scheme != FIT or options != SchemeOptions(small=options.small):
         raise BalcliError(
-            f'{name}: {open_devices[0]}.unbalance is "fit": balance fits the devices of the file, '
-            f"and takes --target, but no other scheme (here {scheme}) and none of its options"
+            f'{name}: {open_devices[0]}.unbalance is "fit": balance fits the devices of the file '
+            f"and takes --target; scheme {scheme} and its options cannot be used"
         )
 
 
@@ -241,7 +239,7 @@ def _check_even(scheme: str, options: SchemeOptions) -> None:
 
 
 def _refuse_shapes(shapes: Shapes, scheme: str) -> None:
-    """Raise BalcliError for shapes of new devices of a scheme without any."""
+    """Raise BalcliError if shapes are given for a scheme that adds no devices."""
     if any(shapes) and scheme in (FIT, KNUCKLES):
         raise BalcliError(f"--bearings and --sector are for new devices; scheme {scheme} adds none")
 

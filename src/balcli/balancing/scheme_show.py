@@ -63,15 +63,15 @@ def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
 
 
 def _tell_compensators(result: Balance, system: System) -> Iterator[tuple[str, str]]:
-    """Yield place, force and masses of each compensator."""
+    """Yield position, force and unbalances of each compensator."""
     remedy = result.remedy
     for each in remedy.details.get("compensators", ()):
         pair = [shaft for shaft in remedy.shafts if shaft.position == each["position_mm"]]
         mass = size_text(find_unbalance(pair[0]), system.unbalance)
-        angles = " and ".join(f"{shaft.angle:.4f} deg (at {shaft.ratio:+d})" for shaft in pair)
+        angles = " and ".join(f"{shaft.angle:.4f} deg (shaft {shaft.ratio:+d})" for shaft in pair)
         place = f"{number(system.length.of(each['position_mm'] / 1e3))} {system.length.name}"
         force = size_text(each["force_N"], system.force)
-        yield f"at z = {place}", f"force of {force}; 2 masses of {mass} at {angles}"
+        yield f"at z = {place}", f"force of {force}; 2 unbalances of {mass} at {angles}"
 
 
 def tell_change(result: Balance, system: System) -> str:
@@ -177,7 +177,7 @@ def tell_growing_rolls(result: Balance, system: System) -> Iterator[str]:
         if not grown or grown[-1] <= 0:
             continue
         order = group.replace("_", " ") or f"order {remedy.order}"
-        why = f"where they stand, the devices' forces have levers about {pivot}"
+        why = f"the forces of the devices do not pass through {pivot}"
         took = "the devices cancel inertia roll that opposes the gas roll at this speed"
         why = took if grown[0] < 0 else why
         gas, size = " with gas" * (len(grown) > 1), size_text(grown[-1], system.moment)
@@ -277,8 +277,8 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         for row in sweep
     )
     note = (
-        "Bobweight of the first pin; weight: the largest counterweight to add. Forces that remain: "
-        "the largest, along and across the first bank; all orders."
+        "Bobweight of the first pin; weight: largest counterweight to add. The force that remains, "
+        "all orders: its largest value, and those along and across the first bank."
     )
     return Grid("Largest values by factor", heads, rows, note=note)
 

@@ -110,7 +110,7 @@ def sheet(result: Balance, system: System) -> Sheet:
     if any(notes):
         parts.append(Text("Note", tuple(filter(None, notes))))
     if not known:
-        parts.append(Text("Forces alone", (sentence(MOMENTS_UNKNOWN),)))
+        parts.append(Text("Forces only", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
     parts += changes or [Text("Before and after", ("Nothing changes by 1 %.",))]
@@ -176,7 +176,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
             for name, size in found
         ),
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
-        f"{result.before.engine.speed_rpm:g} rpm; all share alike.",
+        f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
     )
 
 
@@ -236,7 +236,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
     ]
     sizes = np.array([[state[kind.name].major for state in states] for kind in kinds])
     scales = dict(result.before.of_one_cylinder)
-    if has_gas:  # a single cylinder gives no scale for this kind
+    if has_gas:  # one cylinder gives no scale for the roll with gas
         scales[ROLL_TOTAL.name] = float(sizes[2].max())
     every, least = result.every_order, [NEGLIGIBLE * scales[kind.name] for kind in kinds]
     small = (sizes < np.reshape(least, (-1, 1, 1))) & (not every)  # kind, state, order
@@ -312,7 +312,10 @@ def _crank_loads(states: Sequence[CrankLoads | None], system: System) -> Iterato
         rows.append((f"{name}, {unit.name}", *cells[0], *cells[1]))
     if rows:
         at = f"at z, {system.length.name}"
-        note = "Inertia alone, bearings half-way between throws; of equal places the first."
+        note = (
+            "Loads by inertia only; bearings half-way between throws. Where several places have "
+            "the largest value, the first is listed."
+        )
         yield Grid("Within the crankshaft", ("", "before", at, "after", at), tuple(rows), note=note)
 
 
@@ -433,7 +436,7 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
 
 
 def _rows_of(part: str, record: object) -> Iterator[tuple[object, ...]]:
-    """Yield the figures of a record; none of None."""
+    """Yield the figures of a record; nothing if it is None."""
     for name, value in () if record is None else _with_paths(write_each(record)):
         yield part, "", "", name, value, ""
 

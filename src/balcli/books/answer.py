@@ -3,7 +3,7 @@ common engine layouts.
 
 The table of layouts lists free forces and moments of the example engines. Forces are multiples of
 F_n = m_rec r omega^2 A_n (A_1 = 1), one cylinder's force of order n. Moments, about the middle of
-the crankshaft, are multiples of F_n times the distance of neighboring throws. Offsets of piston
+the crankshaft, are multiples of F_n times the distance of neighbouring throws. Offsets of piston
 pins and all else that textbooks ignore are left out (`forces.symmetry`).
 """
 
@@ -166,17 +166,18 @@ def tables(
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.
         ratios: Other crank ratios (crank radius over rod length) than the printed ones, where the
             table has them as columns, such as "0.20:0.40:0.01" or "0.25,1/3".
-        angles: Other angles than the printed ones, deg, in the same form: crank angles, in the
-            tables of liu bank angles.
+        angles: Other angles than the printed ones, deg, in the same form: crank angles, or bank
+            angles in the tables of liu.
         power: Highest power of the crank ratio in "series", 0 to 200.
 
     Returns:
-        The table: `exact` cells as `columns` name them, the `printed` texts, and `errata`, every
-        printed figure that is not the exact one rounded.
+        The table, with `columns`, `exact` cells, `printed` texts, and `errata`: every printed
+        figure that differs from the rounded exact one.
 
     Raises:
-        BalcliError: there is no such table, with the nearest name; a range that it does not take.
-        TypeError: the name or a range is no text, the power no whole number.
+        BalcliError: There is no such table (the error names the nearest), or it does not take a
+            range.
+        TypeError: The name or a range is not a text, or the power is not a whole number.
 
     Example:
         >>> tables("tsinghua-1-2").errata

@@ -41,7 +41,7 @@ CLASSES: dict[ErratumClass, str] = {
 
 class Explanation(NamedTuple):
     """Figures as the author may have computed them, in the same cells as the exact ones; None in
-    cells that it does not explain.
+    cells that this explanation does not cover.
     """
 
     kind: str
@@ -62,7 +62,7 @@ class Erratum(NamedTuple):
         column: Heading of the column.
         printed: Text in the source.
         exact: Right value or statement.
-        kind: Cause of the erratum; for a statement, how its right form is known.
+        kind: Cause of the erratum; for a statement, the way in which its right form is known.
         label: Name of the row.
         category: Class of the erratum, a key of `CLASSES`.
     """
@@ -164,7 +164,7 @@ def _explain(
     value: Cell, text: str, supposed: Iterable[tuple[Explanation, Cell]]
 ) -> tuple[ErratumClass, str]:
     """Return the class and kind of an erratum: those of the first explanation whose figure leads to
-    the print; otherwise its digits decide.
+    the printed one; without such an explanation, the digits decide.
     """
     printed = parse_decimal(text)
     if printed is None or not isinstance(value, (int, float)):
@@ -182,7 +182,7 @@ def _explain(
 
 
 class Print(NamedTuple):
-    """A table as printed; None marks cells without print."""
+    """A table as the source prints it; None marks cells that it leaves empty."""
 
     name: str
     title: str
@@ -222,8 +222,8 @@ class Print(NamedTuple):
         Args:
             columns: Names of the columns.
             rows: Recomputed rows.
-            printed: Printed texts of the rows; None: the rows of this print, without print in
-                further columns.
+            printed: Printed texts of the rows; None: the rows of this print, with further columns
+                left empty.
             explanations: Possible explanations of errata.
             stub: Number of leading columns that name a row.
         """
@@ -315,12 +315,12 @@ _PLAIN = re.compile(r"\s*[-+.\d/]{1,30}(e-?\d{1,2})?\s*", re.IGNORECASE)
 
 
 class Ranges(NamedTuple):
-    """Other columns and rows; None: as printed.
+    """Columns and rows that replace those of the print; None: as printed.
 
     Attributes:
-        lam: columns: crank radius over rod length, as headings.
-        angle: crank angles as rows, or bank angles, in degrees, as headings.
-        power: the highest power of lambda.
+        lam: Values of lambda (crank radius over rod length), as texts of the headings.
+        angle: Crank angles or bank angles, deg, as texts of the rows or headings.
+        power: Highest power of lambda.
     """
 
     lam: tuple[str, ...] | None = None
@@ -329,10 +329,10 @@ class Ranges(NamedTuple):
 
 
 def parse_range(text: str, option: str) -> tuple[str, ...]:
-    """Return the numbers of a range as texts; START:STOP:STEP includes both ends.
+    """Return the numbers of a range as texts; START:STOP:STEP includes STOP if a step meets it.
 
     Raises:
-        BalcliError: The text is neither a range nor a list of numbers, or too long.
+        BalcliError: The text is neither a range nor a list of numbers, or has too many of them.
     """
     try:
         found = [heading for item in text.split(",") for heading in _expand(*item.split(":"))]
@@ -346,7 +346,7 @@ def parse_crank_ratios(text: str) -> tuple[str, ...]:
     """Return the numbers of a range of lambda (crank radius over rod length) as texts.
 
     Raises:
-        BalcliError: the range is wrong (see `parse_range`), or a mechanism in it cannot turn.
+        BalcliError: The range is wrong (see `parse_range`), or a mechanism in it cannot turn.
     """
     found = parse_range(text, "--lambda")
     bad = next((heading for heading in found if not 0 < _read(heading) < 1), None)

@@ -62,9 +62,9 @@ def _rough(degrees: Array) -> Array:
 
 
 def tabulate_paths(printed: Print, ranges: Ranges) -> Table:
-    """Return Table 1: radii of the two shafts over gamma, their ratio, and the same for the
-    derivatives of the radii. With other angles than the printed ones, the lengths of both paths
-    follow; the text of the source gives them at 180 degrees: 3 b and b.
+    """Return Table 1: radii of the two shafts over gamma, the derivatives of the radii, and the
+    ratio of each pair. With other angles than the printed ones, two more columns have the lengths
+    of both paths; the text of the source gives them at 180 degrees: 3 b and b.
     """
     headings = ranges.angle or printed.headings()
     gamma, stub = as_numbers(headings), list(printed.column(printed.columns[0]))
@@ -84,7 +84,7 @@ def _compare(
     cells: Sequence[Words],
     stub: int = 1,
 ) -> Table:
-    """Return the table of exact rows; rows with the rough cosine explain its errata."""
+    """Return the table of exact rows; rows computed with the rough cosine explain its errata."""
     rough = Explanation(ROUGH, compute(_rough), "approximation")
     return printed.compare(columns, compute(_cos), cells, [rough], stub)
 
@@ -127,7 +127,7 @@ def _paths(gamma: Array, cosine: Cosine) -> Array:
 
 
 def _walk(angle: Array) -> Array:
-    """Return the way that the cosine covers from 0 to an angle, deg: 2 in each half turn."""
+    """Return the total variation of the cosine from 0 to an angle, deg: 2 in each half turn."""
     halves, rest = np.divmod(np.abs(angle), 180)
     return np.asarray(2 * halves + 1 - _cos(rest))
 

@@ -1,8 +1,9 @@
-"""Exact coefficients in powers of lambda, compared with those that the five sources print.
+"""Compute exact coefficients in powers of lambda, and compare them with those that the five sources
+print.
 
-Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920: Tables I and II, A_n of the
-piston's and D_k of the rod's acceleration, whose errata are recomputed from one and two terms of
-the series; and his statements on orders.
+Kvasnikov, Determination of the unbalance of piston engines, Tomsk 1920, has Tables I and II
+(coefficients A_n of the piston's and D_k of the rod's acceleration) and statements on orders. The
+errata of the tables are recomputed from one and two terms of the series.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ Generator: TypeAlias = Callable[[int, int], series.Series]
 POWER = 12
 COLUMNS = ("function", "order", "power", "coefficient", "source", "equation")
 
-GENERATED: dict[str, Generator] = {  # listed up to the requested power
+GENERATED: dict[str, Generator] = {  # coefficients that are listed up to the requested power
     "displacement x/r from TDC": series.displacement,
     "velocity v/(r w)": series.velocity,
     "acceleration A_n (r w^2)": series.piston,
@@ -46,7 +47,9 @@ GENERATED: dict[str, Generator] = {  # listed up to the requested power
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
-PRINTED: dict[str, Generator] = {  # other forms, listed if a source prints them
+PRINTED: dict[
+    str, Generator
+] = {  # other forms of coefficients, listed only if a source prints them
     "displacement (from shaft)/r": series.from_shaft,
     "acceleration (l w^2)": lambda n, power: {
         p: n * n * c for p, c in series.cos_beta(n, power).items()
@@ -162,7 +165,9 @@ def _analyze(name: str, tables: Mapping[str, Any]) -> Textbook:
 
 
 def _find_order(book: Textbook, kind: str, place: int) -> float:
-    """Return the lowest order (place 0) of a force or moment, or the next ones; 0: none."""
+    """Return the order of a force or moment at this place in ascending sequence (0: the lowest);
+    0 if there is none.
+    """
     found = book.reciprocating[kind]
     orders = [*found.orders[~found.balanced].tolist(), 0.0, 0.0, 0.0]
     return float(orders[place])
@@ -175,7 +180,7 @@ def _find_share(book: Textbook, kind: str, order: int) -> float:
 
 
 def _find_force(book: Textbook, order: int, axis: str) -> float:
-    """Return the force of an order along x or y, over that of one cylinder."""
+    """Return the force of an order along x or y, divided by that of one cylinder."""
     force = book.reciprocating["force"]
     along = np.abs(force.x if axis == "x" else force.y)[order - 1]
     return float(along / (book.units.force * book.units.ratios[order - 1]))

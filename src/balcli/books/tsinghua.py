@@ -59,9 +59,10 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
 
 
 def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
-    """Sections 1.1.1.1 to 1.1.1.3: largest errors of the formulas of two terms over a revolution,
-    their share of the largest value and of the exact value there; and the largest error relative to
-    the exact value (of the acceleration, which has zeros between 0 and 180 degrees, without bound).
+    """Return the errors of the two-term formulas of sections 1.1.1.1 to 1.1.1.3 over a revolution:
+    the largest error, its share of the largest value and of the exact value at the same angle; and
+    the largest relative error (without bound for the acceleration, which has zeros between 0 and
+    180 degrees).
     """
     headings = ranges.lam or printed.headings()
     lam, stub = as_numbers(headings), printed.column(printed.columns[0])
@@ -76,8 +77,8 @@ def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
 
 
 def _find_errors(approximate: Array, exact: Array) -> list[Array]:
-    """Return the largest error; in percent of the largest value, and of the smallest value at which
-    it occurs; the largest error relative to the exact value, percent.
+    """Return the largest error; this error in percent of the largest value, and in percent of the
+    smallest value at which it occurs; and the largest relative error, percent.
 
     Args:
         approximate: Approximate values, shape (angles, lambdas).
@@ -100,7 +101,7 @@ def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tabl
     print.
 
     Raises:
-        BalcliError: the table has too many cells.
+        BalcliError: The table has too many cells.
     """
     headings = ranges.lam or printed.headings()
     stub = ranges.angle or printed.column("alpha_deg")
@@ -111,7 +112,7 @@ def tabulate_by_angle(printed: Print, ranges: Ranges, function: ByAngle) -> Tabl
         )
     angles = as_numbers(stub)
     body = function(np.radians(angles)[:, None], as_numbers(headings)[None, :])
-    body = np.where(np.abs(body) < 1e-15, 0.0, body)  # the speed at 180 degrees
+    body = np.where(np.abs(body) < 1e-15, 0.0, body)  # rounding of the speed at 180 degrees
     signs = "sign_left" in printed.columns
     inner = ("sign_left", *headings, "sign_right") if signs else headings
     columns = ("alpha_deg", *inner, "alpha_right_deg")
@@ -133,6 +134,6 @@ def _extreme(lam: Array, psi: Array, value: Array) -> Array:
 
 
 def _given(text: str | None) -> Cell:
-    """Return a given figure as a number, and words unchanged."""
+    """Return the number in a given text; return other texts unchanged."""
     value = parse_number(text)
     return text if value is None else float(value)

@@ -2,7 +2,7 @@
 and values that explain the authors' answers.
 
 The examples of Liang Shoupan, Engine Dynamics, 1948, are in inches, pounds and seconds: an engine
-with a stroke of 4 in and a rod of 7 in turns at 4000 rpm. The rod weighs 2.75 lb, and its center of
+with a stroke of 4 in and a rod of 7 in turns at 4000 rpm. The rod weighs 2.75 lb, and its centre of
 gravity is 2 in from the crank pin. The piston with pin and rings weighs 1 lb.
 """
 
@@ -84,7 +84,7 @@ GRAVITY = STANDARD_GRAVITY / FOOT  # ft/s2
 def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     """Return exact and printed answers of Liang, in the order of the book.
 
-    Section 1-3: reciprocating weight (with the rod's share by its center of gravity), greatest
+    Section 1-3: reciprocating weight (with the rod's share by its centre of gravity), greatest
     acceleration and inertia force. Section 1-4: see `_second`. Section 2-1: rotating weight (throw
     and big end), reciprocating weight (piston and small end), and the weight at 3.5 in that
     balances the former and half of the latter at a crank of 3 in.

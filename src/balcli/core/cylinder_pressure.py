@@ -1,12 +1,12 @@
-"""Torque, work and harmonics of the gas in a cylinder, from its pressure over the cycle.
+"""Compute torque, work and harmonics of the gas in a cylinder from its pressure over the cycle.
 
 Angles are cycle angles in radians: 0 at the cylinder's own firing dead centre, a period of 4 pi
 (four-stroke) or 2 pi (two-stroke). A mechanism with an offset or an articulated rod does not reach
 its dead centres at crank angles 0 and 180 degrees.
 
 With c the cycle angle, x the piston's travel from its upper dead centre, and P the gas force,
-virtual work gives the torque `P dx/dc` for every mechanism; x' = -s', s being the position of the
-piston pin (docs/theory.md).
+virtual work gives the torque `P dx/dc` for every mechanism; x' = -s', where s is the position of
+the piston pin (docs/theory.md).
 
 Pressures are absolute. They are measured (`engine.indicator`) or computed (`gas_cycle`). Builders'
 tables give only harmonics of the torque, without a pressure.
@@ -27,11 +27,11 @@ from .mechanisms.linkage import Articulated, Rotary
 from .phasors import Array, Complex
 from .piecewise import Extreme, PiecewiseCurve, merged_breaks, resolved
 
-_SAME = 1e-8  # rad; a highest pressure this close to a breakpoint is at the breakpoint
+_SAME = 1e-8  # rad; a highest pressure this close to a breakpoint counts as at the breakpoint
 
 
 class GasError(ValueError):
-    """A cycle cannot be computed; `field` names the value at fault, `message` says why."""
+    """A cycle cannot be computed; `field` names the wrong value, `message` gives the reason."""
 
     def __init__(self, field: str, message: str) -> None:
         self.field = field
@@ -49,8 +49,9 @@ class GasPiston:
         top: Crank angle of the mechanism (0: pin along the axis) at its upper dead centre, rad.
         bottom: Cycle angle of the lower dead centre, rad, in (0, 2 pi).
         radius: Crank radius, m.
-        lam, eps: Crank radius and offset over rod length; with a linkage, arrays with the values of
-            the cylinder and of its master cylinder.
+        lam: Crank radius over rod length; with a linkage, an array with the values of the cylinder
+            and of its master cylinder.
+        eps: Offset over rod length, in the same form.
         linkage: Linkage of these two cylinders; None if the rod is on the crank pin.
     """
 
@@ -207,8 +208,8 @@ def press(
 
 
 def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
-    """Return the torque of pressures that lie between those of two torques on the same piston, at
-    every cycle angle by this share of their distance from the first; beyond them if it exceeds 1.
+    """Return the torque of pressures that are interpolated between those of two torques on the same
+    piston, at this share of the distance from the first to the second; extrapolated above 1.
     """
     breaks = merged_breaks([(first.breaks, 0.0), (second.breaks, 0.0)], first.curve.period)
 

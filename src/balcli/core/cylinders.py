@@ -1,4 +1,5 @@
-"""Moving parts of an engine in SI units: its cylinders, one row each, and its balancing devices.
+"""Define the moving parts of an engine in SI units: its cylinders, with a row each, and its
+balancing devices; and compute stroke and dead centres.
 
 `find_travel` computes stroke and dead centres of every piston. With an articulated rod, the stroke
 is not twice the crank radius, and dead centres are not at crank angles 0 and 180 degrees.
@@ -27,16 +28,17 @@ class Cylinders:
     """All cylinders of an engine, sorted by bank: bank b has the rows from `starts[b]` on.
 
     Attributes:
-        axis_deg: shape (banks, *trailing), cylinder axes from x.
-        pin_deg: shape (cylinders, *trailing), crank pins from cylinder 1's pin, in the sense of
+        axis_deg: shape (banks, *trailing), angles of the cylinder axes from x.
+        pin_deg: shape (cylinders, *trailing), angles of crank pins from cylinder 1's pin, in the
+            sense of
         rotation.
-        starts: shape (banks,).
-        first: bank of cylinder 1.
-        z: shape (cylinders, *trailing), m.
+        starts: shape (banks,), first row of each bank.
+    first: bank of cylinder 1.
+    z: shape (cylinders, *trailing), position of each cylinder along the crank, m.
         radius, offset: shape (cylinders or 1, *trailing), crank radius and offset of the piston
         pin's path, m.
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length; 0 in
-        harmonic motion, as of an endless rod.
+        harmonic motion (rod of infinite length).
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
         that of the rod).
@@ -92,8 +94,8 @@ class Cylinders:
 
     @property
     def mechanisms(self) -> list[tuple[complex, ...]]:
-        """Figures of each cylinder's mechanism with its crank radius, by which equal ones are
-        known, of an engine without trailing axes.
+        """Figures of each cylinder's mechanism, with its crank radius, which are the same for equal
+        mechanisms; for an engine without trailing axes.
         """
         lam, eps, linkage = self.lam, self.eps, self.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)
@@ -117,8 +119,8 @@ class Cylinders:
         return (self.linkage or harmonics).find_highest_order(self.lam, self.eps)
 
     def count_all_samples(self) -> tuple[int, int]:
-        """Return the number of different mechanisms, and about how many samples of a revolution
-        they need together (if they are sampled).
+        """Return the number of different mechanisms, and the approximate number of samples of a
+        revolution that all of them need (if they are sampled).
         """
         return (self.linkage or harmonics).count_all_samples(self.lam, self.eps)
 
@@ -133,20 +135,21 @@ class DeviceKind(IntEnum):
 
 
 class Device(NamedTuple):
-    """Counterweight, balancer shaft or slider: mass x radius that turns at a multiple of the crank
-    speed. Values are numbers, or arrays of variants.
+    """Counterweight, balancer shaft or slider, as vectors (mass x radius) that turn at a multiple
+    of the crank speed. Values are numbers, or arrays of variants.
 
     Attributes:
         order: Turns per turn of the crank.
-        forward, backward: Mass x radius that turns with the crank, and against it, kg m.
+        forward: Mass x radius that turns with the crank, kg m.
+        backward: Mass x radius that turns against the crank, kg m.
         place: Position x + iy of its axis, m.
         z: Position along the crank, m.
         kind: Kind of the device.
-        compensates: Whether it is there for its moment, and its force is meant to remain.
+        compensates: Whether the device is fitted for its moment, and its force is meant to remain.
         spin: Angular momentum about its own axis at crank speed 1, in the sense of the crank,
             kg m2.
-        axle: Axle of a locomotive that carries it; empty: the driving axle.
-        crank: Index of the crank to which it is geared, or that carries it.
+        axle: Axle of a locomotive that carries the device; empty: the driving axle.
+        crank: Index of the crank to which the device is geared, or that carries it.
     """
 
     order: int
@@ -165,11 +168,17 @@ _STEPS = 720
 
 
 class Travel(NamedTuple):
-    """Stroke and dead centres of each cylinder, each of shape (cylinders, *trailing)."""
+    """Stroke and dead centres of each cylinder, each of shape (cylinders, *trailing).
 
-    stroke: Array  # m
-    top_deg: Array  # crank angle at the upper dead centre, 0: pin along the cylinder's axis
-    bottom_deg: Array  # crank angle at the lower dead centre, less 180
+    Attributes:
+        stroke: Stroke, m.
+        top_deg: Crank angle at the upper dead centre, from the cylinder's axis.
+        bottom_deg: Crank angle at the lower dead centre, from the cylinder's axis, less 180.
+    """
+
+    stroke: Array
+    top_deg: Array
+    bottom_deg: Array
 
 
 def find_travel(c: Cylinders) -> Travel:

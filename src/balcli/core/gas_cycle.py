@@ -1,4 +1,4 @@
-"""Cylinder pressure of computed cycles: Otto, Diesel, dual (limited pressure), Wiebe.
+"""Compute the cylinder pressure of Otto, Diesel, dual (limited pressure) and Wiebe cycles.
 
 A four-stroke cycle has five parts: expansion from the firing dead centre to `exhaust_opens`,
 exhaust pressure to the gas-exchange dead centre, intake pressure to `intake_closes`, compression `p
@@ -49,11 +49,13 @@ class Process:
         cycle: Law of the burn: "otto", all at the dead centre; "diesel", at the constant pressure
             that compression reaches; "dual", at the dead centre up to `max_pressure`, then at that
             pressure; "wiebe", by Wiebe's law.
-        exhaust_opens, intake_closes: Angles of the valves; None: the lower dead centre. In a
+        exhaust_opens: Angle at which the exhaust opens; None: the lower dead centre.
+        intake_closes: Angle at which the intake closes; None: the lower dead centre. In a
             two-stroke cycle the ports close at the piston position at which they opened.
-        burn_start, burn_duration, burn_shape: Parameters of Wiebe's law; the shape is its exponent
-            m >= 0.
-        max_pressure: Pressure of a dual cycle.
+        burn_start: Angle at which the burn of Wiebe's law starts.
+        burn_duration: Crank angle over which it lasts.
+        burn_shape: Exponent m >= 0 of Wiebe's law.
+        max_pressure: Highest pressure of a dual cycle.
     """
 
     compression_ratio: float
@@ -119,8 +121,8 @@ def gas_cycle(piston: GasPiston, process: Process, goal: Goal) -> GasCycle:
 
 
 def find_least_imep(piston: GasPiston, process: Process) -> float:
-    """Return the indicated mean effective pressure (Pa) of the cycle with the least heat: none, or
-    what takes a dual cycle to its `max_pressure`.
+    """Return the indicated mean effective pressure (Pa) of the cycle with the least heat: no heat,
+    or the heat with which a dual cycle reaches its `max_pressure`.
 
     Args:
         piston: Piston of the cylinder.
@@ -236,8 +238,8 @@ class _Cycle:
         return (self.index - 1) * self._find_burnt(angle) * power * rate
 
     def _grow(self, angle: Array) -> Array:
-        """Return the integral of V^(n-1) dx from the start of the burn, x being the burnt share. It
-        is integrated by parts, `x V^(n-1) - (n-1) integral of x V^(n-2) dV`, because x is always
+        """Return the integral of V^(n-1) dx from the start of the burn, where x is the burnt share.
+        It is integrated by parts, `x V^(n-1) - (n-1) integral of x V^(n-2) dV`, because x is
         smoother than its derivative.
         """
         at = np.clip(angle, self.start, self.end)
@@ -246,8 +248,8 @@ class _Cycle:
 
     # ------------------------------------------------------------ the whole cycle
     def list_laws(self, heat: float) -> list[tuple[float, Function]]:
-        """Return the pressure laws (Pa over cycle angles in rad) from the start of compression on,
-        each after the angle at which it ends. Some may have length 0.
+        """Return pairs of the angle (rad) at which a pressure law ends, and the law (Pa over cycle
+        angles), from the start of compression on. Some may have length 0.
         """
         p, period = self.process, self.process.strokes * math.pi
         closed = p.intake * self.closed**p.compression_index

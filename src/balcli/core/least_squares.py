@@ -29,9 +29,9 @@ from .phasors import Array, Complex
 Number = TypeVar("Number", np.float64, np.complex128)
 
 _LOST = 1e-14  # singular values below this share of the largest are rounding errors
-_DEPENDENT = 1e-12  # such a share for columns of size 1: smaller ones mean dependent columns
+_DEPENDENT = 1e-12  # for columns of size 1, a smaller singular value means dependent columns
 _REFINEMENTS = 2
-_TAKES_PART = 1e-6  # a smaller share of a column in a combination is a rounding error
+_TAKES_PART = 1e-6  # smaller coefficients of a column in a combination are rounding errors
 
 
 class Solution(NamedTuple, Generic[Number]):
@@ -107,12 +107,12 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     return [int(k) for k in np.flatnonzero(taking_part)]
 
 
-_ROUNDS = 1000  # of Lawson's iteration
+_ROUNDS = 1000  # largest number of rounds of Lawson's iteration
 _GAP = 1e-8  # the iteration ends when the bound is within this share of the largest residual
-_REVIVED = 1e-9  # share of the largest residual that keeps a reading with residual 0 in play
-_STEPS = 500  # of Newton's method or the projected gradient; 5 are usual
+_REVIVED = 1e-9  # least residual in a round, as a share of the largest: no share becomes 0
+_STEPS = 500  # largest number of steps of Newton's method or the projected gradient; 5 are usual
 _SETTLED = 1e-15  # a step below this share of x ends the iteration
-_VANISHES = 1e-13  # share of the target below which a residual is rounding
+_VANISHES = 1e-13  # a residual below this share of the target is rounding
 _NO_POINTS = np.zeros(0, dtype=complex)
 
 
@@ -120,7 +120,8 @@ class Region(NamedTuple):
     """A convex region of the complex plane: a disc, or a polygon or wedge with edges around it.
 
     Attributes:
-        centre, radius: Centre and radius of the disc; a region without edges is a disc.
+        centre: Centre of the disc; a region without edges is a disc.
+        radius: Radius of the disc.
         starts: Start of every edge.
         ways: Directions of the edges (size 1); the region lies on their left.
         lengths: Lengths of the edges. Plus infinity: the edge has no end; minus infinity: it comes

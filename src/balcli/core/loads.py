@@ -1,5 +1,5 @@
-"""Free forces and moments of cylinders and balancing devices, order by order, at a steady crank
-speed.
+"""Compute free forces and moments of cylinders and balancing devices, order by order, at a steady
+crank speed.
 
 A few functions of masses and harmonics give the loads of one cylinder in its own frame; `Phases`
 turn and sum them over the cylinders; `Loads` adds the devices. The formulas are derived in
@@ -26,8 +26,10 @@ class Loads:
     """Free forces and moments at a steady crank speed, each computed when it is first used.
 
     Attributes:
-        cylinders, devices: Moving parts.
-        place, z: x + iy and z of the point of reference, m.
+        cylinders: Cylinders of the engine.
+        devices: Balancing devices.
+        place: Position x + iy of the point of reference, m.
+        z: Position z of the point of reference, m.
         phases: Phases of the cylinders for the wanted orders. `SeparatePhases` give the loads of
             each cylinder instead of their sums.
         harmonics: Harmonics of the cylinders' mechanisms for these orders.
@@ -207,7 +209,7 @@ def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> 
 def share_by_lever(places: Array, planes: Array) -> Array:
     """Return the share of each load that each plane carries, by the lever rule, shape (planes,
     loads). The two planes next to a load share it. A load beyond the outermost plane is shared by
-    the last two, with shares below 0 and above 1. A single plane carries every load.
+    the two outermost planes, with shares below 0 and above 1. A single plane carries every load.
 
     Args:
         places: Positions of the loads, m, shape (loads,).

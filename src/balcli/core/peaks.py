@@ -1,8 +1,9 @@
-"""Largest values of periodic curves, found on the curves themselves and not on a grid of samples.
+"""Find the largest values of periodic curves, on the curves themselves and not on a grid of
+samples.
 
-A curve is `x(t) = Re sum over orders of c_n e^{i n t}`, t the crank angle in rad; a vector has one
-such curve for each of its components. Orders are multiples of 1/2, so that a cycle is 4 pi. Arrays
-have the orders first, then any axes of curves, then the components of vectors.
+A curve is `x(t) = Re sum over orders of c_n e^{i n t}`, where t is the crank angle in rad; a vector
+has one such curve for each of its components. Orders are multiples of 1/2, so that a cycle is 4 pi.
+Arrays have the orders first, then any axes of curves, then the components of vectors.
 
 A trigonometric polynomial of degree h that swings by R about its middle exceeds `R cos(h d)` at a
 distance d from its maximum (M. Riesz). With 16 samples per period of the highest order, the samples
@@ -25,13 +26,13 @@ from numpy.typing import ArrayLike, NDArray
 from .phasors import Array, Phasors
 from .vibration import Complex, Indices, Real
 
-_SMALLEST = 1e10 * float(np.finfo(float).tiny)  # below it, a division overflows
+_SMALLEST = 1e10 * float(np.finfo(float).tiny)  # a division by a smaller number overflows
 _TURN = 2 * np.pi  # rad
-_SAMPLES = 16  # per period of the highest order
-_AT_ONCE = 1 << 19  # samples, or terms of curves, which bounds the memory
-_ROUNDS = 40  # of Newton's method: 3 or 4 suffice for a round peak, a flat one needs more
-_SETTLED = 1e-16  # the climb ends at a smaller gain, as a share of the sum of all amplitudes
-_SHORT = 1e-6  # share of the distance of two samples; within it, a curve is taken as a parabola
+_SAMPLES = 16  # number of samples per period of the highest order
+_AT_ONCE = 1 << 19  # largest number of samples, or of terms of curves, which bounds the memory
+_ROUNDS = 40  # largest number of steps of Newton's method; 3 or 4 suffice for a round peak
+_SETTLED = 1e-16  # Newton's method ends at a smaller gain, as a share of the sum of all amplitudes
+_SHORT = 1e-6  # within this share of the distance of samples, a curve is taken as a parabola
 _ZERO = 1e-12  # rad; an angle this close to a whole turn is 0
 _EQUAL = 1e-12  # peaks that differ by a smaller share of the sum of all amplitudes are equal
 
@@ -92,8 +93,8 @@ def find_largest(curves: Phasors) -> Array:
 
 def find_near_peaks(curve: Phasors) -> Real:
     """Return the angles (rad, ascending) of all maxima of |F| over a revolution that are within
-    some 2 % of the highest. A maximum may occur twice. The phasors must have whole orders and no
-    trailing axes.
+    about 2 % of the highest. A maximum may be listed twice. The phasors must have whole orders and
+    no trailing axes.
     """
     parts = _list_components(curve).T[None]
     scaled = parts / np.abs(parts).sum()
@@ -235,7 +236,7 @@ def _climb(
         x, slope, bend = x.sum(axis=1), slope.sum(axis=1), bend.sum(axis=1)
         uphill = np.where(bend < 0, -slope / np.where(bend < 0, bend, -1), np.sign(slope) * step)
         move = np.clip(uphill, -step, step)
-        gain = slope * move / 2  # of a parabola
+        gain = slope * move / 2  # exact for a parabola
         value[moving] = x + gain
         angle[moving] += move
         moving = moving[(np.abs(move) > _SHORT * step) & (2 * np.abs(gain) > _SETTLED)]

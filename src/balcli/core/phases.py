@@ -1,5 +1,5 @@
-"""Phases of the cylinders' vectors, order by order, and sums over the cylinders. Only the geometry
-of the engine enters.
+"""Compute the phases of the cylinders' vectors, order by order, and sums over the cylinders. Only
+the geometry of the engine enters.
 
 Cylinder i of bank b has its pin at `pin_i` (degrees after cylinder 1's pin) and its axis at
 `axis_b`. A local harmonic `Re c e^{i n psi}`, `psi = theta + axis_1 + pin_i - axis_b`, of a force
@@ -28,7 +28,7 @@ from .phasors import EPS, Array, Complex, Phasors, unit
 
 TURN = 360  # deg
 SUM = 8 * EPS  # rounding error of a sum, per term, relative to the terms
-ANGLE = np.pi * EPS  # rounding of an angle in the file (half an ulp of 360 deg); times n
+ANGLE = np.pi * EPS  # rounding of an angle in the file (half an ulp of 360 deg); order n: times n
 _ALL = slice(None)
 
 
@@ -58,8 +58,8 @@ class Phases:
             self._part_variants(pin)
 
     def _part_variants(self, pin: Array) -> None:
-        """Separate pins that vary between variants from pins that do not: a sweep of one throw does
-        not move the others. Pins that move alike are computed once.
+        """Separate pins that vary between variants from pins that do not, because a sweep of one
+        throw does not move the others. Pins that move alike are computed once.
         """
         rows = [narrow(row) for row in pin]
         stays = np.array([row.size == 1 for row in rows]).reshape(-1, *(1,) * (pin.ndim - 1))
@@ -89,8 +89,8 @@ class Phases:
         return Phasors(self.orders, sums, self.add_figures(np.asarray(vectors.noise), sizes))
 
     def add_scalars(self, series: Series) -> Phasors:
-        """Return the sum of the cylinders' scalars, each bank's turned by `e^{i n (axis_1 -
-        axis)}`.
+        """Return the sum of the cylinders' scalars; those of each bank are turned by `e^{i n
+        (axis_1 - axis)}`.
         """
         noise = self.add_figures(self.rounding * np.abs(series.c) + series.noise)
         (total,) = self._add(unit(-self._turn[None]), series.c[None], None)

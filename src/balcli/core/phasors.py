@@ -1,4 +1,4 @@
-"""Periodic forces, moments and scalars by order: each order is two rotating vectors.
+"""Represent periodic forces, moments and scalars by order: each order is two rotating vectors.
 
 `F(theta) = sum over n of forward_n e^{i n theta} + backward_n e^{-i n theta}`. Vectors in the plane
 are complex numbers x + iy. A scalar (couple, torque, roll) is the special case `backward =
@@ -22,8 +22,8 @@ Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-# Arrays without axes, with which numpy is quicker than with Python's numbers.
-_STEP = np.array(15.0)  # degrees
+# numpy is quicker with an array without axes than with a number of Python.
+_STEP = np.array(15.0)  # step of the table of cosines, degrees
 _STEPS_A_TURN = np.array(24)
 _RADIANS_A_DEGREE = np.array(np.pi / 180)
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)

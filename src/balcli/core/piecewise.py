@@ -1,9 +1,10 @@
-"""Functions of an angle that are smooth between breakpoints: pressures, torques, energies, speeds.
+"""Represent functions of an angle that are smooth between breakpoints: pressures, torques,
+energies, speeds.
 
 Between two breakpoints the function is cut into panels. On each panel it is a short Legendre
-series, found from its values at the Gauss-Legendre nodes. Panels are halved until the last terms
-are small, so functions may be as sharp as they like. Mean, harmonics, integral and extremes follow
-from the series; no sample is taken across a corner or a jump.
+series, computed from its values at the Gauss-Legendre nodes. Panels are halved until the last terms
+are small, so that sharp peaks are resolved as well. Mean, harmonics, integral and extremes follow
+from the series; no panel extends across a corner or a jump.
 
 Forces in a plane that are smooth between common breakpoints are sampled at the nodes of the same
 panels. A sum of forces is then a sum of samples, so that each force is computed only once.
@@ -33,14 +34,16 @@ _WIDEST = 0.5  # rad, largest width of a panel before halving
 _TERMS = 16
 _RESOLVED = 1e-12  # limit of the last terms of a series, relative to the function's largest value
 _HALVINGS = 48
-_EVERYWHERE = 16  # halving ends at so many times the initial panels: the rest is rounding error
-_REACH = 16.0  # rad, length of the waves on a panel that _NODES nodes integrate
+_EVERYWHERE = (
+    16  # halving ends at this multiple of the initial number of panels: the rest is rounding error
+)
+_REACH = 16.0  # rad; phase of a harmonic over a panel up to which _NODES nodes integrate it
 _NODES = 32
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
-_NO_SIGN = 1e-9  # values below this share of the largest have no sign
-_ROUNDING = 1e-14  # a smaller share of the largest value, or of the terms of a sum, is 0
-_TIE = 1e-11  # extremes that differ by a smaller share of the range are equal
+_NO_SIGN = 1e-9  # values below this share of the largest one have no sign
+_ROUNDING = 1e-14  # values below this share of the largest one, or of a sum's terms, are 0
+_TIE = 1e-11  # extremes that differ by less than this share of the range are equal
 
 
 class Extreme(NamedTuple):
@@ -61,13 +64,13 @@ def values_to_series(count: int) -> Array:
 # ---------------------------------------------------------------- curves
 @dataclass(frozen=True, eq=False)
 class PiecewiseCurve:
-    """A periodic function, a polynomial on each panel.
+    """A periodic function that is a polynomial on each panel.
 
     Attributes:
         breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
-        series: Legendre coefficients on each panel, shape (terms, panels); or those of many
-            functions, shape (terms, panels, *figure), of which `within` alone makes values.
+        series: Legendre coefficients on each panel, shape (terms, panels); or those of several
+            functions, shape (terms, panels, *figure), which only `within` evaluates.
     """
 
     breaks: Array
@@ -100,7 +103,7 @@ class PiecewiseCurve:
 
     def within(self, angle: Array) -> Array:
         """Return values at angles between the first and the last breakpoint, shape (*angle,
-        *figure); beyond these the value there.
+        *figure); for angles outside, the value at the nearer breakpoint.
         """
         panel = np.searchsorted(self.breaks, angle + _SAME, side="right") - 1
         panel = np.clip(panel, 0, len(self.breaks) - 2)
@@ -110,7 +113,7 @@ class PiecewiseCurve:
         return np.asarray(legendre.legval(x, self.series[:, panel], tensor=False))
 
     def repeated(self, times: int) -> PiecewiseCurve:
-        """Return the same curve with several periods as one."""
+        """Return the curve repeated several times, as one period."""
         parts = [PiecewiseCurve(self.breaks + k * self.period, self.series) for k in range(times)]
         return join(parts)
 
@@ -126,13 +129,13 @@ class PiecewiseCurve:
         def turn(harmonics: NDArray[np.intp]) -> Complex:
             return np.exp(-1j * np.multiply.outer(unit * harmonics, angle.reshape(-1)))
 
-        # e^(-i k angle) of k = high * stride + low is a product: few waves of each make all
+        # e^(-i k angle) with k = high * stride + low is a product of few different waves
         stride = math.isqrt(top) + 1
         every = turn(np.arange(stride)) @ (turn(np.arange(0, top + 1, stride)) * shares).T
         return np.where(numbers == 0, self.mean, every[numbers % stride, numbers // stride])
 
     def antiderivative(self, constant: float = 0.0) -> PiecewiseCurve:
-        """Return the integral, from the first breakpoint on, of the curve less a constant. It is
+        """Return the integral of the curve less a constant, from the first breakpoint on. It is
         periodic if the constant is the mean.
         """
         half = np.diff(self.breaks) / 2
@@ -144,14 +147,14 @@ class PiecewiseCurve:
         return PiecewiseCurve(self.breaks, series)
 
     def extremes(self) -> tuple[Extreme, Extreme]:
-        """Return the lowest and the highest value, each at the first angle that has it. At a jump
-        both sides count. A value that is only rounding error of the larger one is 0.
+        """Return the lowest and the highest value, each at the first angle that has it; at a jump,
+        both sides are included. A value that is only rounding error of the larger one is 0.
         """
         return self._find_top(-1), self._find_top(1)
 
     def reversals(self) -> int:
-        """Return how often the sign changes in a period; values below 1e-9 of the largest have no
-        sign.
+        """Return the number of sign changes in a period; values below 1e-9 of the largest one have
+        no sign.
         """
         value = self._sample()[1].T.reshape(-1)
         signs = np.sign(value[np.abs(value) > _NO_SIGN * np.abs(value).max()])
@@ -186,7 +189,7 @@ class PiecewiseCurve:
 
 
 def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
-    """Return one curve of several that follow each other."""
+    """Return one curve made of several that follow each other."""
     breaks = [curve.breaks[:-1] for curve in curves]
     series = np.concatenate([curve.series for curve in curves], axis=1)
     return PiecewiseCurve(np.concatenate([*breaks, curves[-1].breaks[-1:]]), series)
@@ -199,9 +202,9 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
     value, or until there are so many panels that they show rounding errors alone.
 
     Args:
-        function: Values at angles strictly between breakpoints, of the shape of the angles, or
-            (*angles, *figure).
-        breaks: Rising, rad; the last a period after the first.
+        function: Function that returns values at angles strictly between breakpoints, of the shape
+            of the angles, or (*angles, *figure).
+        breaks: Rising breakpoints, rad; the last one is a period after the first.
         widest: Largest width of a panel before any is halved, rad.
     """
     edges = cut(np.asarray(breaks, float), widest)
@@ -229,7 +232,7 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
 
 def polyline(angle: ArrayLike, value: ArrayLike) -> PiecewiseCurve:
     """Return straight lines between points; two points at the same angle are a jump. The last point
-    ends the period; if its value is not that of the first, there is a jump as well.
+    ends the period; if its value differs from that of the first, there is a jump as well.
 
     Args:
         angle: Rising angles, rad, shape (points,).
@@ -249,7 +252,7 @@ def quadrature(breaks: Array, nodes: int = _TERMS) -> tuple[Array, Array]:
 
     Args:
         breaks: Breakpoints of the panels, rad, shape (panels + 1,).
-        nodes: Gauss nodes in each panel.
+        nodes: Number of Gauss nodes in each panel.
     """
     x, weights = gauss(nodes)
     middle, half = _find_middles(breaks)
@@ -288,15 +291,15 @@ def _find_middles(breaks: Array) -> tuple[Array, Array]:
 
 
 # ---------------------------------------------------------------- zeros
-_ROUNDS = 100
-_ENOUGH = 1e-13  # relative step of the secant that ends the search
+_ROUNDS = 100  # largest number of steps of the search
+_ENOUGH = 1e-13  # a relative step of the secant below this ends the search
 
 
 def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) -> float:
     """Return the zero of a rising function of a positive number, by false position.
 
     Args:
-        rising: The function; where it becomes infinite, the result is below the jump.
+        rising: Rising function; if it jumps to infinity, the result is below the jump.
         guess: Positive number to start with.
         at_zero: Value of the function at 0, negative.
     """

@@ -50,7 +50,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_ori
 
 Node = dict[str, Any]  # an object of JSON
 
-# Units by the ending of a name; an ending precedes every shorter one that it contains.
+# Units by the ending of a name. Longer endings come before shorter ones that they contain.
 UNITS = {
     "Nms_per_rad": "N·m·s/rad",
     "Nm_per_rad": "N·m/rad",
@@ -113,7 +113,7 @@ class WrittenAs(NamedTuple):
 
 
 class Axes(NamedTuple):
-    """Mark of an array: how many axes it has."""
+    """Mark of an array: its number of axes."""
 
     number: int
 

@@ -1,12 +1,12 @@
-"""Uneven crank speed: its effect on inertia forces and torques, and the speed of a shaft under a
-varying torque.
+"""Compute the effect of an uneven crank speed on inertia forces and torques, and the speed of a
+shaft under a varying torque.
 
-Forces: the speed is given as `omega = mean W`, W being 1 plus a few harmonics ("lines"). With
-momentum `mean W G`, the force is `-mean^2 W (W G)'`; the couple follows in the same way from the
-moment of momentum. The inertia torque is `-mean^2 1/2 (I W^2)'` (from `-(1/2 I' omega^2 + I omega
-omega')`, docs/theory.md). For Fourier coefficients these products are short convolutions, so every
-order is as exact as at steady speed. Orders are whole, or multiples of 1/2 if the speed repeats
-itself after two revolutions.
+Forces: the speed is given as `omega = omega_m W`, where omega_m is the mean speed and W is 1 plus a
+few harmonics ("lines"). With momentum `omega_m W G`, the force is `-omega_m^2 W (W G)'`; the couple
+follows in the same way from the moment of momentum. The inertia torque is `-omega_m^2 1/2 (I W^2)'`
+(from `-(1/2 I' omega^2 + I omega omega')`, docs/theory.md). For Fourier coefficients these products
+are short convolutions, so every order is as exact as at steady speed. Orders are whole, or
+multiples of 1/2 if the speed repeats itself after two revolutions.
 
 Speed under a torque: the energy `1/2 I omega^2` grows by the work E of the torque above the load.
 So `omega^2 = (C + 2 E)/I` at every angle, without a differential equation. I includes all moving
@@ -29,11 +29,11 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 
 Number = TypeVar("Number", np.float64, np.complex128)
-_FELT = 1e-13  # a smaller share of an order over the angle does not count in an order of the time
+_FELT = 1e-13  # a smaller share of an order over the angle is ignored in an order over the time
 
 
 class RippleLine(NamedTuple):
-    """One harmonic of an uneven speed: `mean amplitude cos(order theta - angle)`."""
+    """One harmonic of W: `amplitude cos(order theta - angle)`."""
 
     order: float
     amplitude: Figure
@@ -84,7 +84,7 @@ class Timetable(NamedTuple):
         clock: Time at each angle, as the angle (rad) that a steady crank of the same mean speed in
             time has then, up to a constant, shape (samples,).
         stay: Time per angle, relative to its mean, shape (samples,).
-        step: Step of the orders: 1 for a cycle of one turn, 1/2 for one of two.
+        step: Step of the orders: 1 for a cycle of one turn, 1/2 for a cycle of two turns.
         turns: Mean speed over the time, relative to the mean speed over the angle.
     """
 
@@ -159,7 +159,7 @@ def apply_to_force(
     Args:
         steady: Force at a steady speed, for all orders 0, 1 .. n (or 0, 1/2 .. n).
         w: Coefficients from `find_speed` with the same step, up to order k.
-        mean: Mean momentum, or for the couple mean moment of momentum; at a steady speed it has no
+        mean: Mean momentum; for the couple, mean moment of momentum. At a steady speed, it has no
             effect.
         rate_last: Whether W multiplies twice before the derivative, as for a torque.
 
@@ -238,8 +238,8 @@ class Surplus(NamedTuple):
 
     Attributes:
         energy: Largest rise of the running integral of torque above load, J.
-        start, end: First angles of the lowest and the highest speed at constant inertia, rad, in
-            [0, period).
+        start: First angle of the lowest speed at constant inertia, rad, in [0, period).
+        end: First angle of the highest speed at constant inertia, rad, in [0, period).
         work: Work of the torque over a period, J.
     """
 
@@ -254,7 +254,8 @@ class SpeedVariation(NamedTuple):
 
     Attributes:
         fluctuation: (highest - lowest speed)/mean speed.
-        lowest, highest: Lowest and highest speed, rad/s, and their angles, rad.
+        lowest: Lowest speed, rad/s, and its angle, rad.
+        highest: Highest speed, rad/s, and its angle, rad.
         speed: Speed over the angle, rad/s.
     """
 
@@ -301,7 +302,7 @@ def speed_variation(
         torque: Gas torque, less any varying part of the load. It does not include the inertia
             torque, which follows from `inertia`.
         inertia: Moment of inertia, kg m2: a constant, or a function of the angle (rad).
-        mean_speed: Mean over the angle, rad/s.
+        mean_speed: Mean speed over the angle, rad/s.
 
     Raises:
         StallError: The shaft would stop.
@@ -310,7 +311,7 @@ def speed_variation(
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
 
-    def find_speed(above: float) -> PiecewiseCurve:
+    def speed_from(above: float) -> PiecewiseCurve:
         """Return the speed if `C + 2 E` is `above` at the angle of the least E."""
 
         def omega(angle: Array) -> Array:
@@ -319,12 +320,12 @@ def speed_variation(
 
         return resolved(omega, panels)
 
-    stalled = find_speed(0.0).mean ** 2
+    stalled = speed_from(0.0).mean ** 2
     if stalled >= wanted:
         raise StallError(slowest.angle, math.sqrt(stalled))
     guess = wanted * float(parts(np.array(slowest.angle)))
-    above = find_zero(lambda c: find_speed(c).mean ** 2 - wanted, guess, stalled - wanted)
-    speed = find_speed(above)
+    above = find_zero(lambda c: speed_from(c).mean ** 2 - wanted, guess, stalled - wanted)
+    speed = speed_from(above)
     low, high = speed.extremes()
     # the difference of the squared speeds, without cancellation if the inertia is constant
     angles = np.array([high.angle, low.angle])
@@ -340,8 +341,8 @@ def needed_inertia(
     wanted fluctuation. It is negative if the moving parts alone give less. If the shaft would stall
     before it fluctuates so much, return the least inertia without a stall.
 
-    It is found by false position in the inverse of the mean inertia, to which the fluctuation is
-    nearly proportional.
+    The inertia is found by false position in the inverse of the mean inertia, to which the
+    fluctuation is nearly proportional.
 
     Args:
         torque: Torque on the shaft over the cycle, N m.

@@ -1,5 +1,5 @@
-"""Depth of a radial hole that removes a given unbalance, or adds it if a slug of heavier metal
-fills the hole; and the permitted residual unbalance by ISO 21940-11.
+"""Compute the depth of a radial hole that removes a given unbalance, or adds it if a slug of
+heavier metal fills the hole; and the permitted residual unbalance by ISO 21940-11.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def find_permitted_unbalance(grade: float, mass_kg: float, speed_rpm: float) -> 
     """Return the permitted residual unbalance of the whole rotor, g mm: `U = mass G / Omega`.
 
     Args:
-        grade: Balance quality grade G: permitted speed of the center of mass, mm/s.
+        grade: Balance quality grade G: permitted speed of the centre of mass, mm/s.
         mass_kg: Mass of the rotor, kg.
         speed_rpm: Service speed, rpm.
     """

@@ -1,4 +1,5 @@
-"""Mass, damping and stiffness: natural modes, and the motion that harmonic loads cause.
+"""Compute natural modes of a system with mass, damping and stiffness, and its motion under harmonic
+loads.
 
 Every motion and load of an order is a complex number c; its value in time is `Re(c e^{i w t})`.
 Frequencies w are in rad/s and have any shape, commonly (orders, speeds) from `frequencies`. Arrays
@@ -16,8 +17,8 @@ Real = NDArray[np.floating]
 Complex = NDArray[np.complexfloating]
 Indices = NDArray[np.intp]
 
-UNDAMPED = 2e-9  # a loss factor up to here counts as 0: no machine vibrates for a billion turns
-ROUNDING = 1e-12  # a share of damping, or a distance of two frequencies, below this is rounding
+UNDAMPED = 2e-9  # a loss factor up to this counts as 0: no machine vibrates for a billion turns
+ROUNDING = 1e-12  # a smaller share of damping, or relative distance of frequencies, is rounding
 _UNMOVED = 1e-10  # a smaller share of the load does not drive a mode
 _SINGULAR = 1e-11  # if the load does a smaller share of all work, the equations are singular
 _RANK = 1e-13  # singular values below this share of the largest are 0
@@ -193,7 +194,7 @@ def solve_equations(
         matrix: Matrices of the equations, shape (*frequency, n, n).
         load: Right sides, shape (*frequency, n).
         frequency: Frequencies for error messages, rad/s.
-        singular: Which equations are known to be singular, shape (*frequency,).
+        singular: Whether the equations are known to be singular, shape (*frequency,).
 
     Raises:
         UndampedResonanceError: The equations have no solution at a frequency.

@@ -68,8 +68,8 @@ def build(
         varied: Arrays that replace figures, by dotted name (`rod.ratio`, `crank.throws.2`); they
             broadcast against each other. The firing order is then ignored if the file gives throws
             and no [gas].
-        rank: Least number of trailing axes. A figure that does not vary along an axis has length 1
-            there, and so have all results that depend only on such figures.
+        rank: Minimum number of trailing axes. A figure that does not vary along an axis has length
+            1 there, and so do all results that depend only on such figures.
         gas: Gas of the engine, if it is already known.
 
     Raises:
@@ -166,7 +166,7 @@ def find_wheel(figures: FileFigures, table: Flywheel) -> Figure | None:
 
 
 # ------------------------------------------------------------------ rules between the stages
-# Tables needed to find contradictions between tables.
+# Tables that are needed to find contradictions between tables.
 _NEEDED = frozenset(
     {
         *("crank", "rod", "piston", "layout", "articulation", "cylinder", "gas"),
@@ -252,11 +252,11 @@ def check_articulation(parts: Parts) -> Iterator[Problem]:
         return
     yield from _check_knuckle_angles(parts)
     if np.any(np.asarray(parts.figures.take("crank.splay", parts.model.crank.splay)) != 0):
-        told = "articulated rods have no crank pins to split: leave splay out, or [articulation]"
+        told = "articulated rods have no crank pins to split: leave out splay or [articulation]"
         yield Problem("crank.splay", told)
     for number in parts.masters:
         if parts.override(number, "throw") is not None:
-            told = "its articulated rod hangs on the master rod: leave this out"
+            told = "its articulated rod is carried by the master rod: leave this out"
             yield Problem(f"cylinder.{number}.throw", told)
         if parts.override(number, "stroke") is not None:
             told = "an articulated rod moves with its master's throw; set the stroke of the throw"
@@ -314,7 +314,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
         worst = int(leans[row].argmax())
         before, at, after = (leans[row, (worst + k) % STEPS] for k in (-1, 0, 1))
         bend = 2 * at - before - after
-        # The vertex of the parabola through the sampled maximum and its neighbours
+        # The vertex of the parabola through the sampled maximum and its neighbours.
         lean = at + ((after - before) ** 2 / (8 * bend) if bend > 0 else 0.0)
         if hung.master[row] == row or lean <= 1 - NEAREST_TO_LOCK:
             continue
@@ -323,21 +323,19 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
         yield Problem(
             "articulation.rod.length" if general else f"cylinder.{number}.rod_length",
             f"the crank cannot turn: at crank angle {crank_deg:.4g} deg the knuckle pin of "
-            f"cylinder {number} stands {lean:.9g} rod lengths off the path of its piston pin; at "
+            f"cylinder {number} is {lean:.9g} rod lengths off the path of its piston pin; at "
             f"most 1 - {NEAREST_TO_LOCK:g} is allowed: make the articulated rod longer or the "
             "knuckle radius smaller",
         )
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
-    """Check that half orders of the speed are given only with gas and four strokes, which cause
-    them.
-    """
+    """Check that half orders of the speed are given only with gas and four strokes, their cause."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
         if line.order % 1:
-            told = f"{line.order:g} is no whole number; half orders take four strokes and [gas]"
+            told = f"{line.order:g} is not a whole number; half orders need four strokes and [gas]"
             yield Problem(f"operation.speed_ripple.{number}.order", told)
 
 
@@ -357,7 +355,7 @@ def check_speed(parts: Parts) -> Iterator[Problem]:
             share = slowest.value if abs(slowest.value) > STANDSTILL else 0.0
             told = f"the crank would {'turn back' if share else 'stop'}: at crank angle "
             told += f"{math.degrees(slowest.theta):.4g} deg its speed is {share:.4g} of the mean: "
-            told += "make the amplitudes smaller, they are shares of the mean speed"
+            told += "make the amplitudes smaller; they are shares of the mean speed"
             yield Problem("operation.speed_ripple", told)
             return
 
@@ -399,7 +397,7 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
             for key in ("gas", "heat", "indicator"):
                 dummy = key == "gas" and own.gas == 0 and number not in order
                 if getattr(own, key) is not None and not dummy:
-                    told = "needs [gas], which says what the gas does in all cylinders"
+                    told = "needs [gas], which describes the gas in all cylinders"
                     yield Problem(f"cylinder.{number}.{key}", told)
     elif not parts.rank:
         from .build_gas import build_gas  # files without [gas] do not load it
@@ -408,7 +406,7 @@ def check_gas(parts: Parts) -> Iterator[Problem]:
         parts.gas = (parts.gas or build_gas(parts)).at(float(speed))
 
 
-STANDSTILL = 1e-12  # shares of the mean speed below this count as 0
+STANDSTILL = 1e-12  # speeds below this share of the mean speed count as 0
 RULES: tuple[tuple[Callable[[Parts], Iterator[Problem]], ...], ...] = (
     # plan and running gears
     (check_cylinders, check_articulation, check_rods, check_half_orders, check_speed),

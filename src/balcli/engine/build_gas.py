@@ -37,8 +37,8 @@ _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
 # Above this ratio of heat to pressure x volume of the charge, a warning is given. If all air burns,
 # the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
-_KEPT = 512  # speeds at which the gas is remembered
-_OVERSPEED = 1.6  # of the rated speed: more is computed speed by speed
+_KEPT = 512  # number of speeds for which the gas is cached
+_OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is computed speed by speed
 Table = TypeVar("Table", bound=FileTable)
 
 
@@ -63,8 +63,8 @@ class _Source(NamedTuple):
 
 
 def build_gas(parts: Parts) -> EngineGas:
-    """Return the gas of an engine with [gas], whose tables fit together otherwise; where it depends
-    on the speed, that at the first speed of the file.
+    """Return the gas of an engine with [gas] whose other tables fit together. If the gas depends on
+    the speed, it is that at the first speed of the file.
 
     Raises:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
@@ -89,8 +89,9 @@ def build_gas(parts: Parts) -> EngineGas:
 
 
 def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
-    """Return the shares of the rated speed up to which the propeller law asks for less imep than
-    the cycle of each piston has without heat, and than takes a dual one to its pressure.
+    """Return shares of the rated speed up to which the propeller law asks for too little imep: less
+    than the cycle of each piston has without heat, and less than a dual cycle needs to reach its
+    pressure.
     """
     process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
@@ -106,11 +107,11 @@ def _follow_speed(
 
     Args:
         gas: Table of a gas that depends on the speed.
-        make: Function of a table for one speed to the gas, as `_build_steady`.
-        find_knees: As `_find_knees`, for a valid propeller law.
+        make: Function that returns the gas for the table of one speed, such as `_build_steady`.
+        find_knees: Function that returns the shares of `_find_knees`, for a valid propeller law.
 
     Raises:
-        InputError: As of `build_gas`.
+        InputError: The same errors as for `build_gas`.
     """
     nodes, problems, doubts = dict[float, EngineGas](), list[Problem](), list[str]()
     for number, speed in enumerate(gas.speeds, 1):
@@ -157,8 +158,8 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
 
 
 def _take_at(gas: Gas, speed: float) -> Gas:
-    """Return the table of a gas that is at all speeds as this one is at one speed (rpm). Texts are
-    those of the nearest point.
+    """Return the table of a gas that has at all speeds the figures of this one at one speed (rpm).
+    Texts are those of the nearest point.
     """
     if gas.rated_speed is not None:
         grown = (speed / gas.rated_speed) ** 2
@@ -193,13 +194,14 @@ def _build_steady(
     Args:
         parts: Stages of the engine.
         found: Piston of each row.
-        read: Function of the name and headings of a file to its columns.
-        gas: The table.
-        at_least: Whether a cycle may burn less than its kind needs: a dual one less than takes it
-            to its pressure, and others nothing where the table asks for less imep than that has.
+        read: Function that returns the columns of a file by its name and headings.
+        gas: Table of the gas.
+        at_least: Whether a cycle may burn less than its kind needs. A dual cycle then need not
+            reach its pressure; other cycles burn nothing if the table asks for less imep than they
+            have without heat.
 
     Raises:
-        InputError: As of `build_gas`.
+        InputError: The same errors as for `build_gas`.
     """
     strokes, problems = parts.model.layout.strokes, list[Problem]()
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
@@ -257,14 +259,18 @@ def _build_steady(
 
 # ------------------------------------------------------------------ keys of the file
 def _vary(parts: Parts) -> Gas:
-    """Return [gas] with varied figures; they replace its own and all that exclude them."""
+    """Return [gas] with varied figures, which replace its own figures and all keys that exclude
+    them.
+    """
     gas = _vary_table(parts, "gas", parts.model.gas or Gas.model_construct())
     points = (_vary_table(parts, f"gas.at.{k}", point) for k, point in enumerate(gas.at, 1))
     return gas.model_copy(update={"at": tuple(points)}) if gas.at else gas
 
 
 def _vary_table(parts: Parts, path: str, table: Table) -> Table:
-    """Return a table (at this path) with the figures that vary, without their rivals."""
+    """Return a table (at this path) with the figures that vary, without the keys that they
+    exclude.
+    """
     varied = parts.figures.of_table(path)
     if not varied:
         return table
@@ -305,7 +311,9 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
             told = "belongs to a computed cycle, and [gas] has none; give an indicator diagram"
             yield Problem(f"cylinder.{number}.heat", told)
         for key in sorted(gas.keys_of_points & table.model_fields_set):
-            told = f"[[gas.at]] has {key} for all cylinders at each speed; leave one of both out"
+            told = (
+                f"[[gas.at]] gives {key} of all cylinders at each speed; leave one of the two out"
+            )
             yield Problem(f"cylinder.{number}.{key}", told)
     own = any(table.indicator is not None for table in parts.model.cylinder.values())
     for key in () if own or gas.has("indicator") else DIAGRAM_KEYS:
@@ -331,14 +339,14 @@ def _read_harmonics(
     """
     orders, cosines, sines = (np.array(columns.column(k)) for k in range(3))
     if not len(orders):
-        raise BalcliError(f"{name}: has no rows; give order,cos,sin in each")
+        raise BalcliError(f"{name}: has no rows; give rows of order,cos,sin")
     step, before = 2 / strokes, -math.inf
     for order, sine, line in zip(orders.tolist(), sines.tolist(), columns.lines, strict=True):
         wrong = ""
         if order <= before:
             wrong = f"order {order:g} is not above the {before:g} before it"
         elif order > HIGHEST_TABLE_ORDER:
-            wrong = f"order {order:g} is above {HIGHEST_TABLE_ORDER}, where no table goes"
+            wrong = f"order {order:g} is above {HIGHEST_TABLE_ORDER}, the highest one of a table"
         elif order == 0 and sine:
             wrong = f"order 0 has sin {sine:g}; it is the mean, which has no sine: write 0"
         elif order < 0 or order % step:
@@ -360,7 +368,7 @@ def _read_harmonics(
 def _compute_cycle(
     gas: Gas, source: _Source, piston: GasPiston, strokes: int, *, at_least: bool
 ) -> GasCycle:
-    """Return the computed cycle of a cylinder; arguments as of `_build_steady`.
+    """Return the computed cycle of a cylinder; arguments as for `_build_steady`.
 
     Raises:
         InputError: No cycle can be computed from a key.

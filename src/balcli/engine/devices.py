@@ -1,4 +1,4 @@
-"""Counterweights, shafts and sliders of an engine file as rotating vectors of mass x radius."""
+"""Compute the rotating vectors (mass x radius) of counterweights, shafts and sliders of a file."""
 
 from __future__ import annotations
 
@@ -87,7 +87,8 @@ def build_device(
         spin = table.ratio * take(f"{path}.inertia", table.inertia) / 1e6
         kind = DeviceKind.SHAFT
         return Device(order, forward, backward, place, z, kind, compensates, spin)
-    # The displacement `U cos(n theta + angle)` is two vectors of half the size, one each way.
+    # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
+    # turn in opposite directions.
     half = unit(take(f"{path}.direction", table.direction)) / 2
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
@@ -128,12 +129,12 @@ def find_given_unbalance(
 
 
 class SectorFigures(NamedTuple):
-    """Figures of a counterweight in the shape of a sector, SI.
+    """Figures of a counterweight in the shape of a sector, in SI units.
 
     Attributes:
-        unbalance: Mass x distance of its center of mass, kg m.
+        unbalance: Mass x distance of the centre of mass from the crank axis, kg m.
         mass: Mass, kg.
-        center_of_mass: Distance of its center of mass from the crank axis, m.
+        center_of_mass: Distance of the centre of mass from the crank axis, m.
         thickness: Thickness, m.
         inertia: Polar moment of inertia about the crank axis, kg m2.
     """
@@ -161,7 +162,7 @@ def find_sector(
         path: Dotted name of the counterweight.
 
     Raises:
-        InputError: Thickness and unbalance are both given, or inertia, which only variants do.
+        InputError: Variants give both thickness and unbalance, or an inertia.
     """
     inner, outer, opening, density = (
         figures.take(f"{path}.sector.{key}", getattr(sector, key))
@@ -176,7 +177,7 @@ def find_sector(
     inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
     area = angle / 2 * (outer**2 - inner**2)
     first = 2 / 3 * (outer**3 - inner**3) * (unit(opening / 2).imag + 0.0)  # 0 for a whole ring
-    # kg of each m2
+    # mass per area of the sector, kg/m2
     weight = density * or_zero(thickness) if unbalance is None else unbalance / first
     polar = angle / 4 * (outer**4 - inner**4)
     return SectorFigures(
@@ -204,8 +205,8 @@ def group_eccentrics(shafts: Iterable[Shaft]) -> list[tuple[str, dict[int, Shaft
 
 
 def check_shafts(parts: Parts) -> Iterator[Problem]:
-    """Check that eccentrics of one name have one ratio and place, that each key of the whole shaft
-    stands in one of them, and that a shaft with drag has a gear.
+    """Check that eccentrics of one name have the same ratio and position, that each key of the
+    whole shaft is in only one of their tables, and that a shaft with drag has a gear.
     """
     for name, entries in group_eccentrics(parts.model.shaft):
         first, *others = entries

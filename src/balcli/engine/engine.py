@@ -1,5 +1,5 @@
-"""`Engine`, from which all results are computed: arrays in SI units, one row for each cylinder.
-`engine.build` makes it from an engine file.
+"""Define `Engine`, from which all results are computed: arrays in SI units, with a row for each
+cylinder. `engine.build` makes it from an engine file.
 """
 
 from __future__ import annotations
@@ -40,8 +40,10 @@ class Bearings(NamedTuple):
     """Bearings of the crankshaft; None where the file gives none.
 
     Attributes:
-        pin_m2, main_m2: Projected area (diameter times width) of each bearing.
-        pin_m, main_m: Outer and inner diameter of each journal.
+        pin_m2: Projected area (diameter times width) of each crank pin's bearing.
+        main_m2: Projected area of each main bearing.
+        pin_m: Outer and inner diameter of each crank pin.
+        main_m: Outer and inner diameter of each main journal.
     """
 
     pin_m2: float | None = None
@@ -51,17 +53,18 @@ class Bearings(NamedTuple):
 
 
 class Rating(NamedTuple):
-    """Speed of the file, rpm, and the brake power at it, W; None where the file gives none."""
+    """Speed of the file, rpm, and brake power at this speed, W; None where the file gives none."""
 
     speed_rpm: float
     power_W: float | None = None
 
 
 class TurningInertia(NamedTuple):
-    """Constant inertia of turning parts, by the crank speed, kg m2.
+    """Constant inertia of turning parts, referred to the crank speed, kg m2.
 
     Attributes:
-        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, k the ratio of a shaft.
+        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, with the ratio k and the
+            inertia J_s of each shaft.
         energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
     """
 
@@ -165,7 +168,7 @@ _ONE_PLACE = 1e-9  # m; throws that are closer have the same position
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Engine:
-    """An engine, or variants of one, in SI units except where a name says otherwise.
+    """An engine, or variants of one, in SI units unless a name ends in another unit.
 
     A figure that varies is an array with the axes of the variants ("trailing axes"); all figures of
     an engine broadcast against each other.
@@ -174,14 +177,14 @@ class Engine:
         name: Name in the file; may be empty.
         source: Source of the figures; may be empty.
         numbers: Cylinder number of each row of `cylinders`.
-        cylinders: Geometry and masses, one row a cylinder, sorted by bank, with the trailing axes
-            of the variants.
-        fires_deg: Crank angle at which each cylinder fires, after the first, by its number and in
+        cylinders: Geometry and masses, one row for each cylinder, sorted by bank, with the trailing
+            axes of the variants.
+        fires_deg: Crank angle from the first firing to that of each cylinder, by its number and in
             the firing order; empty without a firing order.
         strokes: 2 or 4.
         bore_m: Cylinder bore; nan where the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
-        throw_radii_m: Crank radius of each throw, of this shape.
+        throw_radii_m: Crank radius of each throw, same shape.
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
@@ -189,16 +192,16 @@ class Engine:
         devices: Counterweights, shafts and sliders of the file, in this order.
         weighed: Masses behind each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
-            all throws stand in one plane, and moments have no meaning.
+            all throws are in one plane, and moments have no meaning.
         gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
             variants.
-        gas_of_variants: Function of orders, shape (orders,), to the gas torque of variants, N m;
-            None except in sweeps.
+        gas_of_variants: Function that returns the gas torque of variants, N m, for orders of shape
+            (orders,); None except in sweeps.
         crank_inertia: Polar moment of inertia of the crankshaft with throws and counterweights,
             kg m2; None if the file gives none.
         flywheel_inertia: Polar moment of inertia of the flywheel, kg m2; None if the file has none.
         bearings: Bearings of the crankshaft; None if the file gives none.
-        rated: Speed of the file, and brake power at it.
+        rated: Speed of the file, and brake power at this speed.
         inferred: Keys that the file leaves out and on which results depend, with the values that
             are taken (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
@@ -240,11 +243,12 @@ class Engine:
         """Return the engine of the same file with other values of some keys.
 
         Args:
-            changes, named: Values by dotted names of the engine file (`layout.bank_angle`,
+            changes: Values by dotted names of the engine file (`layout.bank_angle`,
                 `crank.throws.2`, `operation.speed`, `name`), in its units or with units of their
                 own; None removes a key. A key that gives the same figure in another way
                 (`rod.ratio` next to `rod.length`) is removed, and so is a firing order that new
                 throws do not fit.
+            named: Further changes, as keyword arguments.
 
         Raises:
             InputError: The changed file has mistakes; the error lists all of them.
@@ -258,7 +262,7 @@ class Engine:
         return varied
 
     def at_speed(self, speed_rpm: Figure) -> Engine:
-        """Return the engine at another speed (rpm), with its gas there."""
+        """Return the engine at another speed (rpm), with the gas of that speed."""
         gas = None if self.gas is None else self.gas.at(float(speed_rpm))
         return replace(self, speed_rpm=speed_rpm, gas=gas)
 
@@ -412,8 +416,8 @@ class Engine:
 
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
-        """Return the crank radius of the throw nearest to a plane, m; of equally near ones that of
-        the first.
+        """Return the crank radius of the throw nearest to a plane, m; if several are equally near,
+        that of the first.
 
         Args:
             z_m: Position of the plane along the crank, m.
@@ -567,7 +571,7 @@ def check_engine(function: str, value: object) -> Engine:
         value: Argument of the function.
 
     Raises:
-        TypeError: The value is no engine.
+        TypeError: The value is not an engine.
     """
     if not isinstance(value, Engine):
         raise wrong_type(function, value, "give an Engine; load(...) makes one of a path or a dict")

@@ -1,4 +1,4 @@
-"""Figures of an engine file, some of them replaced by arrays of variants.
+"""Provide the figures of an engine file, some of them replaced by arrays of variants.
 
 The model of a file is never changed. Every stage of `engine.build` asks `FileFigures` for a figure
 by its dotted name (`crank.stroke`, `shaft.1.at.2`, `cylinder.3.rod_ratio`). It returns the figure
@@ -70,11 +70,11 @@ class FileFigures:
     def take_for_each(
         self, path: str, given: float | tuple[float, ...], count: int
     ) -> tuple[Figure, ...]:
-        """Return a figure for each member of a list, or the one that holds for all.
+        """Return a figure for each member of a list, or the single one that holds for all.
 
         Args:
             path: Dotted name of the key.
-            given: Values in the file, or the one.
+            given: Values in the file, or the single value.
             count: Number of members.
         """
         if isinstance(given, tuple):
@@ -176,8 +176,8 @@ class RodFigures(NamedTuple):
         return {key: value for key, value in self._asdict().items() if value is not None}
 
     def length_for(self, radius: Figure) -> Figure:
-        """Return the length, m, as given or by its ratio to the crank radius (m); 1 where none is
-        given, which a harmonic motion allows.
+        """Return the length, m, as given or by its ratio to the crank radius (m); 1 if none is
+        given, which is allowed for harmonic motion.
         """
         if self.length is None and self.ratio is None:
             return 1.0
@@ -195,7 +195,7 @@ class RodFigures(NamedTuple):
         return RodFigures(**(self._asdict() | dict.fromkeys(rivals) | said))
 
 
-_SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors of keys of [rod]
+_SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors that convert keys of [rod] to SI units
 
 
 def value_or(own: Figure | None, general: Figure) -> Figure:
@@ -246,7 +246,7 @@ def rod_figures(
     return RodFigures._make((*found, None))
 
 
-_ROUNDING = 1e-9  # share of the largest value by which equal values may differ from rounding
+_ROUNDING = 1e-9  # values that differ by less than this share of the largest are equal
 
 
 def place_in_plane(x: Figure, y: Figure) -> complex | Complex:

@@ -1,6 +1,7 @@
-"""Gas in an engine's cylinders: the torque over the cycle and the firing angle of each. The cycle
-angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke engine, the
-firing order tells in which of the two revolutions that is.
+"""Describe the gas in an engine's cylinders: torque over the cycle and firing angle of each.
+
+The cycle angle of a cylinder is 0 at the upper dead centre at which it fires. In a four-stroke
+engine, the firing order determines in which of the two revolutions that is.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ class EngineGas:
         mechanical_efficiency: Brake work over indicated work; None if the file gives none.
         compression_ratio: Compression ratio; None if the file gives none.
         doubts: Warnings, each with its path in the file.
-        law: The gas at other speeds; None: it is the same at all of them.
+        law: Law for the gas at other speeds; None: the gas is the same at all speeds.
     """
 
     cylinders: tuple[CylinderGas, ...]
@@ -112,10 +113,12 @@ class EngineGas:
         return replace(self, cylinders=tuple(new._replace(share=own.share) for new, own in pairs))
 
     def follow(self, find: Callable[[EngineGas], ArrayLike]) -> Callable[[ArrayLike], Array]:
-        """Return a function of speeds, rpm, to a figure at each of them, shape (*speeds, *figure).
+        """Return a function that gives a figure of the gas, shape (*speeds, *figure), at speeds,
+        rpm.
 
         Args:
-            find: Function of the gas at one speed to the figure, which is linear in the pressures.
+            find: Function that returns this figure of the gas at one speed. The figure is linear in
+                the pressures.
         """
         if (law := self.law) is None:
             figure = np.asarray(find(self))
@@ -157,17 +160,18 @@ class EngineGas:
 
 @dataclass(frozen=True, eq=False)
 class GasLaw:
-    """Gas of an engine by its speed: smooth between the nodes; before the first point of the file
-    and after the last one it is that of this point.
+    """Gas of an engine as a function of its speed. Between nodes it is smooth. Outside the points
+    of the file, it is that of the first or last point.
 
     Attributes:
-        solve: Function of a speed, rpm, to the gas there; InputError if no cycle can be computed.
-        nodes_rpm: Rising speeds: the points of the file; or by the propeller law 0, those at which
-            a cycle begins to burn or reaches its limit, the rated speed, and an overspeed.
+        solve: Function that returns the gas at a speed, rpm; InputError if no cycle can be
+            computed.
+        nodes_rpm: Rising speeds: the points of the file. For the propeller law: 0, the speeds at
+            which a cycle begins to burn or reaches its limit, the rated speed, and an overspeed.
         linear: Whether all pressures are linear in the speed between the nodes.
-        power: Power of the speed in which mean pressures are linear between the nodes: 1 between
-            points, 2 by the propeller law, which holds beyond the last node as well.
-        least_rpm: Speed up to which that law asks for less than a cycle has without heat.
+        power: Power of the speed in which mean pressures are linear between the nodes: 1 for
+            points, 2 for the propeller law, which holds beyond the last node as well.
+        least_rpm: Speed up to which the propeller law asks for less than a cycle has without heat.
     """
 
     solve: Callable[[float], EngineGas]

@@ -1,4 +1,4 @@
-"""Indicator diagrams: measured cylinder pressures over the crank angle, in CSV files.
+"""Read indicator diagrams: measured cylinder pressures over the crank angle, in CSV files.
 
 The pressure is linear between rows, and periodic. If a file has several cycles, one after the
 other, their mean is used.
@@ -21,21 +21,21 @@ from ..file.doubts import MAX_PRESSURE
 from ..file.gas_tables import Gas
 from ..file.units import ANGLE, BAR, PRESSURE
 
-ATMOSPHERE = 101325.0  # Pa, absolute pressure minus gauge pressure
-WIDEST_GAP = 30.0  # deg between two rows; lines over wider gaps tell nothing about an engine
-FLAT_GAP = 45.0  # deg; gap during gas exchange, where the pressure hardly changes
-_FLAT = 0.01  # share of the highest pressure that counts as hardly any change
-_SAME = 1e-6  # deg; rows this close to one period apart are the two ends of it
+ATMOSPHERE = 101325.0  # absolute pressure minus gauge pressure, Pa
+WIDEST_GAP = 30.0  # largest gap between two rows, deg
+FLAT_GAP = 45.0  # largest gap during gas exchange, where the pressure hardly changes, deg
+_FLAT = 0.01  # a change by less than this share of the highest pressure is hardly any
+_SAME = 1e-6  # deg; rows whose distance is one period within this are the two ends of the period
 _OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
 _SYMBOLS = r"(?:in[-\s_]?)?cyl(?:inder|\.)?[\s_]*press(?:ure)?|press|p(?:[\s_]*cyl(?:inder)?)?"
 HEADS = (
     Head("angle_deg", ANGLE, symbols=ANGLE_SYMBOLS),
     Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS), _SYMBOLS),
 )
-LOW_PRESSURE = 0.1  # bar; a throttled engine draws in at 0.3
+LOW_PRESSURE = 0.1  # lowest usual pressure, bar; a throttled engine draws in at 0.3
 ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
-NEAR_DEG = 45.0  # from the firing dead centre: there the pressure of every engine is highest
-SAME_IMEP = 0.03  # relative; larger differences from the stated imep give a warning
+NEAR_DEG = 45.0  # usual largest distance of the highest pressure from the firing dead centre, deg
+SAME_IMEP = 0.03  # a larger relative difference from the stated imep gives a warning
 
 
 def build_diagram(
@@ -46,7 +46,8 @@ def build_diagram(
 
     Args:
         gas: Table of the engine file that describes the diagram.
-        path, name: Key and name of the diagram's file.
+        path: Key of the diagram's file.
+        name: Name of this file.
         columns: Columns of this file.
         strokes: 4 or 2.
 
@@ -158,7 +159,7 @@ def find_diagram_mistakes(
     close = f"give rows at most {WIDEST_GAP:g}° apart"
     for row in (np.flatnonzero(np.diff(angle) > widest[1:]) + 1).tolist():
         gap = angle[row] - angle[row - 1]
-        yield row, f"lies {gap:g}° after the row before it: {close}"
+        yield row, f"is {gap:g}° after the row before it: {close}"
     if (gap := period - span) > widest[0]:
         yield None, f"covers {span:g}° of {period:g}°, a gap of {gap:g}° at its end: {close}"
 
@@ -179,7 +180,7 @@ def list_doubts(
     top, value = find_highest(found)
     if abs(math.degrees(top)) > NEAR_DEG:
         yield (
-            f"{path}: the highest pressure, {value / scale:.4g} {unit}, stands at "
+            f"{path}: the highest pressure, {value / scale:.4g} {unit}, is at "
             f"{math.degrees(top):.4g} deg from the firing dead centre, where within "
             f"{NEAR_DEG:g} is usual; are gas.zero and gas.phase right?"
         )

@@ -1,6 +1,5 @@
-"""Plan of an engine, and its firing order on the crank.
-
-The plan numbers the cylinders on banks and throws.
+"""Compute the plan of an engine (the numbers of its cylinders on banks and throws), and the crank
+pin angles that its firing order needs.
 
 Firing (docs/theory.md): cylinder i is at top dead centre when its crank angle is `tau_i`, with `sin
 tau_i = e_i / (r + l_i)`. To fire at `f_i` after cylinder 1, it needs its crank pin at `g_i - g_1 +
@@ -30,7 +29,7 @@ from .figures import FileFigures, or_zero
 
 
 class Cell(NamedTuple):
-    """One cylinder: its bank and throw, counted from 0, and its number."""
+    """Cylinder with its bank and throw, counted from 0, and its number."""
 
     bank: int
     throw: int
@@ -113,7 +112,7 @@ def plan_cylinders(model: EngineFile) -> Plan:
 
 
 def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
-    """Check that the rows of a radial stand on a throw each, whose angles are known."""
+    """Check that each row of a radial has its own throw, and that the throws' angles are known."""
     crank, layout = model.crank, model.layout
     if not layout.in_rows:
         return
@@ -133,7 +132,7 @@ def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
 
 
 def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
-    """Check that lists of figures of the throws have one for each."""
+    """Check that lists of figures of the throws have a figure for each throw."""
     for key, noun, given in (
         ("stroke", "stroke", crank.stroke),
         ("throw_mass", "mass", crank.throw_mass),
@@ -144,7 +143,7 @@ def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
             yield Problem(f"crank.{key}", told)
 
 
-OPPOSED = (0.0, 180.0)  # throws of one row or two where nothing gives them, deg
+OPPOSED = (0.0, 180.0)  # default angles of one or two throws, deg
 
 
 def count_banks(layout: Layout) -> int:
@@ -171,8 +170,8 @@ def bank_angles(layout: Layout, figures: FileFigures) -> tuple[Figure, ...]:
 
 
 def find_row_angle(layout: Layout, throws: int, figures: FileFigures) -> Figure:
-    """Return the angle by which the row on each throw is turned from that before it, deg; 0 but in
-    a radial in rows.
+    """Return the angle by which the row on each throw is turned from the one before it, deg; 0
+    unless the engine is a radial in rows.
 
     Args:
         layout: Table of the engine file.
@@ -191,8 +190,8 @@ def cycle_deg(layout: Layout) -> float:
 
 
 def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list[Problem]]:
-    """Return the number of each cylinder of a plan without numbers, as given or counted through
-    group by group; and the mistakes in those given.
+    """Return the number of each cylinder of a plan without numbers, as given by the file or counted
+    group by group; and the mistakes in the given numbers.
     """
     cells = [cell for group in plan.groups for cell in group]
     default = dict(zip(cells, range(1, len(cells) + 1), strict=True))
@@ -275,7 +274,8 @@ def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()
     return plan.throws == 1 or said or own
 
 
-# deg; real files round offsets, angles and intervals, real mistakes are tens of degrees
+# Tolerance of angles, deg: files round offsets, angles and intervals, and mistakes are tens of
+# degrees.
 TOLERANCE_DEG = 1.0
 
 

@@ -85,7 +85,7 @@ def load_example(name: str) -> Engine:
 
     Raises:
         BalcliError: There is no such example; the error lists the nearest names.
-        TypeError: The name is no text.
+        TypeError: The name is not a text.
 
     Example:
         >>> engine = load_example("v8_crossplane")
@@ -133,7 +133,7 @@ def vary_engine(engine: Engine, changes: Mapping[str, object]) -> Engine:
         raise mistakes from None
 
 
-# Figures on which the gas torque of a cylinder depends, by their dotted names
+# Figures on which the gas torque of a cylinder depends, by their dotted names.
 _OF_GAS = (
     r"(gas|layout|articulation)\..*|crank\.(stroke.*|throws.*|splay)|rod\.(length|ratio)"
     r"|piston\.(bore|offset)"
@@ -146,7 +146,7 @@ def concerns_gas(path: str, gas: Gas | None = None) -> bool:
 
     Args:
         path: Dotted name of the figure.
-        gas: Table of the file; if it depends on the speed, the speed is such a figure.
+        gas: Table [gas] of the file; if the gas depends on the speed, the speed is such a figure.
     """
     of_speed = path == SPEED and gas is not None and gas.speeds
     return bool(of_speed or re.fullmatch(rf"(engine\.\d+\.)?({_OF_GAS})", path))
@@ -156,7 +156,7 @@ Key = TypeVar("Key")
 Value = TypeVar("Value")
 Asked = TypeVar("Asked")
 Values = tuple[tuple[str, float], ...]  # figures by dotted name
-_KEPT = 64  # variants that are cached: as many as are computed at a time
+_KEPT = 64  # number of variants that are cached: as many as are computed at a time
 
 
 SPEED = "operation.speed"
@@ -177,8 +177,8 @@ def choose_speeds(
 
 
 class EngineVariants:
-    """Builds variants of an engine one by one and caches the last ones. The gas is computed again
-    only if a figure varies on which it depends (`concerns_gas`).
+    """Builder of variants of an engine, one by one, that caches the last ones. The gas is computed
+    again only if a figure varies on which it depends (`concerns_gas`).
 
     Args:
         model: Engine file.
@@ -206,7 +206,7 @@ class EngineVariants:
 
 
 class FiguresOfVariants(EngineVariants, Generic[Asked]):
-    """Evaluates quantities of variants of a file one by one.
+    """Evaluator of quantities of variants of a file, one by one.
 
     Args:
         evaluate: Function that returns the values of quantities of an engine.

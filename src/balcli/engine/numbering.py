@@ -1,4 +1,4 @@
-"""Infer the numbering of cylinders from a firing order, or list the engines that a file may mean.
+"""Infer the numbering of cylinders from a firing order, or list the engines that fit the file.
 
 A firing order describes an engine only if each number has a known place (bank and throw). Makers
 number bank by bank (1-2-3, 4-5-6) or along the crank (1-3-5, 2-4-6), and begin with different
@@ -53,8 +53,8 @@ from .parts import Parts
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
 NARROW_DEG = 30.0  # largest bank angle of a block with one head, whose axes miss the crank
 FREE_END = (
-    "Numbers count from the free end; a maker who counts from the flywheel end: write every list "
-    "the other way round."
+    "Numbers count from the free end. If the maker counts from the flywheel end, reverse every "
+    "list."
 )
 Rows = tuple[tuple[int, ...], ...]  # cylinder numbers in the lists of layout.numbering
 
@@ -381,8 +381,8 @@ def _find_remedies(parts: Parts) -> list[Candidate]:
 
 
 def _list_shared_intervals(parts: Parts) -> Iterator[tuple[float, ...]]:
-    """Yield the intervals of two rods on one pin: the bank angle alternates with the rest of two
-    even intervals; either may be first.
+    """Yield the possible intervals of two rods on one pin: the bank angle alternates with the rest
+    of two even intervals, and either may be first.
     """
     first, second = map(float, bank_angles(parts.model.layout, parts.figures))
     both = 2 * cycle_deg(parts.model.layout) / len(parts.plan.cells)
@@ -409,8 +409,8 @@ def _sort(fitting: Sequence[Candidate], tier: Sequence[Rows]) -> list[Candidate]
 # ------------------------------------------------------------------ a numbering that does not fit
 def _suggest(parts: Parts) -> str:
     """Return in words changes of one key with which every cylinder fires at its dead centre; empty
-    if none helps. Tried are intervals that begin one firing later, a usual numbering, throws with
-    opposite sign, other throws, and another splay.
+    if none helps. The function tries intervals that begin one firing later, a usual numbering,
+    throws with opposite sign, other throws, and another splay.
     """
     if parts.varies:
         return ""
@@ -426,7 +426,7 @@ def _suggest(parts: Parts) -> str:
     if model.crank.throws is not None:
         throws = tuple(-throw % TURN for throw in model.crank.throws)
         ways.append(_change(model, "crank.throws", throws))
-        ways[-1].change += ", which count in the sense of rotation"
+        ways[-1].change += " (angles count in the sense of rotation)"
         if len(throws) > 1 and len(parts.order or ()) == len(parts.plan.cells):
             needed = _count_throws_from_first(Parts(model.with_table("crank", throws=None)))
             ways.append(_change(model, "crank.throws", needed))
@@ -530,8 +530,8 @@ USUAL_FLAT_ORDERS = {
 
 def doubt_firing(model: EngineFile) -> Iterator[str]:
     """Yield warnings of unlikely firing: a less usual numbering was inferred, nobody builds the
-    crank for this order, or the throws make all cylinders fire within one of two revolutions.
-    Without a firing order, warn of a splay of the wrong sign.
+    crank for this order, or with these throws all cylinders fire within one of two revolutions.
+    Without a firing order, warn of a splay with the wrong sign.
     """
     parts = Parts(model)
     if parts.order is None:
@@ -543,7 +543,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         if rows != next(list_tiers(plan, radial=layout.radial is not None))[0]:
             yield (
                 f"layout.numbering is not given; {write_rows(rows)} is used, with which the firing "
-                "order fits; give it if it is so"
+                "order fits; add this key if it is right"
             )
     order = "-".join(map(str, parts.order))
     if parts.throws_given:
@@ -551,7 +551,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
         if layout.firing_intervals is None and len(gaps) > 2 and max(gaps) > TURN + TOLERANCE_DEG:
             yield (
                 f"layout.firing_order: {order} fires after {_join(gaps)} deg with these "
-                f"crank.throws; if it is so, say layout.firing_intervals = [{_join(gaps)}]"
+                f"crank.throws; if that is right, give layout.firing_intervals = [{_join(gaps)}]"
             )
     elif layout.firing_intervals is None and layout.strokes == 4:
         usual = _find_usual_orders(parts)
@@ -559,7 +559,7 @@ def doubt_firing(model: EngineFile) -> Iterator[str]:
             listed = _join(_count_throws_from_first(parts))
             yield (
                 f"layout.firing_order: {order} needs the throws {listed}, which nobody builds; "
-                f"usual is {usual}; if it is so, give crank.throws"
+                f"usual is {usual}; if this order is right, give crank.throws"
             )
 
 
@@ -572,9 +572,9 @@ def _doubt_splay(model: EngineFile) -> Iterator[str]:
     here, there = (Candidate(each, []).backward_share for each in (model, opposite))
     if there < SMALL <= here:
         yield (
-            f"crank.splay = {splay:g}: what turns against the crank in order 1 is {100 * here:.3g} "
-            f"% of one cylinder's first order, and {100 * there:.3g} % with crank.splay = "
-            f"{-splay:g}; change the sign, or give layout.firing_order"
+            f"crank.splay = {splay:g}: the part of order 1 that turns against the crank is "
+            f"{100 * here:.3g} % of one cylinder's first order, and {100 * there:.3g} % with "
+            f"crank.splay = {-splay:g}; change the sign, or give layout.firing_order"
         )
 
 
@@ -592,7 +592,7 @@ def _find_usual_orders(parts: Parts) -> str:
         built = len(throws) % 2 or throws == throws[::-1]
         if len(throws) == 5:
             built = turned in USUAL_ORDERS[5]
-        if len(throws) == 8 and not built:  # two cranks of straight fours in series, at 90 deg
+        if len(throws) == 8 and not built:  # two cranks of in-line fours in series, at 90 deg
             fours = [[round((t - one[0]) % TURN) for t in one] for one in (throws[:4], throws[4:])]
             across = round(abs(throws[4] - 180)) == 90
             built = across and fours == [[0, 180, 180, 0]] * 2

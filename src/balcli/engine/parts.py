@@ -70,8 +70,8 @@ def find_gears(parts: Parts) -> dict[int, RunningGear]:
 
 
 def find_strokes(parts: Parts) -> dict[int, Figure]:
-    """Return the stroke of each cylinder's pin, mm; by the number 0 that of the first throw, which
-    stands for all. Articulated rods have that of their master.
+    """Return the stroke of each cylinder's pin, mm. Number 0 is the first throw, which represents
+    all cylinders. Cylinders with articulated rods have the stroke of their master.
     """
     on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
     throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
@@ -88,8 +88,8 @@ class Pins(NamedTuple):
         tops_deg: Angle of each cylinder's crank pin at top dead centre. With articulated rods, the
             angle of the axis (nominal dead centre) is used, because only so all cylinders of a
             throw fire evenly.
-        throws_deg: Angle of each throw, by its index from 0, as given or as the firing order needs
-            it.
+        throws_deg: Angle of each throw, by its index from 0: the given one, or the one that the
+            firing order needs.
         leads_deg: Angle of each crank pin from cylinder 1's pin.
     """
 
@@ -200,10 +200,10 @@ class Places(NamedTuple):
     Attributes:
         z: Position of each cylinder, by its number.
         throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
-        pins: Position of each throw as [crank] gives it, else the middle of its rods, shape
+        pins: Position of each throw that [crank] gives, else the middle of its rods, shape
             (throws, *trailing).
-        reference: x, y, z of the point about which moments are taken: that of the file, or on the
-            crank axis half-way between the first and the last throw.
+        reference: x, y, z of the point about which moments are taken: the point of the file, or the
+            point on the crank axis half-way between the first and the last throw.
     """
 
     z: dict[int, Figure]
@@ -348,7 +348,7 @@ class Parts:
     Args:
         model: Engine file.
         varied: Arrays of variants that replace figures, by dotted name.
-        rank: Least number of trailing axes.
+        rank: Minimum number of trailing axes.
         known_gas: Gas of the cylinders, if it is already known; otherwise the rules build it.
     """
 
@@ -448,8 +448,8 @@ class Parts:
         return {key: mass for key, mass in given.items() if mass is not None}
 
     def kind_of_rod(self, place: RodPlace) -> tuple[int, int, bool]:
-        """Return what tells rods of different figures apart: cylinder or throw, where these have
-        figures of their own, and whether the rod is articulated.
+        """Return a key that is the same for rods with the same figures: cylinder and throw, if
+        these have figures of their own, and whether the rod is articulated.
         """
         number, throw = place.number if place.number in self.tables else 0, 0
         if isinstance(self.model.crank.stroke, tuple) and place.number:
@@ -483,7 +483,7 @@ class Parts:
         return tuple(lines)
 
     def find_master_places(self) -> tuple[int, ...]:
-        """Return the bank of each throw's master rod, from 1; none without articulated rods."""
+        """Return the bank of each throw's master rod, from 1; empty without articulated rods."""
         table = self.model.articulation
         if table is None:
             return ()

@@ -1,5 +1,5 @@
-"""Piston and rod of one cylinder: masses, lengths and moment of inertia from the figures of a file
-(docs/theory.md).
+"""Compute masses, lengths and moment of inertia of piston and rod of one cylinder from the figures
+of a file (docs/theory.md).
 """
 
 from __future__ import annotations
@@ -22,15 +22,16 @@ _ROUNDING = 8 * EPS  # relative rounding error of the terms whose difference is 
 
 
 class RunningGear(NamedTuple):
-    """Piston and rod of one cylinder, SI.
+    """Piston and rod of one cylinder, in SI units.
 
     Attributes:
         length: Rod length, m.
         offset: Offset of the piston pin's path from the crank axis, m.
         piston: Piston mass, kg.
-        small_end, big_end: Masses at the ends that replace the rod, kg.
+        small_end: Mass at the piston pin that, with `big_end`, replaces the rod, kg.
+        big_end: Mass at the lower pin, kg.
         spin: Moment of inertia of the rod about its centre of mass, kg m2.
-        couple: Moment of inertia H of the two masses less `spin`, kg m2.
+        couple: Moment of inertia of the two masses less that of the rod, `H = m a b - spin`, kg m2.
     """
 
     length: Figure
@@ -52,14 +53,16 @@ class CylinderMasses(NamedTuple):
     """Masses of one cylinder as a workshop weighs them, kg.
 
     Attributes:
-        throw: Throw on which its rod runs, from 0.
-        piston: Piston with pin, rings and locks.
-        piston_parts: Parts of the piston by keys of [piston]: only `mass`, or those of piston, pin,
-            rings and locks that are given.
-        crosshead: Crosshead with piston rod and pin.
-        small_end, big_end: Ends of the rod, without bearing shells.
+        throw: Index of the throw that carries the rod.
+        piston: Mass of the piston with pin, rings and locks.
+        piston_parts: Masses of the piston's parts by keys of [piston]: only `mass`, or those of
+            piston, pin, rings and locks that are given.
+        crosshead: Mass of the crosshead with piston rod and pin.
+        small_end: Mass of the small end, without bearing shells.
+        big_end: Mass of the big end, without bearing shells.
         share: This pin's share of the throw's unbalanced mass.
-        rod_bearing, oil: Bearing shells and oil of this rod, which turn with the pin.
+        rod_bearing: Mass of this rod's bearing shells, which turn with the pin.
+        oil: Mass of the oil in this rod's bearing, which turns with the pin.
     """
 
     throw: int
@@ -124,8 +127,8 @@ def weigh_rod(
 def weigh_harmonic(
     rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
 ) -> RunningGear:
-    """Return the rod of a harmonic motion: the length divides its mass, and then counts as endless,
-    so that it does not swing. Arguments are those of `weigh_rod`.
+    """Return the rod of a harmonic motion. Its length only divides the mass; the rod counts as
+    infinitely long and does not swing. Arguments are those of `weigh_rod`.
     """
     gear = weigh_rod(rod, length, offset, piston)
     return gear._replace(length=math.inf, spin=0.0, couple=0.0)
@@ -177,7 +180,7 @@ def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
         fixed: Whether all rods are on crank pins, and cylinders at rest.
     """
     if not fixed:
-        told = "harmonic motion needs a fixed cylinder whose rod or yoke sits on the crank pin"
+        told = "harmonic motion needs a fixed cylinder whose rod or yoke is on the crank pin"
         yield Problem("rod.motion", told)
         return
     for key in {"inertia", "pendulum"} & place.rod.given.keys():
@@ -205,7 +208,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         spin, period, arm = np.broadcast_arrays(gear.spin, pendulum.period, arm)
         worst = spin.argmin()
         shortest = 2 * math.pi * math.sqrt(max(arm.flat[worst], 0.0) / STANDARD_GRAVITY)
-        told = f"period {period.flat[worst]:g} s is too quick: a full swing takes more than "
+        told = f"period {period.flat[worst]:g} s is too short: a full swing takes more than "
         told += (
             f"{shortest:.4g} s with the centre of mass {1e3 * arm.flat[worst]:g} mm from the pivot"
         )
@@ -213,7 +216,7 @@ def check_rod_inertia(place: RodPlace, gear: RunningGear) -> Iterator[Problem]:
         return
     length_mm = np.min(gear.length) * 1e3
     cg_mm = np.max(or_zero(place.rod.cg)) * 1e3
-    # The general centre of mass may not fit the length of this cylinder's rod
+    # The general centre of mass may not fit the length of this cylinder's rod.
     path, what = place.path("cg"), ""
     if place.own.given.keys() & {*LENGTHS} and "cg" not in place.own.given:
         path, what = place.path(*LENGTHS), f"{path} = "
@@ -233,7 +236,7 @@ def check_turning(place: RodPlace, gear: RunningGear, radius: Figure) -> Iterato
     lam, eps = np.max(radius / gear.length), np.max(np.abs(gear.offset / gear.length))
     if lam + eps <= 1 - NEAREST_TO_LOCK:
         return
-    aside = f", with the piston offset over rod length {lam + eps:.9g}" if eps else ""
-    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{aside}; at most 1 - "
+    sum_ = f"; with the piston offset over rod length, the sum is {lam + eps:.9g}" if eps else ""
+    told = f"the crank cannot turn: crank radius over rod length is {lam:.9g}{sum_}; at most 1 - "
     told += f"{NEAREST_TO_LOCK:g} is allowed: make the rod longer"
     yield Problem(place.path(*LENGTHS), told)

@@ -1,1 +1,1 @@
-"""Field balancing: correction weights from vibration readings of a rotor on its machine."""
+"""Compute correction weights from vibration readings of a rotor on its machine."""

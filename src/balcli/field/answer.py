@@ -1,9 +1,9 @@
-"""Analysis of field balancing, `balance_rotor`: correction weights of a rotor, the remaining
+"""Balance a rotor in the field (`balance_rotor`): compute correction weights, the remaining
 readings, the balance grade, and warnings of doubtful runs.
 
-The corrections x minimize the sum of squares, or the largest (`minimise`), of the readings `|V +
-alpha x|`. V are the readings from which balancing goes on, alpha the influence coefficients. Given
-places and largest weights constrain x.
+The corrections x minimise the sum of squares, or the largest (`minimise`), of the readings `|V +
+alpha x|`, where V are the readings from which balancing goes on and alpha the influence
+coefficients. Given places and largest weights constrain x.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ from .influence import (
 from .places import Piece, PlaneLimits
 from .runs_file import RunsFile, Sense, check_runs
 
-_NEARLY_DEPENDENT = 0.2  # own effect of a plane below which reading errors grow much
-_SMALL_CHANGE = 0.1  # of the largest reading: a smaller change determines coefficients badly
-_SMALLEST_RADIUS = 1.0  # mm; smaller than on the smallest balanced rotors
-_FAR_BEYOND = 5.0  # times the largest trial weight: coefficients were measured far from there
-_ROUNDING = 1e-13  # share of the largest reading below which a prediction is rounding
+_NEARLY_DEPENDENT = 0.2  # if a plane's own effect is smaller, reading errors grow much
+_SMALL_CHANGE = 0.1  # a change by a smaller share of the largest reading gives bad coefficients
+_SMALLEST_RADIUS = 1.0  # smallest likely radius of weights, mm
+_FAR_BEYOND = 5.0  # largest correction for which coefficients hold, as a multiple of trial weights
+_ROUNDING = 1e-13  # a prediction below this share of the largest reading is rounding
 # A reading that differs from its prediction by more than this share of the largest reading as
 # found, or of the largest change by weights, is surprising.
 _SURPRISING = 0.5
@@ -142,9 +142,9 @@ Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
 _NOISE = 1e-14  # a reading below this share of its cancelling terms is rounding
-_NEGLIGIBLE = 1e-9  # smallest weight, relative to one with the effect of all unbalance
-_AT_EDGE = 1e3  # times the negligible weight: distance at which a weight counts as at its limit
-_G_MM = 1e-6  # kg m
+_NEGLIGIBLE = 1e-9  # smallest weight, as a share of the weight with the effect of all unbalance
+_AT_EDGE = 1e3  # a weight within this multiple of the negligible one counts as at its limit
+_G_MM = 1e-6  # 1 g mm in kg m
 
 
 class Sensor(NamedTuple):
@@ -250,7 +250,7 @@ class FieldBalance(Result):
         weight_unit: Unit of the weights.
         phases: Sense of the phases of readings: with or against rotation.
         weights: Sense of the angles of weights: with or against rotation.
-        minimise: Minimized quantity: the sum of squared readings, or the largest reading.
+        minimise: Minimised quantity: the sum of squared readings, or the largest reading.
         readings: Sensor and speed of every reading.
         influence: Influence coefficients: change of a reading by one unit of weight in a plane.
         corrections: Correction weights of the planes that are not left out.
@@ -317,7 +317,7 @@ def find_corrections(
 
     Args:
         file: Runs.
-        minimise: "squares" (minimize the sum of squared readings) or "max" (minimize the largest
+        minimise: "squares" (minimise the sum of squared readings) or "max" (minimise the largest
             reading).
         without: Names of planes that get no weight.
         name: Name of the file, for messages.
@@ -403,10 +403,10 @@ def _choose_planes(file: RunsFile, without: Collection[str]) -> list[int]:
     for name in without:
         if name not in file.planes:
             hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
-            raise BalcliError(f"--without {shorten(name)}: is no plane; {hint}")
+            raise BalcliError(f"--without {shorten(name)} is not a plane; {hint}")
     used = [k for k, plane in enumerate(file.planes) if plane not in without]
     if not used:
-        raise BalcliError("--without: leaves no plane to put a weight in")
+        raise BalcliError("--without leaves no plane for a weight")
     return used
 
 
@@ -506,7 +506,7 @@ def balance_rotor(
         runs: Path of a file of runs, its text (TOML), or a dict of its tables: `planes`, and a list
             `run` of dicts with the `readings` and `weights` of each run, such as "5 @ 30"
             (amplitude and angle in degrees).
-        minimise: "squares" (minimize the sum of squared readings) or "max" (minimize the largest
+        minimise: "squares" (minimise the sum of squared readings) or "max" (minimise the largest
             reading).
         without: Names of planes that get no weight.
 

@@ -1,4 +1,4 @@
-"""Influence coefficients from runs with trial weights.
+"""Compute influence coefficients from runs with trial weights.
 
 At each speed, the readings V depend on the weights U by `V = V0 + alpha U` (Goodman, J. Eng. Ind.
 86, 1964, 273). The influence coefficients alpha and the readings as found V0 are fitted to all runs
@@ -30,9 +30,9 @@ from ..errors import InputError, Problem
 from ..file.fields import join_words
 from .runs_file import RunsFile
 
-_SAME = 1e-9  # weights that differ by less, relative to the largest, are equal
+_SAME = 1e-9  # weights that differ by less than this share of the largest are equal
 _ROUNDING = 1e-13  # changes below this share of the largest reading are rounding
-_OUTSIDE = 0.05  # probability of an unbalance farther from its estimate than its scatter
+_OUTSIDE = 0.05  # probability that an unbalance is farther from its estimate than the scatter
 
 
 class Series(NamedTuple):

@@ -1,5 +1,5 @@
-"""Weights that a plane allows: at given places or at any angle, up to a largest one, or as holes in
-the rim.
+"""Compute the weights that a plane allows: at given places or at any angle, up to a largest weight,
+or as holes in the rim.
 
 The sums of weights at given angles, each from 0 to a largest weight, fill a convex polygon
 (`find_region`). `split_weight` finds the lightest weights with a given sum.
@@ -20,7 +20,7 @@ from ..core.records import angle_deg
 from ..core.unbalance import find_drill_depth, find_drilled_unbalance
 from .runs_file import RunsFile
 
-_ROUNDING = 1e-9  # smaller shares of a weight are rounding
+_ROUNDING = 1e-9  # a smaller share of a weight is rounding
 
 
 class Piece(NamedTuple):
@@ -110,9 +110,9 @@ def split_weight(
     """Return the lightest weights at given angles whose sum is a given weight.
 
     They are the optimum of a linear program: all places within an arc of less than half a turn are
-    full, the two neighbors of the arc take the remainder, and the others are empty. The proof is by
-    duality: choose a price for each component of the sum so that a unit of weight at each of the
-    two neighbors is worth exactly 1. Then a unit is worth more at the places between them and less
+    full, the two neighbours of the arc take the remainder, and the others are empty. The proof is
+    by duality: choose a price for each component of the sum so that a unit of weight at each of the
+    two neighbours is worth exactly 1. Then a unit is worth more at the places between them and less
     at all others.
 
     Args:

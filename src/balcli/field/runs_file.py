@@ -72,7 +72,7 @@ class Polar(Number):
         match = _POLAR.fullmatch(text)
         if match is None:
             raise ValueError(
-                f"{shorten(value)} is no amplitude @ angle in degrees; write it like "
+                f"{shorten(value)} is not an amplitude @ angle in degrees; write it like "
                 f'"{self.example}", without a unit'
             )
         amplitude, angle = map(float, match.groups())
@@ -165,7 +165,7 @@ class Run(FileTable):
     """One run of the machine."""
 
     name: Name | None = None
-    """What to call it. Example: 'trial front'"""
+    """Name of the run. Example: 'trial front'"""
     readings: BySensor[Reading]
     """Amplitude @ phase in degrees of every sensor, in the same order in every run. Example:
     ['170 @ 112', '53 @ 78']"""
@@ -173,7 +173,7 @@ class Run(FileTable):
     """Weights put on for this run: amount @ angle in degrees, by plane; none: the rotor as found.
     Example: { front = '1.15 @ 0' }"""
     keep_trial: Switch = False
-    """True: these weights stay on in the later runs at this speed. Example: true"""
+    """Whether these weights stay on in the later runs at this speed. Example: true"""
     speed: Speed | None = None
     """Speed of this run; each speed is a series of its own. Example: 1500"""
 
@@ -182,7 +182,7 @@ class RunsFile(FileTable):
     """Readings of a rotor with and without trial weights."""
 
     name: Name | None = None
-    """What to call the rotor. Example: 'fan 3'"""
+    """Name of the rotor. Example: 'fan 3'"""
     planes: ByPlane[Name]
     """Names of the planes that take weights. Example: ['front', 'rear']"""
     sensors: BySensor[Name] | None = None
@@ -193,21 +193,21 @@ class RunsFile(FileTable):
     """Angles of weights count with or against rotation; left out: the same way as the phases of
     readings. Example: 'with'"""
     unit: Name | None = None
-    """Unit of the readings, to show. Example: 'um'"""
+    """Unit of the readings, for printing. Example: 'um'"""
     weight_unit: Annotated[str, AmountUnit()] = "g"
     """Unit of the weights: of mass, or of mass times radius. Example: 'g'"""
     reading_weights: BySensor[Factor] | None = None
-    """How much each sensor counts; left out: alike. Example: [1, 2]"""
+    """Weight of each sensor in the fit; left out: equal weights. Example: [1, 2]"""
     influence: BySensor[ByPlane[Coefficient]] | None = None
-    """Influence coefficients, known from before: a row for each reading (of each speed), reading
-    per unit of weight for each plane. Example: [['0.0155 @ 113', '0.009 @ 10']]"""
+    """Known influence coefficients: a row for each reading (of each speed), with the change of the
+    reading per unit of weight for each plane. Example: [['0.0155 @ 113', '0.009 @ 10']]"""
     radius: ByPlane[Size] | None = None
     """Radius of the weights, or of the rim, by plane. Example: [200, 200]"""
     most: ByPlane[Amount] | None = None
     """Largest weight of a plane, or at one of its places, by plane. Example: [40, 40]"""
     places: ByPlane[Places] | None = None
-    """Where a plane takes weights, by plane: a number of places, evenly spaced from 0 on, a list of
-    angles, or "free": at any angle. Example: [12, [0, 30, 60]]"""
+    """Places that take weights, by plane: a number of places, evenly spaced from 0 on; a list of
+    angles; or "free" for any angle. Example: [12, [0, 30, 60]]"""
     drill: ByPlane[Size] | None = None
     """Diameter of radial holes that remove steel from the rim, opposite to the weight, by plane.
     Example: [12, 12]"""
@@ -218,7 +218,7 @@ class RunsFile(FileTable):
     mass: Annotated[float, Number(MASS, above=0, most=1e9)] | None = None
     """Mass of the rotor. Example: 120"""
     speed: Speed | None = None
-    """Service speed, for which the grade permits an unbalance. Example: 3000"""
+    """Service speed, for which the permitted unbalance is computed. Example: 3000"""
     shares: ByPlane[Factor] | None = None
     """Shares of the permitted unbalance, by plane; left out: equal ones. Example: [0.4, 0.6]"""
     run: Annotated[tuple[Run, ...], Field(min_length=1, max_length=MOST_RUNS)]

@@ -78,12 +78,12 @@ def sheet(result: FieldBalance, system: System) -> Sheet:
 
 def _show_senses(result: FieldBalance) -> Text:
     phases, weights = result.phases, result.weights
-    same = "as phases do" if phases == weights else "the other way round than phases"
+    same = "like phases" if phases == weights else "opposite to phases"
     senses = (
         f"Phases of readings {result.file.rotation}: they count {phases} rotation. Angles of "
         f"weights count {weights} rotation, {same}:"
     )
-    picture = f"a weight at 30 deg stands 30 deg on from the 0 mark, going {_WAY[weights]}."
+    picture = f"a weight at 30 deg is 30 deg from the 0 mark, going {_WAY[weights]}."
     return Text("How angles count", (senses, picture))
 
 
@@ -123,20 +123,23 @@ def _show_g_mm(value: float | None, system: System) -> str:
 
 
 def _explain_corrections(result: FieldBalance) -> Iterator[str]:
-    yield "Weights to add, counted from the rotor as found, all trial weights off."
+    yield "Weights to add to the rotor as found, with all trial weights off."
     if result.trimmed:
-        yield f"Add now: on top of what was on in '{result.trimmed}'."
-    yield f"Own effect: share that no other planes have; condition {number(result.condition, 3)}."
+        yield f"Add now: in addition to the weights of '{result.trimmed}'."
+    yield (
+        "Own effect: share of a plane's effect that no other planes can produce; condition "
+        f"{number(result.condition, 3)}."
+    )
     for each in result.corrections:
         if each.wanted is not None:
             best = _tell_weight(result, each.wanted)
-            yield f"Without its limit, {each.plane} would take {best}."
+            yield f"Without its limit, {each.plane} would need {best}."
     if result.left_out:
         yield f"Left out: {', '.join(result.left_out)}."
     for plane, weight in zip(result.file.planes, result.runs.weights_on, strict=True):
         if weight and plane in result.left_out:
             kept = _tell_weight(result, result.file.turn(complex(weight)))
-            yield f"What was on in '{result.trimmed}' stays on in {plane}: {kept}."
+            yield f"The weight of '{result.trimmed}' in {plane} stays on: {kept}."
 
 
 def _show_pieces(result: FieldBalance, system: System) -> Grid:
@@ -157,15 +160,15 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
         if not each.pieces:
             lines.append((each.plane, *[UNKNOWN] * (len(heads) - 1)))
     what = "Holes to drill" if file.drill else "Weights to put on"
-    when = f", on top of '{result.trimmed}'" if result.trimmed else ""
+    when = f", in addition to '{result.trimmed}'" if result.trimmed else ""
     note = "Together they are equal to the corrections."
     if file.drill:
         note = (
-            "Radial holes in steel, from the rim inwards, opposite to where weights would go. Each "
-            "does as much as this weight at the rim; its steel, further in, weighs more."
+            "Radial holes in steel, from the rim inwards, opposite to the weights. Each has the "
+            "effect of this weight at the rim; the removed steel, further in, weighs more."
         )
     if result.trimmed and (file.drill or file.most):
-        note += " Limits and depths are of these alone: earlier ones are not in the file."
+        note += " Limits and depths hold only for these; the file has no earlier ones."
     return Grid(f"{what}{when}", tuple(heads), tuple(lines), note)
 
 
@@ -183,7 +186,7 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
     )
     plane = ("plane", [each.plane for each in every])
     verdict = ("", [each.verdict for each in every])
-    spread = "how far the true unbalance may lie from it (95 %), by how badly the readings fit"
+    spread = "largest distance of the true unbalance (95 %), judged by the residuals of the fit"
     if every[0].scatter_g_mm is None:
         spread = "unknown, the fit has as many unknowns as readings; add a run"
     state = f"in '{result.trimmed}'" if result.trimmed else "in the rotor as found"
@@ -220,7 +223,7 @@ def _show_readings(result: FieldBalance) -> Grid:
         note = "All readings are cancelled."
     elif result.bound is not None:
         which = "No weights that fit" if result.limited else "No weights"
-        note += f"{which} leave less than {number(result.bound)} as the largest."
+        note += f"{which} leave a largest reading below {number(result.bound)}."
     else:
         which = "that the places and limits allow" if result.limited else "possible"
         note += f"The sum of their squares is the least {which}."
@@ -233,8 +236,8 @@ def _show_influence(result: FieldBalance) -> Grid:
         effects = result.influence[:, result.file.planes.index(each.plane)]
         columns += _list_polar(each.plane, effects, 5)
     note = (
-        f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count as "
-        f"phases do, {result.phases} rotation."
+        f"Change of a reading by 1 {result.weight_unit} at 0 deg in the plane; angles count like "
+        f"phases, {result.phases} rotation."
     )
     if result.trimmed and result.file.influence is None:
         note += " By least squares over all runs."
@@ -244,7 +247,7 @@ def _show_influence(result: FieldBalance) -> Grid:
 RENDERER = Renderer(sheet=sheet, rows=rows)
 
 
-_MOST_LABELLED = 8  # most readings with a name; more names would overlap
+_MOST_LABELLED = 8  # largest number of readings with a name; more names would overlap
 
 
 def make_field(result: FieldBalance) -> Figure:

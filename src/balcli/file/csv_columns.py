@@ -17,7 +17,7 @@ from .toml import read_bytes
 from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
 ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
-GAUGE_UNITS = ("barg", "psig")  # pressures above the atmosphere
+GAUGE_UNITS = ("barg", "psig")  # units of pressures above that of the atmosphere
 _CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # a unit
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
@@ -112,7 +112,7 @@ def locate_beside(folder: Path, name: str) -> Path:
 
 
 def read_columns(path: Path, wanted: Sequence[Head]) -> NumberColumns:
-    """Return some columns of a CSV file.
+    """Return the wanted columns of a CSV file.
 
     Other columns, empty lines and lines that begin with # are ignored. If semicolons, tabs or
     blanks separate the heads, they also separate the numbers, and decimals may have commas.
@@ -223,7 +223,7 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
     if width is not None and any(re.match(_STARTS_NUMBER, cell) for cell in row[width:]):
         raise ValueError(
             f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
-            "heading, or, where decimals have commas, part columns by semicolons there and below"
+            "heading, or, if decimals have commas, separate columns by semicolons everywhere"
         )
     return [row[place].strip() for place in places]
 
@@ -238,7 +238,7 @@ def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
         cell, line = pointed[0]
         raise ValueError(
             f"line {line}: {cell}: is the point between thousands? Write "
-            f"{cell.replace('.', '')}, or {cell}0 if it parts decimals"
+            f"{cell.replace('.', '')}, or {cell}0 if it separates decimals"
         )
 
 

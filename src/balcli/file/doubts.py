@@ -1,5 +1,4 @@
-"""Warnings for valid but suspicious figures, which no ordinary engine has; most often the unit is
-wrong.
+"""Warn of valid but suspicious figures, which no ordinary engine has; most often the unit is wrong.
 
 The limits are wide: engines from models to ships pass. A warning states the value, the usual range
 and a remedy.
@@ -18,27 +17,27 @@ from .units import ask_unit
 # The mass of similar pistons grows with the cube of the bore. With pin and rings, aluminium pistons
 # have 300 to 1000 kg per m^3 of bore^3 (racing to lorry), pistons of cast iron up to 3000. The
 # limits are wider; a confusion of g and kg is a factor of 1000.
-PISTON = 100.0, 5000.0  # kg/m^3
-CROSSHEAD_HEAVY = 40_000.0  # kg/m^3, with crosshead, above LONG_STROKE
+PISTON = 100.0, 5000.0  # mass of a piston over bore^3, kg/m^3
+CROSSHEAD_HEAVY = 40_000.0  # largest mass of piston and crosshead over bore^3, kg/m^3
 LONG_STROKE = 2.5
 LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
-CROSSHEAD_LAMBDA = 0.6  # rods of crosshead engines are short
-BORE = 0.2, 3.0  # bore / stroke: crosshead engines from 0.25, racing engines up to 2.5
+CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines, with short rods
+BORE = 0.2, 3.0  # bore / stroke: crosshead engines have 0.25 or more, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
-SMALL_END = 0.55  # share of the rod's mass: rods have 0.2 to 0.4 there
+SMALL_END = 0.55  # largest share of the rod's mass at the small end: rods have 0.2 to 0.4
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
 # ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
 # little.
 INERTIA = 0.02, 0.4
-TWO_MASSES = 1.6  # rod inertia / that of two masses at its ends: engines have 0.6 to 1.35
-PISTON_SPEED = 40.0  # m/s, mean; racing engines stay below 30
-SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9.55
-# Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
+TWO_MASSES = 1.6  # rod inertia / inertia of two masses at its ends: engines have 0.6 to 1.35
+PISTON_SPEED = 40.0  # largest mean piston speed, m/s; racing engines have up to 30
+SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad/s is 9.55
+# Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
-NO_DISTANCE = 1e-6  # mm: smaller distances from the axis are rounding
-OFFSET = 0.2  # share of the stroke; pin offsets are up to 0.05, in narrow-angle vees up to 0.15
-MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
+NO_DISTANCE = 1e-6  # mm; smaller distances from the axis are rounding
+OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
+MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
 # Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
 # lie beyond. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
 PRESSURES = {
@@ -49,23 +48,26 @@ PRESSURES = {
 # Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
 # weighs some 4 to 10 times as much for each throw, with its counterweights.
 THROW = 6.0
-BEARING = 0.5  # shells or oil of a rod / rod and piston: engines have up to 0.05
-# deg, of all throws: cranks have 60 or more, or none; [1, 3, 4, 2] and radians have 1 to 10.
+BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
+# Range of throw angles, deg. Cranks have 60 or more, or 0; lists such as [1, 3, 4, 2] and angles in
+# radians have 1 to 10.
 THROWS = 1.0, 10.0
-UNBALANCE = 5.0  # of all moving masses x crank radius; balancing needs 1 or 2
+UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
 # from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-LOSS = 1.0  # steel has 0.01 to 0.05, rubber to 0.5; what is in percent is a hundred times that
+LOSS = (
+    1.0  # largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5; percent is 100 times that
+)
 
 WHEEL_LOAD = 1000  # N, smallest load of a wheel on its rail: those of toys are smaller
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
-    'bare numbers are degrees, another unit is said as in "1/2 turn" or "3.1416 rad", and numbers '
-    "of cylinders stand in layout.firing_order"
+    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad", and numbers '
+    "of cylinders in layout.firing_order"
 )
-OFF_AXIS = "is it in kg? It is what one throw has off the axis, not what the crankshaft weighs"
-GRAMS = 'is it in kg? Grams are said as in "47 g"'
+OFF_AXIS = "is it in kg? It is the unbalanced mass of one throw, not the mass of the crankshaft"
+GRAMS = 'is it in kg? Give grams as in "47 g"'
 
 
 class Figure(NamedTuple):
@@ -74,7 +76,8 @@ class Figure(NamedTuple):
     Attributes:
         name: Name with its verb, such as "rod.cg is".
         value: Value in the file.
-        least, most: Usual range.
+        least: Lower end of the usual range.
+        most: Upper end of the usual range.
         unit: Unit of value and range, with a space before it; empty for a plain number.
         hint: Probable mistake.
         digits: Number of digits of the value that are shown.
@@ -115,7 +118,7 @@ def doubt_losses(losses: Iterable[tuple[str, float | None]]) -> Iterator[str]:
     Args:
         losses: Paths in the file and loss factors; None if not given.
     """
-    hint = "{0:g} % is {1:g}, and of a relative damping psi the loss factor is psi/(2 pi)"
+    hint = "{0:g} % is {1:g}, and a relative damping psi is a loss factor of psi/(2 pi)"
     yield from _doubt(
         Figure(f"{path} is", loss, 0, LOSS, "", hint.format(loss, loss / 100))
         for path, loss in losses
@@ -164,19 +167,19 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     left = rods - len(placed)
     if crank.spacing is None and crank.positions is None and placed and left > rods / throws:
         yield (
-            f"cylinder.{placed[0]}.position is given, but {left} cylinders have no place and all "
-            "stand at 0: give the position of each, or crank.spacing"
+            f"cylinder.{placed[0]}.position is given, but {left} cylinders have no position and "
+            "are all at 0: give the position of each, or crank.spacing"
         )
     stroke, speed, bore = max(crank.strokes), model.operation.speed, model.piston.bore
     slow = speed < SLOW_SPEED and bore is not None and stroke > SLOW_BORES * bore
     if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
         yield (
             f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
-            f"at {speed:g} rpm are two-strokes: say layout.strokes = 2, or 4 if it is so"
+            f"at {speed:g} rpm are two-strokes: give layout.strokes = 2, or 4 if that is right"
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
-        yield "[flywheel] counts for `torque`, not for `torsion`; also write it as [[torsion.rear]]"
+        yield "`torsion` does not use [flywheel]; also write it as [[torsion.rear]]"
 
 
 def _list_pistons(model: EngineFile) -> Iterator[Figure]:
@@ -197,7 +200,7 @@ def _list_pistons(model: EngineFile) -> Iterator[Figure]:
     yield Figure("piston.offset is", model.piston.offset, -most, most, " mm", "is it in mm?")
     mean, right = stroke * speed / 30e3, "are operation.speed and crank.stroke right?"
     yield Figure("the mean piston speed is", mean, 0, PISTON_SPEED, " m/s", right)
-    thousands = "a point parts decimals, not thousands"
+    thousands = "a point separates decimals, not thousands"
     yield Figure("operation.speed is", speed, SPEED, math.inf, " rpm", thousands)
 
 
@@ -299,8 +302,8 @@ def _weigh_rod(model: EngineFile) -> float:
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """Return the numbers of throws and of rods. Without crank.throws, the firing order tells the
-    number of rods.
+    """Return the numbers of throws and of rods. Without crank.throws, the number of rods is that of
+    the cylinders in the firing order.
     """
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1

@@ -1,4 +1,4 @@
-"""Files that come with balcli: example engines, and starting files for new engines.
+"""Find the files that come with balcli: example engines, and starting files for new engines.
 
 Examples of textbook layouts, one of each kind, are in the folder of examples itself. Engines that
 were built, or could have been, are in a folder for each class. The first line of an example is a
@@ -17,8 +17,7 @@ from typing import NamedTuple
 from ..errors import BalcliError
 from .fields import nearest
 
-# In the installed package; in a checkout the repository's own folder, so that there is only one
-# copy.
+# Folder of the examples in the installed package, and in a checkout of the repository.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
 _USUAL_TABLES = {"crank", "rod", "piston", "layout", "operation", "cylinder"}
 LAYOUT = "layout"  # class of the files in the folder itself
@@ -162,7 +161,9 @@ def template(kind: str) -> str:
         hint = f" Did you mean {near}?" if near else ""
         if like:
             hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
-        raise BalcliError(f'"{kind[:60]}" is no kind of file; there are {", ".join(KINDS)}.{hint}')
+        raise BalcliError(
+            f'"{kind[:60]}" is not a kind of file; there are {", ".join(KINDS)}.{hint}'
+        )
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
     return SCHEMA * (kind == "locomotive") + _read_template(kind)

@@ -1,5 +1,5 @@
-"""Values of an engine file as pydantic types, which check a value and describe it in JSON Schema;
-and `Choice`, for keys of a table that exclude each other.
+"""Define pydantic types for the values of an engine file, which check a value and describe it in
+JSON Schema; and `Choice`, for keys of a table that exclude each other.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _DIGITS, _LAST = "0-9０-９¼-¾⅐-⅞", 'A-Za-zА-я°ºµμ²³¹π"”″㎀-㏟'
 STRING_PATTERN = rf"^\s*[+−–-]?\s*(?:pi|π|(?:[{_DIGITS}.]|pi|π).*[{_LAST}{_DIGITS}.])\s*$"
-RIGID = "rigid"  # infinite stiffness, as of a flange or a mesh of gears
+RIGID = "rigid"  # infinite stiffness of a flange or a mesh of gears
 
 
 def printable(text: str) -> str:
@@ -94,8 +94,8 @@ def counted(count: int, what: str) -> str:
 
 
 def count_lambda_digits(ratio: float, usual: int = 4) -> int:
-    """Return how many digits of crank radius / rod length to show: more near 1, where the crank
-    locks.
+    """Return the number of digits of crank radius / rod length to show: more near 1, where the
+    crank locks.
 
     Args:
         ratio: Crank radius / rod length.
@@ -175,7 +175,7 @@ class Number(_Field):
         word: str = "",
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word = word  # allowed instead of a number; the figure is then nan
+        self.word = word  # text that is allowed instead of a number; the figure is then nan
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
@@ -198,7 +198,7 @@ class Number(_Field):
         else:
             number = math.inf if abs(value) > sys.float_info.max else float(value)
         if not math.isfinite(number):
-            raise ValueError(f"is no finite number; {wanted(self.dimension)}")
+            raise ValueError(f"is not a finite number; {wanted(self.dimension)}")
         if fault := self._fault(number):
             raise ValueError(f"is {fault[0]}; {wanted(self.dimension)}, {fault[1]}")
         return number
@@ -267,13 +267,13 @@ class OneOrEach:
         one: Type of a figure.
     """
 
-    count = 0  # of members; 0: any
+    count = 0  # number of members; 0: any number
 
     def __init__(self, one: _Field) -> None:
         self.one = one
 
     def read_one(self, value: object) -> object:
-        """Return what is kept of a figure that holds for all."""
+        """Return the stored form of a figure that holds for all."""
         return self.one.read(value)
 
     def __get_pydantic_core_schema__(
@@ -368,7 +368,7 @@ class Label(_Field):
     def read(self, value: object) -> str:
         is_text = isinstance(value, str) and value.strip() and value.isprintable()
         if not is_text or len(str(value)) > self.most:
-            raise ValueError(f"{shorten(value)} is no {self.kind}; {self.wanted}")
+            raise ValueError(f"{shorten(value)} is not a {self.kind}; {self.wanted}")
         return str(value)
 
     def json(self) -> Node:
@@ -387,9 +387,9 @@ class Choice(NamedTuple):
 
     Attributes:
         groups: Groups of keys, of which one may be given.
-        required: Whether one must be given.
-        unless: Key beside which none must be given; empty: none.
-        complete: Whether a group must be given in full once begun; or the one group for which
+        required: Whether one group must be given.
+        unless: Key with which no group has to be given; empty: there is no such key.
+        complete: Whether all keys of a group must be given if one is; or the only group for which
             this holds.
         instead: Keys that may be given in place of a required group, or next to it.
     """

@@ -38,38 +38,38 @@ MEAN_PRESSURES = ("imep", "bmep")
 
 
 class GasPoint(FileTable):
-    """Gas at one of several speeds, between which its figures and pressures are linear."""
+    """Gas at one of several speeds. Between them, its figures and pressures are linear."""
 
     speed: Speed
     """Crank speed. Example: 1000"""
     indicator: NamedFile | None = None
-    """As gas.indicator, at this speed. Example: 'p_1000.csv'"""
+    """gas.indicator at this speed. Example: 'p_1000.csv'"""
     zero: Zero | None = None
-    """As gas.zero. Example: 'gas-exchange'"""
+    """gas.zero at this speed. Example: 'gas-exchange'"""
     phase: Angle | None = None
-    """As gas.phase. Example: -0.5"""
+    """gas.phase at this speed. Example: -0.5"""
     pressure: Reference | None = None
-    """As gas.pressure. Example: 'gauge'"""
+    """gas.pressure at this speed. Example: 'gauge'"""
     intake: PressureAbove0 | None = None
-    """As gas.intake. Example: 1.2"""
+    """gas.intake at this speed. Example: 1.2"""
     exhaust: Pressure | None = None
-    """As gas.exhaust. Example: 1.1"""
+    """gas.exhaust at this speed. Example: 1.1"""
     imep: MeanPressure | None = None
-    """As gas.imep. Example: 6"""
+    """gas.imep at this speed. Example: 6"""
     bmep: MeanPressure | None = None
-    """As gas.bmep. Example: 5"""
+    """gas.bmep at this speed. Example: 5"""
     max_pressure: Pressure | None = None
-    """As gas.max_pressure. Example: 45"""
+    """gas.max_pressure at this speed. Example: 45"""
     cut_off: CutOff | None = None
-    """As gas.cut_off. Example: 1.5"""
+    """gas.cut_off at this speed. Example: 1.5"""
     heat: Heat | None = None
-    """As gas.heat. Example: 700"""
+    """gas.heat at this speed. Example: 700"""
     burn_start: Angle | None = None
-    """As gas.burn_start. Example: -8"""
+    """gas.burn_start at this speed. Example: -8"""
     burn_duration: Duration | None = None
-    """As gas.burn_duration. Example: 45"""
+    """gas.burn_duration at this speed. Example: 45"""
     harmonics: NamedFile | None = None
-    """As gas.harmonics, at this speed. Example: 'tangential_1000.csv'"""
+    """gas.harmonics at this speed. Example: 'tangential_1000.csv'"""
 
 
 class Gas(FileTable):
@@ -87,12 +87,12 @@ class Gas(FileTable):
     zero: Zero = "firing"
     """The dead centre at angle 0 of the diagram. Example: 'gas-exchange'"""
     phase: Angle = 0.0
-    """Added to the angles of the diagram. Example: -0.5"""
+    """Angle that is added to the angles of the diagram. Example: -0.5"""
     pressure: Reference = "absolute"
     """Kind of the diagram's pressures; gauge: above an atmosphere of 1.01325 bar. Example: 'gauge'
     """
     cycle: Annotated[str, OneOf("otto", "diesel", "dual", "wiebe")] | None = None
-    """A computed cycle, by how it burns. Example: 'wiebe'"""
+    """Kind of combustion of a computed cycle. Example: 'wiebe'"""
     compression_ratio: Annotated[float, Number(PLAIN, above=1, most=1000)] | None = None
     """Largest over smallest volume of the cylinder; with a diagram, it only serves to state
     volumes. Example: 10.5
@@ -118,7 +118,7 @@ class Gas(FileTable):
     70
     """
     cut_off: CutOff | None = None
-    """Volume after burning at constant pressure over the volume before. Example: 2"""
+    """Volume after the burn at constant pressure, divided by the volume before. Example: 2"""
     heat: Heat | None = None
     """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
@@ -126,23 +126,24 @@ class Gas(FileTable):
     burn_duration: Duration = 50.0
     """Wiebe: crank angle that the burn takes. Example: 60"""
     burn_shape: Annotated[float, Number(PLAIN, least=0, most=100)] = 2.0
-    """Wiebe: exponent m. Example: 1.5"""
+    """Wiebe: form factor m, the exponent. Example: 1.5"""
     exhaust_opens: Annotated[float, Number(ANGLE, above=0, most=360)] | None = None
-    """Cycle angle of opening; left out: lower dead centre. Example: 140"""
+    """Cycle angle at which the exhaust opens; left out: lower dead centre. Example: 140"""
     intake_closes: Annotated[float, Number(ANGLE, least=360, below=720)] | None = None
-    """Cycle angle of closing, four-stroke; left out: lower dead centre. Example: 580"""
+    """Cycle angle at which the intake closes, four-stroke; left out: lower dead centre. Example:
+    580"""
     harmonics: NamedFile | None = None
     """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
     the firing dead centre. Example: 'tangential.csv'"""
     crankcase: Pressure = 1.0
     """Absolute pressure under the pistons. Example: 1.1"""
     at: Annotated[tuple[GasPoint, ...], Field(max_length=MOST_GAS_POINTS)] = ()
-    """Gas at two or more speeds; what stands there does not stand in [gas]."""
+    """Gas at two or more speeds; give its keys there and not in [gas]."""
     law: Annotated[str, OneOf("propeller")] | None = None
-    """Instead of at: imep (or bmep) grows with the square of the speed, to its value at
-    rated_speed. Example: 'propeller'"""
+    """Law instead of [[gas.at]]: imep (or bmep) is proportional to the square of the speed and has
+    its given value at rated_speed. Example: 'propeller'"""
     rated_speed: Speed | None = None
-    """Of the law: speed at which the engine has its imep. Example: 120"""
+    """Speed at which, with law, the engine has its imep or bmep. Example: 120"""
 
     @property
     def given(self) -> set[str]:
@@ -225,12 +226,12 @@ class Gas(FileTable):
                 listed = join_words(sorted(keys ^ first))
                 yield f"at.1 and at.{k} do not both have {listed}; give each point the same keys"
         if twice := sorted(self.keys_of_points & self.model_fields_set):
-            yield f"has {join_words(twice)}, and so does [[gas.at]]; give it for each speed alone"
+            yield f"has {join_words(twice)}, and so does [[gas.at]]; give it only in [[gas.at]]"
 
     def _check_law(self) -> Iterator[str]:
         """Check that a law has a mean pressure to act on."""
         if self.law is not None and self.cycle is None:
-            yield "has law, which a diagram does not have; give [[gas.at]] with a diagram each"
+            yield "has law with a diagram; give [[gas.at]] tables, each with a diagram, instead"
         elif self.law is not None and not any(map(self.has, MEAN_PRESSURES)):
             yield "has law without imep; give imep, or bmep, at rated_speed"
 
@@ -253,9 +254,9 @@ class Gas(FileTable):
         if len(given) > 1:
             yield f"has {join_words(given)}; {choice}"
         elif not given:
-            yield f"does not say how much is burnt; {choice}"
+            yield f"has no key for the heat; {choice}"
         if self.cycle == "dual" and not self.has("max_pressure"):
-            yield "needs max_pressure for a dual cycle, at which it burns on"
+            yield "needs max_pressure, the pressure of the second part of the burn in a dual cycle"
         if self.has("bmep") and self.mechanical_efficiency is None:
             yield "has bmep without mechanical_efficiency; give both, or imep"
         if self.compression_ratio is None:
@@ -272,9 +273,9 @@ class Flywheel(FileTable):
     inertia: GivenInertia | None = None
     """Polar moment of inertia. Example: 250000"""
     mass: Mass | None = None
-    """With radius_of_gyration, instead of inertia. Example: 12"""
+    """Mass, with radius_of_gyration, instead of inertia. Example: 12"""
     radius_of_gyration: Size | None = None
-    """With mass, instead of inertia. Example: 140"""
+    """Radius of gyration, with mass, instead of inertia. Example: 140"""
 
 
 class Bearing(FileTable):

@@ -1,7 +1,7 @@
-"""Tables of an engine file about a locomotive: [locomotive] and [[axle]]; which axle carries which
-cranks, and the speed in km/h.
+"""Tables of an engine file about a locomotive: [locomotive] and [[axle]]. They give the axle that
+carries each crank, the balance masses in the wheels, and the speed in km/h.
 
-They are imported for files that have them (`names.CHAPTERS`).
+This module is imported only for files that have one of these tables (`names.CHAPTERS`).
 """
 
 from __future__ import annotations
@@ -88,16 +88,16 @@ class Locomotive(FileTable):
     """z of the two planes of the balance masses, ascending. Example: [-750,
     750]"""
     radius: Size | None = None
-    """Radius of the balance masses; left out: unbalance alone, no mass. Example: 800"""
+    """Radius of the balance masses; left out: results have only their unbalance. Example: 800"""
     wheel_diameter: Size | None = None
-    """On the tread; needed for speeds in km/h. Example: 2000"""
+    """Diameter of the wheel tread; needed for speeds in km/h. Example: 2000"""
     wheel_load: WheelLoad | None = None
     """Static load of one wheel on its rail, also as a mass ("9.5 t"); needed for the speeds at
     which wheels lift. Example: 40000"""
     speed: Annotated[float | None, Number(VELOCITY, above=0, most=1e9)] = None
     """Speed on the track, in place of operation.speed. Example: 80"""
     coupling_radius: Distance | None = None
-    """Throw of the coupling-rod pins; left out: crank radius of cylinder 1. Example: 300"""
+    """Radius of the coupling-rod pins; left out: crank radius of cylinder 1. Example: 300"""
     coupling_planes: Planes | None = None
     """z of the two coupling rods, ascending. Example: [-900, 900]"""
     coupling_angles: CouplingAngles | None = None
@@ -154,19 +154,19 @@ class Axle(FileTable):
     """A coupled axle of a locomotive, front to rear."""
 
     name: Name
-    """What it is called. Example: 'leading'"""
+    """Name of the axle. Example: 'leading'"""
     driving: Switch = False
-    """It has the cranks; true for one axle. Example: true"""
+    """Whether this is the driving axle, which has the cranks; true for one axle. Example: true"""
     cylinders: Numbers | None = None
-    """Numbers of the cylinders whose cranks this axle carries (divided drive); left out: all, on
-    the driving axle. Example: [2, 3]"""
+    """Numbers of the cylinders whose cranks this axle carries (divided drive); left out: the
+    driving axle carries all cranks. Example: [2, 3]"""
     part: Annotated[float, Number(PLAIN, least=0, most=1e9)] = 1.0
-    """Its part of the balance for reciprocating masses, relative to the other axles. Example: 1"""
+    """Share of the balance for reciprocating masses, relative to the other axles. Example: 1"""
     coupling_mass: CouplingMasses = 0.0
-    """Revolving mass at each coupling pin: its part of rod, pin and boss; a list has one for each
-    side. Example: 110"""
+    """Revolving mass at each coupling pin: its share of the rod, the pin and the boss; a list has
+    one for each side. Example: 110"""
     wheel_load: WheelLoad | None = None
-    """As locomotive.wheel_load, where it differs. Example: 38000"""
+    """locomotive.wheel_load of this axle, if it differs. Example: 38000"""
 
     @property
     def has_cranks(self) -> bool:

@@ -1,5 +1,5 @@
-"""Messages for mistakes in an engine file: pydantic's findings in plain words, remedies for unknown
-keys, and the kinds of files, which are recognized by the keys at their head.
+"""Write messages for mistakes in an engine file: pydantic's findings in plain words, and remedies
+for unknown keys. Recognize the kinds of files by the keys at their head.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ class FileKind(NamedTuple):
 
     Attributes:
         name: Name of the kind.
-        reader: The command that reads it, in words.
+        reader: The command that reads this kind, in words.
         keys: Keys that only this kind has.
     """
 
@@ -178,7 +178,7 @@ def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> Non
         raise OtherKindError([Problem("", message)], file)
 
 
-# Other words for keys, and the keys that they may mean; the first that a table has is proposed
+# Other words for keys, and the keys that they may mean; the first that a table has is proposed.
 _SYNONYMS = """
 conrod connecting_rod = rod; rpm = speed; pin_offset = splay offset; pin_angles = throws
 crank_angles = throws; angles = throws banks; phase = throws angle; bore_spacing = spacing
@@ -191,12 +191,12 @@ _COUNT = (
     "the number of cylinders follows from throws and banks; give every throw its angle, such as "
     "crank.throws = [0, 180, 180, 0]"
 )
-# Words for which an engine file has no key, and what to write instead
+# Words for which an engine file has no key, and the remedy.
 INSTEAD = {
     **dict.fromkeys(("cylinders", "count", "number_of_cylinders"), _COUNT),
     **dict.fromkeys(("radius", "crank_radius"), "give crank.stroke, twice the crank radius"),
 }
-_NEAR = 0.65  # least similarity of an unknown key and the proposed one in its table
+_NEAR = 0.65  # least similarity of an unknown key and the proposed key of its table
 _NEAR_ELSEWHERE = 0.75
 
 
@@ -243,8 +243,8 @@ def suggest_place(key: str) -> str:
     empty if no table has it.
     """
     if key in TEXTS:
-        return f"{key} stands at the head of the file, above all tables"
+        return f"{key} belongs at the head of the file, above all tables"
     having = [name for name, table in import_tables().items() if key in table.model_fields]
-    # Tables of engine parts first: a chapter may use the same key for something else
+    # Tables of engine parts come first: a chapter may use the same key with another meaning.
     names = [f"[{name}]" for name in having if name in TABLES] or [f"[{name}]" for name in having]
     return f"{key} belongs to {' or '.join(names)}" if names else ""

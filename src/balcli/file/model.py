@@ -77,8 +77,8 @@ class Crank(FileTable):
     """Angle of every throw, free end to flywheel end; may be left out where firing_order fixes
     them. Example: [0, 180, 180, 0]"""
     spacing: Distance | None = None
-    """Axial distance of neighbouring throws; without it (or positions) moments of several throws
-    are not known. Example: 100"""
+    """Axial distance of neighbouring throws; without it (and without positions), moments of several
+    throws are not known. Example: 100"""
     positions: Lengths | None = None
     """Axial position of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
     throw_mass: Masses = 0.0
@@ -107,7 +107,7 @@ class Pendulum(FileTable):
     pivot: Annotated[str, OneOf("small_end", "big_end")]
     """The bore about whose centre the rod swings. Example: 'small_end'"""
     period: Period
-    """One full swing, there and back. Example: 0.82"""
+    """Time of one full swing, there and back. Example: 0.82"""
 
 
 class RodKeys(FileTable):
@@ -126,14 +126,14 @@ class RodKeys(FileTable):
     mass: Mass | None = None
     """Mass of the whole rod with bolts, without bearing shells. Example: 0.6"""
     cg: Length | None = None
-    """From the big-end centre to the centre of mass. Example: 45"""
+    """Distance from the big-end centre to the centre of mass. Example: 45"""
     small_end: Mass | None = None
     """Mass weighed at the small end, instead of mass and cg. Example: 0.17"""
     big_end: Mass | None = None
     """Mass weighed at the big end, instead of mass and cg. Example: 0.43"""
     inertia: Inertia | None = None
-    """Moment of inertia about the centre of mass; left out: two masses at the ends. Example:
-    2300"""
+    """Moment of inertia about the centre of mass; left out: that of two masses at the ends.
+    Example: 2300"""
     pendulum: Pendulum | None = None
     """A pendulum test, instead of inertia."""
 
@@ -144,8 +144,8 @@ class Rod(RodKeys):
     choices = (RodKeys.choices[0]._replace(unless="motion"), *RodKeys.choices[1:])
 
     motion: Annotated[str, OneOf("exact", "harmonic")] = "exact"
-    """Harmonic: the pistons move as a cosine, as in a Scotch yoke or with an endless rod; length
-    and ratio may be left out. Example: 'harmonic'"""
+    """Harmonic: the pistons have a sinusoidal motion, as with a Scotch yoke or a rod of infinite
+    length; length and ratio may be left out. Example: 'harmonic'"""
 
     def _check_motion(self) -> Iterator[str]:
         length = self.length is not None or self.ratio is not None
@@ -166,7 +166,7 @@ class Piston(FileTable):
     mass: Mass | None = None
     """Piston, pin, rings and locks together. Example: 0.5"""
     piston: Mass | None = None
-    """The bare piston, instead of mass, which is then the sum. Example: 0.36"""
+    """The bare piston, instead of mass, which is then the sum of the parts. Example: 0.36"""
     pin: Mass | None = None
     """Piston pin. Example: 0.1"""
     rings: Mass | None = None
@@ -183,7 +183,7 @@ class Piston(FileTable):
 
 
 class Crosshead(FileTable):
-    """Crosshead between the piston rod and the connecting rod of large engines."""
+    """Crosshead between piston rod and connecting rod, as in large engines."""
 
     mass: Mass = 0.0
     """Mass of each crosshead with piston rod and pin; it moves with the piston. Example: 2400"""
@@ -201,10 +201,11 @@ class Layout(FileTable):
     radial: Count | None = None
     """Number of banks, evenly round the crank. Example: 9"""
     rows: Count | None = None
-    """Rows of a radial, each on a throw of its own; left out: one row a throw. Example: 2"""
+    """Rows of a radial, each on a throw of its own; left out: one row for each throw. Example:
+    2"""
     row_angle: Angle | None = None
     """Angle by which each further row of a radial is turned from the one before it; left out: the
-    banks of all rows are evenly spaced, or with rows left out, in line. Example: 25.714"""
+    banks of all rows are evenly spaced, or in line if rows is left out. Example: 25.714"""
     rods: Annotated[str, OneOf("shared", "alternating")] = "shared"
     """Shared: every throw carries one rod of each bank; alternating: the throws take the banks
     in turn. Example: 'alternating'"""
@@ -213,16 +214,16 @@ class Layout(FileTable):
     firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
     """Numbers of the cylinders as they fire. Example: [1, 3, 4, 2]"""
     firing_intervals: Intervals | None = None
-    """Angle from each firing to the next; left out: as crank.throws give them, or even without
-    throws. Example: [405, 315]
+    """Angle from each firing to the next; left out: the intervals that crank.throws give, or even
+    ones without throws. Example: [405, 315]
     """
     rotary: Switch = False
-    """The crank stands still and the cylinders turn about it. Example: true"""
+    """Whether the crank stands still and the cylinders turn about it. Example: true"""
     strokes: Annotated[int, OneOf(2, 4)] = 4
-    """Two-stroke or four-stroke. Example: 4"""
+    """Strokes of a cycle: 2 or 4. Example: 4"""
     numbering: NumbersOfBanks | None = None
-    """Cylinder numbers of each bank, free end to flywheel end; in a radial in rows those of each
-    row, in the sense of rotation. Example: [[1, 3], [2, 4]]"""
+    """Cylinder numbers of each bank, free end to flywheel end; in a radial in rows, numbers of each
+    row in the sense of rotation. Example: [[1, 3], [2, 4]]"""
 
     @property
     def in_rows(self) -> bool:
@@ -286,8 +287,8 @@ class Bobweight(FileTable):
     oil: Mass = 0.0
     """Allowance for oil, for each rod. Example: 0.004"""
     oil_per_pin: Mass | None = None
-    """Allowance for oil of a whole crank pin, as shops write it, instead of oil; its rods share
-    it equally. Example: 0.005"""
+    """Allowance for oil of a whole crank pin, instead of oil; its rods share it equally. Example:
+    0.005"""
 
 
 class Ripple(FileTable):
@@ -304,22 +305,22 @@ class Ripple(FileTable):
 
 
 class Operation(FileTable):
-    """How the engine runs."""
+    """Speed and power of the engine."""
 
     speed: Speed = 1000.0
     """Crank speed (mean over the angle). Example: 3000"""
     power: Power | None = None
     """Brake power at this speed, for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
-    """Uneven crank speed, by orders: whole ones, or halves of a four-stroke engine."""
+    """Uneven crank speed by orders: whole ones, and half orders of a four-stroke engine."""
 
 
 class Frame(FileTable):
     """The frame of the engine."""
 
     reference: Triple | None = None
-    """x, y, z of the point about which all moments are taken; left out: on the crank axis,
-    half-way between the first and the last throw. Example: [0, 0, 0]"""
+    """x, y, z of the point about which all moments are taken; left out: the point on the crank
+    axis half-way between the first and the last throw. Example: [0, 0, 0]"""
     up: Angle | None = None
     """Direction that points up on the test bed, from the x axis in the sense of rotation; left
     out: results name x and y. Example: 0"""
@@ -334,34 +335,34 @@ class Override(FileTable):
     )
 
     piston_mass: Mass | None = None
-    """As piston.mass. Example: 0.502"""
+    """piston.mass of this cylinder. Example: 0.502"""
     crosshead_mass: Mass | None = None
-    """As crosshead.mass. Example: 2450"""
+    """crosshead.mass of this cylinder. Example: 2450"""
     piston_offset: Length | None = None
-    """As piston.offset. Example: 0.8"""
+    """piston.offset of this cylinder. Example: 0.8"""
     rod_length: Size | None = None
-    """As rod.length. Example: 160"""
+    """rod.length of this cylinder. Example: 160"""
     rod_ratio: RodRatio | None = None
-    """As rod.ratio. Example: 0.28"""
+    """rod.ratio of this cylinder. Example: 0.28"""
     rod_mass: Mass | None = None
-    """As rod.mass. Example: 0.602"""
+    """rod.mass of this cylinder. Example: 0.602"""
     rod_cg: Length | None = None
-    """As rod.cg. Example: 45"""
+    """rod.cg of this cylinder. Example: 45"""
     rod_small_end: Mass | None = None
-    """As rod.small_end. Example: 0.17"""
+    """rod.small_end of this cylinder. Example: 0.17"""
     rod_big_end: Mass | None = None
-    """As rod.big_end. Example: 0.43"""
+    """rod.big_end of this cylinder. Example: 0.43"""
     rod_inertia: Inertia | None = None
-    """As rod.inertia. Example: 2300"""
+    """rod.inertia of this cylinder. Example: 2300"""
     rod_pendulum: Pendulum | None = None
-    """As rod.pendulum."""
+    """rod.pendulum of this cylinder."""
     gas: ShareOfGas | None = None
     """Share of the gas force; 0: a misfire. Example: 0"""
     heat: Heat | None = None
-    """As gas.heat, of a computed cycle; 0: a cylinder that compresses and does not burn.
-    Example: 0"""
+    """gas.heat of this cylinder, for a computed cycle; 0: it compresses but does not burn. Example:
+    0"""
     indicator: Annotated[str, FileName()] | None = None
-    """As gas.indicator, with a diagram for this cylinder. Example: 'p_3.csv'"""
+    """gas.indicator of this cylinder. Example: 'p_3.csv'"""
     stroke: Size | None = None
     """Twice the radius of this cylinder's pin, where it differs from that of its throw.
     Example: 85"""
@@ -383,9 +384,9 @@ class Device(FileTable):
     unbalance: Unbalance | None = None
     """Mass times radius; "fit": `balcli balance` computes it. Example: 9000"""
     mass: Mass | None = None
-    """With radius, instead of unbalance. Example: 0.5"""
+    """Mass, with radius, instead of unbalance. Example: 0.5"""
     radius: Distance | None = None
-    """With mass, instead of unbalance. Example: 40"""
+    """Radius of the mass, with mass, instead of unbalance. Example: 40"""
     position: Length = 0.0
     """Axial position (z). Example: 0"""
 
@@ -430,10 +431,10 @@ class Counterweight(Device):
     axle: Name | None = None
     """Axle of a locomotive that carries it; left out: the driving axle. Example: 'leading'"""
     inertia: Inertia = 0.0
-    """Polar moment of inertia about the crank axis, for an uneven speed; with crank.inertia, which
-    has it, it counts nowhere. Example: 2600"""
+    """Polar moment of inertia about the crank axis, for an uneven speed; not used with
+    crank.inertia, which includes it. Example: 2600"""
     sector: Sector | None = None
-    """Its shape, with its thickness in place of the unbalance or next to an unbalance."""
+    """Shape of the counterweight as a sector; give its thickness, or the unbalance, not both."""
 
     def _check_sector(self) -> Iterator[str]:
         if self.sector is None:
@@ -452,18 +453,18 @@ class Gear(FileTable):
     """The gear that drives a balancer shaft."""
 
     position: Length
-    """Axial place (z). Example: -150"""
+    """Axial position (z). Example: -150"""
     radius: Size
     """Pitch radius. Example: 35"""
     direction: Angle
-    """From the shaft's axis to the mesh, from the x axis. Example: 90"""
+    """Direction from the shaft's axis to the mesh, from the x axis. Example: 90"""
     pressure_angle: PressureAngle = 20.0
     """Pressure angle. Example: 20"""
 
 
 class Shaft(Device):
     """A balancer shaft, or one of several eccentrics on it. inertia, bearings, gear and drag belong
-    to the whole shaft and stand in one of its entries.
+    to the whole shaft; give each in one of its entries.
     """
 
     choices = (Device.choices[0]._replace(instead=("inertia",)),)
@@ -478,13 +479,13 @@ class Shaft(Device):
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
     role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
-    """Compensator: far from the engine, its force makes a moment and is meant to remain.
+    """Compensator: a device far from the engine, whose force makes a moment and is meant to remain.
     Example: 'balancer'"""
     inertia: Inertia = 0.0
-    """Polar moment of inertia about its own axis, for an uneven speed and the flywheel. Example:
-    150"""
+    """Polar moment of inertia about its own axis, for an uneven speed and for sizing the flywheel.
+    Example: 150"""
     bearings: Place | None = None
-    """Axial places (z) of its two bearings. Example: [-130, 130]"""
+    """Axial positions (z) of its two bearings. Example: [-130, 130]"""
     gear: Gear | None = None
     """The gear that drives it."""
     drag: Drag = 0.0
@@ -532,7 +533,7 @@ class EngineFile(FileTable):
     cylinder: dict[int, Override] = {}  # noqa: RUF012 - pydantic copies it
     """Figures of cylinders that differ from the others, by cylinder number."""
     counterweight: tuple[Counterweight, ...] = ()
-    """Unbalance fixed to the crankshaft."""
+    """Unbalances fixed to the crankshaft."""
     shaft: tuple[Shaft, ...] = ()
     """Balancer shafts."""
     slider: tuple[Slider, ...] = ()
@@ -610,13 +611,14 @@ class Articulation(FileTable):
     """A radial engine with a master rod, to which the other rods are hinged."""
 
     master: Counts = 1
-    """Number of the bank that carries the master rod, in a radial in rows its place in the row;
-    a list has one for each row. Example: 1"""
+    """Number of the bank that carries the master rod; in a radial in rows, place of the master rod
+    in the row. A list has one for each row. Example: 1"""
     knuckle_radius: Size
     """Distance from the crank pin to the knuckle pins. Example: 55"""
     knuckle_angles: AnglesOfRows | None = None
-    """One for each bank, from the master rod's axis (its own is 0), or such a list for each row;
-    left out: bank angles from it. Example: [0, 72, 144, 216, 288]"""
+    """Angle of each bank's knuckle pin from the master rod's axis (0 for the master's own bank), or
+    such a list for each row; left out: the bank angles from the master's bank. Example: [0, 72,
+    144, 216, 288]"""
     rod: ArticulatedRod
     """The articulated rods."""
 

@@ -107,10 +107,10 @@ class Mount(FileTable):
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""
     damping: Dampings = (0.0, 0.0, 0.0)
-    """Viscous damping along its three axes, or one figure for all three. Example: [0.4, 0.4, 0.4]
+    """Viscous damping along its three axes, or one figure for all. Example: [0.4, 0.4, 0.4]
     """
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
-    """Dynamic over static stiffness; statics do not use it. Example: 1.3"""
+    """Ratio of dynamic to static stiffness; not used for the body at rest. Example: 1.3"""
 
     def _check_stiffness(self) -> Iterator[str]:
         if not any(self.stiffness):

@@ -1,5 +1,5 @@
-"""An engine file as dicts, lists, numbers and texts, made of a Python user's tables or of a model;
-and the defaults that apply if the file leaves keys out.
+"""Convert the tables of a Python user, or a model, to dicts, lists, numbers and texts; change them;
+and list the defaults that apply if a file leaves keys out.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def normalize_tables(tables: Mapping[Any, object]) -> Node:
     become lists, numpy's numbers become Python's; None is omitted.
 
     Raises:
-        InputError: A key is no text or number, or a table contains itself.
+        InputError: A key is not a text or number, or a table contains itself.
     """
     try:
         return {_key(key): _plain(value) for key, value in tables.items() if value is not None}
@@ -44,12 +44,12 @@ def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str
     Args:
         function: Function to which the source was given, for messages.
         source: Path, text or dict.
-        wanted: A right source in words, for messages.
+        wanted: Valid sources in words, for messages.
 
     Raises:
         BalcliError: The file cannot be read.
-        InputError: The text is no TOML.
-        TypeError: The source is none of these.
+        InputError: The text is not TOML.
+        TypeError: The source has another type.
     """
     if isinstance(source, Mapping):
         return normalize_tables(source), ""
@@ -64,8 +64,8 @@ def take_tables(function: str, source: object, wanted: str) -> tuple[Mapping[str
 def _key(key: object) -> str:
     if isinstance(key, (str, int, np.integer)) and not isinstance(key, bool):
         return str(key)
-    told = f"the key {str(key)[:60]} ({type(key).__name__}) is no text"
-    raise TypeError(f'{told}; write it as a file has it, such as "stroke"')
+    told = f"the key {str(key)[:60]} ({type(key).__name__}) is not a text"
+    raise TypeError(f'{told}; write it as in a file, such as "stroke"')
 
 
 def _plain(value: object) -> object:
@@ -106,7 +106,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
             they are changed as well.
 
     Raises:
-        InputError: A name stands for a member of a list that the file does not have.
+        InputError: A name refers to a member of a list that the file does not have.
     """
     tables = list_tables(model)
     for path, value in changes.items():

@@ -58,12 +58,12 @@ def refuse(problems: Iterable[Problem], name: str) -> InputError:
 
 
 class TableReader:
-    """Reads tables and collects their mistakes.
+    """Reader of tables that collects their mistakes.
 
     Args:
         file_kind: Kind of the file, in words: "a chain file".
-        describe: Returns the message for a finding of pydantic, from the table's path, the finding
-            and the table's class.
+        describe: Function that returns the message for a finding of pydantic, from the table's
+            path, the finding and the table's class.
         is_engine: Whether the file is an engine file, for which there are more hints.
 
     Attributes:
@@ -85,7 +85,7 @@ class TableReader:
         self, key: str, value: object, table: type[T], most: int = MOST_PARTS
     ) -> tuple[T | None, ...] | None:
         """Return the tables of a list, with None for each table that has mistakes; None if the
-        value is no list, or too long.
+        value is not a list, or too long.
 
         Args:
             key: Key of the list.
@@ -116,7 +116,7 @@ class TableReader:
             return None
         if not isinstance(value, Mapping):
             hint = f"write {format_heading(path)} and its keys below it"
-            self.add(path, f"{shorten(value)} stands where a table belongs; {hint}")
+            self.add(path, f"{shorten(value)} is given in place of a table; {hint}")
             return None
         keys = table.keys()
         known = {key: part for key, part in value.items() if key in keys}
@@ -172,7 +172,7 @@ class TableReader:
     def _translate(
         self, path: str, table: type[FileTable], error: ValidationError, *, whole: bool
     ) -> None:
-        """Collect pydantic's findings in a table; `whole` tells that it has no unknown keys."""
+        """Collect pydantic's findings in a table; `whole`: whether it has no unknown keys."""
         for finding in error.errors(include_url=False)[:MOST_LIST_VALUES]:
             if not finding["loc"]:
                 contradictions = finding["ctx"]["error"].args if whole else ()
@@ -216,7 +216,7 @@ def read_tables(text: str | bytes, name: str = "", *, bare: bool = False) -> Dra
             pistons.
 
     Raises:
-        InputError: The text is no TOML, or a file of another kind.
+        InputError: The text is not TOML, or a file of another kind.
     """
     return check_tables(parse_toml(text, name), Path(name).parent, name, bare=bare)
 
@@ -276,8 +276,8 @@ def check_tables(
 
 
 def _settle_speed(model: EngineFile) -> EngineFile:
-    """Return the file of a locomotive with its speed on the track as `operation.speed`; as it is
-    where that cannot be.
+    """Return the file of a locomotive with its speed on the track as `operation.speed`; the file
+    unchanged if there is no such speed.
     """
     table = model.locomotive
     if table is None or None in (table.speed, table.wheel_diameter) or model.operation.has("speed"):
@@ -329,13 +329,13 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
     if strange:
         reader.add(key, f"has the control character U+{ord(strange[0]):04X}; leave it out")
     elif key == "name" and len(value) > LONGEST_NAME:
-        reader.add(key, f"has {len(value)} characters; at most {LONGEST_NAME} are taken")
+        reader.add(key, f"has {len(value)} characters; at most {LONGEST_NAME} are allowed")
     return value
 
 
 def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | None]:
     if isinstance(value, list):
-        reader.add("cylinder", "has a table for each that differs, such as [cylinder.3]")
+        reader.add("cylinder", "has a table for each cylinder that differs, such as [cylinder.3]")
         return {}
     cylinders: dict[int, Override | None] = {}
     for key, part in value.items() if isinstance(value, Mapping) else [("", value)]:
@@ -343,6 +343,6 @@ def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | 
             cylinders[int(key)] = reader.read_table(f"cylinder.{key}", part, Override)
         else:
             hint = INSTEAD.get(key or "count") or suggest_place(key)
-            hint = hint or "write [cylinder.3] for what differs in cylinder 3"
+            hint = hint or "write [cylinder.3] for the keys that differ in cylinder 3"
             reader.add(join_path("cylinder", [key]), f"does not name a cylinder; {hint}")
     return cylinders

@@ -1,4 +1,4 @@
-"""JSON Schema of the engine file, with which editors check and complete the text that one types."""
+"""Make the JSON Schema of the engine file, with which editors check and complete typed text."""
 
 from __future__ import annotations
 

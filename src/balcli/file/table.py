@@ -1,4 +1,4 @@
-"""Base class of all tables of a file, and types for their keys."""
+"""Define the base class of all tables of a file, and types for their keys."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic_core import CoreSchema
 
-INTERVAL_TOLERANCE_DEG = 0.5  # firing intervals are often printed rounded
+INTERVAL_TOLERANCE_DEG = 0.5  # tolerance of firing intervals, which are often printed rounded
 
-# Bounds of figures are far beyond every engine; products and powers of them overflow nothing.
+# The bounds of figures are far beyond any engine, and their products and powers do not overflow.
 Length = Annotated[float, Number(LENGTH, most=1e9)]
 
 Distance = Annotated[float, Number(LENGTH, least=0, most=1e9)]
@@ -53,7 +53,7 @@ Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
 Masses = Annotated[float | tuple[float, ...], OneOrEach(Number(MASS, least=0, most=1e12))]
 
-Angle = Annotated[float, Number(ANGLE, most=1e9)]  # a million turns, and then some
+Angle = Annotated[float, Number(ANGLE, most=1e9)]  # about 3 million turns
 
 OpeningAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
 
@@ -65,7 +65,7 @@ Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
 GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
 
-FIT = "fit"  # in place of an unbalance: `balance` finds it
+FIT = "fit"  # value in place of an unbalance that `balance` computes
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
 
 Drag = Annotated[float, Number(TORQUE, least=0, most=1e12)]

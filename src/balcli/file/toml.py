@@ -16,13 +16,13 @@ from .examples import is_example
 from .fields import nearest
 
 ENGINE_FILE = (
-    "no engine file; that is TOML text with tables such as [crank], [rod] and [piston]: "
+    "not an engine file, which is TOML text with tables such as [crank], [rod] and [piston]: "
     "`balcli new` writes one"
 )
 _KEY_PART = r"""(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
 _DEEP_KEY = re.compile(rf"""(?<![\w"'-])(?:{_KEY_PART}){{{DEEPEST_KEY}}}""")
 _TOO_DEEP = "lists or tables are nested too deeply; an engine file needs no more than four levels"
-_LONGEST_LINE = 80  # of a line that a message shows
+_LONGEST_LINE = 80  # largest number of characters of a line in a message
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 _DASHED = r"\d+(?:-\d+)+"  # a firing order, 1-3-4-2
 # Patterns of values without quotes, and the remedy; the first that matches is used.
@@ -31,11 +31,11 @@ _HINTS = (
     (rf"{_NUMBER}[dD][+-]?\d+", "an exponent is written with e, as in 1.5e3"),
     (
         rf"{_NUMBER}(?:[\s,;]+{_NUMBER})+|{_DASHED}|\[[^\[\]]*\d\s*[\s;]\s*[-+.\d][^\[\]]*\]",
-        "a list stands in brackets, with commas: {key} = [{numbers}]",
+        "a list needs brackets and commas: {key} = [{numbers}]",
     ),
     (
         rf"{_NUMBER}(?:/\d+)?\s*[A-Za-z°%\"″'].*",
-        'a value with a unit stands in quotes: {key} = "{value}"',
+        'a value with a unit needs quotes: {key} = "{value}"',
     ),
 )
 
@@ -88,10 +88,10 @@ def parse_toml(text: str | bytes, file: str, right: str = ENGINE_FILE) -> Node:
     Args:
         text: Text of the file.
         file: Name of the file, for messages.
-        right: Words for a text of another format, which say what would be right.
+        right: Words that follow "is" in the message for a text of another format.
 
     Raises:
-        InputError: The text is no TOML, or exceeds a limit.
+        InputError: The text is not TOML, or exceeds a limit.
     """
     decoded, message = _decode(text, right)
     if not message:
@@ -123,7 +123,7 @@ def _decode(text: str | bytes, right: str) -> tuple[str, str]:
     except UnicodeDecodeError as error:
         start = error.object[:1000]
         if b"\0" in start and start[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-            return "", f"is no text, and {right}"
+            return "", f"is not a text, and {right}"
         line = error.object[: error.start].count(b"\n") + 1
         return "", f"is not UTF-8 text (line {line}); save it as UTF-8"
     if _DEEP_KEY.search(decoded):

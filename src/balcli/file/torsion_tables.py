@@ -70,9 +70,10 @@ class ShaftKeys(FileTable):
     """Keys of a shaft: its stiffness, or the dimensions and modulus from which it follows."""
 
     stiffness: Stiffness | None = None
-    """Torsional stiffness at the shaft's own speed; rigid: a flange or a mesh. Example: 1.25e6"""
+    """Torsional stiffness at the shaft's own speed; "rigid" for a flange or a mesh. Example:
+    1.25e6"""
     diameter: Size | None = None
-    """Diameter of the shaft: with it, stress is known. Example: 85"""
+    """Diameter of the shaft, needed for its stress. Example: 85"""
     length: Size | None = None
     """Length of a plain shaft, instead of stiffness. Example: 400"""
     bore: Size | None = None
@@ -80,11 +81,11 @@ class ShaftKeys(FileTable):
     shear_modulus: Modulus = 79.3
     """Shear modulus of a plain shaft; default: steel. Example: 79.3"""
     density: Density | None = None
-    """Density of a plain shaft, half of whose inertia counts at each end; left out: no inertia.
+    """Density of a plain shaft, whose inertia is halved between its ends; left out: no inertia.
     Example: 7.85
     """
     loss: Loss | None = None
-    """Loss factor, imaginary over real part of the stiffness. Example: 0.035"""
+    """Loss factor: imaginary part of the stiffness divided by its real part. Example: 0.035"""
     damping: Damping = 0.0
     """Damping of a dashpot between the ends of the shaft. Example: 20"""
 
@@ -124,7 +125,7 @@ _KEYS_OF_KIND = {
     "rubber": ("inertia", "stiffness", "loss"),
     "pendulum": ("mass", "radius"),
 }
-_TUNINGS = "length", "order"  # of a pendulum: one of them
+_TUNINGS = "length", "order"  # keys that tune a pendulum; one of them is given
 
 
 class Damper(FileTable):
@@ -148,7 +149,7 @@ class Damper(FileTable):
     length: Size | None = None
     """Length of a pendulum, from its pivot to its centre of mass. Example: 2.4"""
     order: _PendulumOrder | None = None
-    """Instead of length: the order, per turn of the node, that the pendulum cancels;
+    """Order, per turn of the node, that the pendulum cancels, instead of length;
     length = radius/order^2. Example: 4.5"""
 
     @property
@@ -189,12 +190,12 @@ class ChainKeys(FileTable):
     """Keys of a whole chain: the loss of its shafts, and limits."""
 
     loss: Loss = 0.0
-    """Loss factor of every shaft without its own. Example: 0.035"""
+    """Loss factor of every shaft that has none of its own. Example: 0.035"""
     limit: StressLimit | None = None
-    """Stress of a shaft above which a speed is barred. Example: 40"""
+    """Largest permitted stress of a shaft; speeds above it are barred. Example: 40"""
     angle_limit: AngleLimit | None = None
-    """Amplitude of the free end (in a chain: of the first node) above which a speed is barred.
-    Example: 0.3
+    """Largest permitted amplitude of the free end (of a chain: of the first node); speeds with a
+    larger one are barred. Example: 0.3
     """
 
 
@@ -300,15 +301,15 @@ class Torsion(ChainKeys):
     46700
     """
     throw_diameter: Size | None = None
-    """Diameter of the crankshaft between throws: with it, stress is known. Example: 85"""
+    """Diameter of the crankshaft between throws, needed for its stress. Example: 85"""
     throw_bore: Size | None = None
     """Diameter of its bore, if it has one. Example: 30"""
     damping: Damping = 0.0
     """Damping at every cylinder against ground. Example: 2"""
     front: _Parts = ()
-    """Parts before the first throw, from it outwards."""
+    """Parts before the first throw, in order away from it."""
     rear: _Parts = ()
-    """Parts behind the last throw, from it outwards."""
+    """Parts behind the last throw, in order away from it."""
     throw: _ThrowDampers = ()
     """Dampers on throws."""
 

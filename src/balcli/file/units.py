@@ -1,4 +1,4 @@
-"""Figures with a unit, as an engine file may give them: "3.5 in", "1/7 turn", "8.1 lb in^2".
+"""Read figures with a unit, such as "3.5 in", "1/7 turn" or "8.1 lb in^2".
 
 A figure is first brought to one spelling (`_RESPELT`), then matched by a regular expression; no
 text is ever evaluated. The arithmetic uses exact fractions, so a figure is rounded only once. Most
@@ -22,7 +22,7 @@ from unicodedata import normalize
 
 from ..limits import LONGEST_FIGURE
 
-# Names and the figure that defines them. r, U (German Umdrehung) and tr (French tour) are
+# Names and the figures that define them. r, U (German Umdrehung) and tr (French tour) are
 # revolutions; mmHg is 13 595.1 kg/m3 at standard gravity; Btu is that of the International Table.
 # Units of volume, temperature and current fit no key, but are named in messages.
 _DEFINED = """
@@ -99,7 +99,7 @@ PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 
 class Unit(NamedTuple):
     """A unit: its size in m, kg, s and turns, and its exponents of these four. Angle counts as a
-    dimension, so that rpm is no angle and degrees are no plain number.
+    dimension, so that rpm is not an angle and degrees are not plain numbers.
     """
 
     scale: Fraction
@@ -250,7 +250,7 @@ def convert(text: str, dimension: Dimension) -> float:
         dimension: Dimension that the figure must have.
 
     Raises:
-        ValueError: The text is no such figure; the message names the mistake and the remedy.
+        ValueError: The text is not such a figure; the message names the mistake and the remedy.
     """
     return float(convert_exactly(text, dimension))
 
@@ -282,7 +282,7 @@ def read_fraction(text: str) -> float:
     """Return a plain number that is written as `0.51`, `51%` or `2/3`.
 
     Raises:
-        ValueError: It is no such number.
+        ValueError: The text is not such a number.
     """
     figure, percent, rest = text.strip().partition("%")
     above, slash, below = re.sub(FORTRAN, r"e\1", figure).partition("/")
@@ -291,7 +291,7 @@ def read_fraction(text: str) -> float:
     except (ValueError, ZeroDivisionError):
         number = math.nan
     if rest or not math.isfinite(number):
-        raise ValueError('is no number, fraction or percentage, such as 0.67, "2/3" or "67%"')
+        raise ValueError('is not a number, fraction or percentage, such as 0.67, "2/3" or "67%"')
     return number / 100 if percent else number
 
 
@@ -475,7 +475,7 @@ def ask_unit(unit: str, *others: str) -> str:
         others: Figures in other units, such as "3.5 in".
     """
     said = " or ".join(f'"{other}"' for other in others)
-    return f"is it in {unit}? Another unit is said as in {said}"
+    return f"is it in {unit}? Give another unit as in {said}"
 
 
 def wanted(dimension: Dimension) -> str:

@@ -1,5 +1,5 @@
-"""Internal loads of an engine: shear force and bending moment in crankshaft and block, and loads of
-the main bearings.
+"""Compute the internal loads of an engine: shear force and bending moment in crankshaft and block,
+and loads of the main bearings.
 
 Inertia: the shaft is rigid. At each section the shear force is the sum of all loads towards the
 free end, and the bending moment is their moment about the section, `i sum (z_i - z) F_i` (M_x +
@@ -70,12 +70,12 @@ class AlongCrank(NamedTuple):
 
     @property
     def largest(self) -> int:
-        """Index of the place with the highest peak; of equal ones the first."""
+        """Index of the place with the highest peak; the first of several equal ones."""
         return int(find_first_largest([peak.value for peak in self.peaks]))
 
     @property
     def highest(self) -> tuple[float, float]:
-        """Value of the highest peak, and its place, mm."""
+        """Value of the highest peak, and its position, mm."""
         return self.peaks[self.largest].value, 1e3 * float(self.z_m[self.largest])
 
 
@@ -245,18 +245,18 @@ def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
     return AlongCrank(places, phasors.select_orders(orders), peaks)
 
 
-ROUNDING = 1e-13  # share of the terms below which their sum is rounding error
+ROUNDING = 1e-13  # a sum below this share of its terms is a rounding error
 
 
 class LoadsWithGas(NamedTuple):
     """Forces (N) and moments (N m) over the cycle, of inertia and gas, with a distributed rod.
 
     Attributes:
-        shear, bending: Shear force (just behind each load and bearing) and bending moment in the
-            crankshaft.
+        shear: Shear force in the crankshaft, just behind each load and bearing.
+        bending: Bending moment in the crankshaft.
         bearings: Forces of the shaft on the main bearings.
-        block_shear, block_bending: Shear force and bending moment in the block, which has no other
-            supports.
+        block_shear: Shear force in the block, which has no other supports.
+        block_bending: Bending moment in the block.
     """
 
     shear: AlongCrank
@@ -267,7 +267,7 @@ class LoadsWithGas(NamedTuple):
 
 
 class BearingsUnknownError(BalcliError):
-    """The positions of the main bearings are not known; `reason` says why."""
+    """The positions of the main bearings are not known; `reason` gives the reason."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -371,10 +371,10 @@ def place_main_bearings(engine: Engine) -> Array:
     if engine.rotary:
         raise BearingsUnknownError("the crank stands still, clamped at its end")
     if not engine.places_known:
-        raise BearingsUnknownError("crank.spacing is missing, so that no bearing is known to stand")
+        raise BearingsUnknownError("crank.spacing is missing, so their positions are not known")
     span = place_bearings(engine.joined_throws_m)
     if span is None:
-        raise BearingsUnknownError("a crank with one throw does not say where its bearings stand")
+        raise BearingsUnknownError("a crank with one throw does not determine their positions")
     return span
 
 

@@ -1,4 +1,4 @@
-"""Curves over the crank angle, computed directly from the motion, not as sums of orders.
+"""Compute curves over the crank angle directly from the motion, not as sums of orders.
 
 Inertia: each cylinder has momentum G, moment of momentum h and inertia I at crank speed 1. With
 crank speed omega, crank acceleration xi and a prime for the derivative by the crank angle, the
@@ -31,7 +31,7 @@ from ..limits import FINEST_STEP_DEG
 from .spectrum import compute_spectra, find_relevant_orders, take_gas
 
 Number = TypeVar("Number", np.float64, np.complex128)
-AT_ONCE = 200_000  # cylinders x angles, which bounds the memory
+AT_ONCE = 200_000  # largest number of cylinders x angles, which bounds the memory
 
 
 def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
@@ -102,7 +102,8 @@ class EngineMotion:
         cylinders: Cylinders of the engine.
         radius: Crank radii, m, shape (cylinders, 1) or (1, 1).
         crank_deg: Crank angles, shape (angles,).
-        omega, xi: Crank speed, rad/s, and acceleration, rad2/s2, shape (angles,).
+        omega: Crank speed, rad/s, shape (angles,).
+        xi: Crank acceleration omega d omega/d theta, rad2/s2, shape (angles,).
         pin_deg: Angles of the crank pins from x, shape (cylinders, angles).
         psi: Angles of the crank pins from their cylinders' axes, rad, shape (cylinders, angles).
         axis: Directions of the cylinders, shape (cylinders, 1).
@@ -201,8 +202,8 @@ class TorqueCurves(NamedTuple):
     Attributes:
         gas: Gas torque of all cylinders.
         total: Torque of gas and inertia.
-        gas_once: Gas torque up to where gas and inertia torque repeat: over one firing interval if
-            equal cylinders fire evenly, else over the cycle.
+        gas_once: Gas torque over the period of gas and inertia torque: one firing interval if equal
+            cylinders fire evenly, else the cycle.
     """
 
     gas: PiecewiseCurve
@@ -230,8 +231,8 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
 
 def count_repeats(engine: Engine) -> int:
-    """Return how often the torque repeats in a cycle: at each firing if the cylinders are equal and
-    fire exactly evenly, else once. (One interval is computed faster than a cycle.)
+    """Return the number of periods of the torque in a cycle: one for each firing if the cylinders
+    are equal and fire exactly evenly, else one. (One interval is computed faster than a cycle.)
     """
     gas, c = take_gas(engine), engine.cylinders
     if engine.placed:

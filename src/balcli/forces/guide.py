@@ -1,5 +1,5 @@
-"""Guide-force moments of inertia and gas, as builders of large engines state them; as quantities of
-variants they are called `guide.6.H`, `guide.4.5.X`.
+"""Compute guide-force moments of inertia and gas, as builders of large engines state them. As
+quantities of variants, they are called `guide.6.H` and `guide.4.5.X`.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class GuideMoments(NamedTuple):
 
     Attributes:
         h: H-type moment: the sum of the roll moments.
-        x: X-type moment, that of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`; None if
-            all cylinders have the same position, or positions are not known.
+        x: X-type moment, the moment of the guides' side forces: `sum roll_i (z_i - z_ref) / L_i`;
+            None if all cylinders have the same position, or positions are not known.
         height_m: Height L of each guide's middle above the crankshaft, by cylinder number, shape
             (cylinders,).
         with_gas: Whether the moments include the gas.
@@ -114,15 +114,15 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     for q in quantities:
         if parse_order(q.target) is None:
             raise BalcliError(
-                f"{q.name} is no quantity: after guide comes an order up to {HIGHEST_ORDER}, as in "
+                f"{q.name} is not a quantity: after guide comes an order to {HIGHEST_ORDER}, as in "
                 "guide.6.H"
             )
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:
         known = len(build(model).throws_m) < 2 or build(model).places_known
-        why = "all cylinders stand at one place" if known else MOMENTS_UNKNOWN
+        why = "all cylinders have the same position" if known else MOMENTS_UNKNOWN
         if build(model).cylinders.harmonic:
-            why = "rods in harmonic motion have no length; analyze --guide-height takes a height"
+            why = "rods in harmonic motion have no length; give the height with --guide-height"
         raise BalcliError(f"{of_x[0].name}: {why}")
 
 

@@ -1,4 +1,4 @@
-"""Table of all kinds of forces and moments: names, symbols, keys and units.
+"""Define the table of all kinds of forces and moments: names, symbols, keys and units.
 
 All code that computes, shows, compares, records or searches kinds reads this table. A new kind
 needs a line here, a member of `spectrum.Spectra`, and the computation. `KINDS` are the kinds of
@@ -24,7 +24,8 @@ class Kind(NamedTuple):
         key: Key in JSON, with its SI unit as the ending.
         vector: Whether it is a vector of the x-y plane; a scalar acts about the crank's axis.
         dimension: Force or moment.
-        plus, minus: Names of the kinds that are added and subtracted to give it, if any.
+        plus: Names of the kinds that are added to give this kind, if any.
+        minus: Names of the kinds that are subtracted to give this kind, if any.
     """
 
     name: str
@@ -89,7 +90,7 @@ ROLL_TOTAL = Kind(
 KINDS = {kind.name: kind for kind in (FORCE, MOMENT, COUPLE, TORQUE, ROLL)}
 GAS_KINDS = {kind.name: kind for kind in (GAS, TORQUE_TOTAL, ROLL_TOTAL)}  # with gas only
 EVERY_KIND = KINDS | GAS_KINDS
-# default quantities (see quantity.py) of variants in sweep, search and scatter
+# Default quantities (see quantity.py) of variants in sweep, search and scatter.
 DEFAULT_QUANTITIES = "force.1.major,force.2.major,moment.1.major,moment.2.major"
 VECTORS = tuple(kind for kind in KINDS.values() if kind.vector)
 SCALARS = tuple(kind for kind in KINDS.values() if not kind.vector)

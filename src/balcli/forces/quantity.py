@@ -1,6 +1,7 @@
-"""Quantities: single figures of an engine for sweep, search and scatter. They are named like
-`force.2.major` or `peak.moment`; figures of a mode, mount or other target like `mode.3.Hz`,
-`mount.left.force` or `guide.6.H`.
+"""Define quantities, the single figures of an engine that sweep, search and scatter evaluate.
+
+Their names are such as `force.2.major` or `peak.moment`; names of figures of a mode, mount or other
+target are such as `mode.3.Hz`, `mount.left.force` or `guide.6.H`.
 """
 
 from __future__ import annotations
@@ -93,16 +94,16 @@ def parse_quantity(text: str, *, with_gas: bool = False) -> Quantity:
     if kind == "peak" and rest in [vector.name for vector in VECTORS]:
         return Quantity(rest, 0, "peak")
     if kind == "peak":
-        raise BalcliError(f"{text} is no quantity: after peak comes force or moment")
+        raise BalcliError(f"{text} is not a quantity: after peak comes force or moment")
     order, part = split_order(rest)
     part = _SENSES.get(part, part)
     allowed = VECTOR_PARTS if EVERY_KIND[kind].vector else SCALAR_PARTS
     if order is None:
         told = f"after {kind} comes an order up to {HIGHEST_ORDER}, as in {kind}.2.{allowed[0]}"
-        raise BalcliError(f"{text} is no quantity: {told}")
+        raise BalcliError(f"{text} is not a quantity: {told}")
     if part not in allowed:
         told = f"after the order comes one of {', '.join(allowed)}"
-        raise BalcliError(f"{text} is no quantity: {told}")
+        raise BalcliError(f"{text} is not a quantity: {told}")
     if kind == "torque" and with_gas:
         return Quantity(TORQUE_TOTAL.name, order, part, called=kind)
     return Quantity(kind, order, part)
@@ -112,7 +113,7 @@ def leave_out_unknown(engine: Engine, quantities: Iterable[Quantity]) -> tuple[Q
     """Return the quantities, without moments if the positions of the throws are not known.
 
     Args:
-        engine: Engine of which they are wanted.
+        engine: Engine whose quantities are wanted.
         quantities: Wanted quantities.
     """
     return tuple(q for q in quantities if q.kind != "moment" or engine.places_known)
@@ -123,11 +124,11 @@ def refuse_unknown(engine: Engine, quantities: Iterable[Quantity]) -> None:
     of gas if the engine has none.
 
     Args:
-        engine: Engine of which they are wanted.
+        engine: Engine whose quantities are wanted.
         quantities: Wanted quantities.
 
     Raises:
-        BalcliError: The first of them that is not known, and why.
+        BalcliError: A quantity is not known; the error names the first and the reason.
     """
     has_gas = engine.gas is not None or engine.gas_of_variants is not None
     for q in quantities:

@@ -1,5 +1,5 @@
-"""Forces in each cylinder of an engine with gas: on the piston, on the cylinder wall, along the rod
-and on its lower pin. They are exact for a rod of distributed mass.
+"""Compute the forces in each cylinder of an engine with gas: on the piston, on the cylinder wall,
+along the rod and on its lower pin. They are exact for a rod of distributed mass.
 
 In the cylinder's frame, u points along the axis away from the crank, and v is 90 deg ahead in the
 sense of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle pin of an
@@ -144,7 +144,7 @@ def _follow_ends(engine: Engine, motion: EngineMotion, throw: Complex) -> tuple[
         acceleration = r * turned * (point.z2 * motion.omega**2 + point.z1 * motion.xi)
         return _Course(r * turned * point.z, np.asarray(acceleration, complex))
 
-    if engine.rotary:  # its points are given relative to the direction of the pin
+    if engine.rotary:  # points of a rotary engine are relative to the direction of the pin
         piston, *knuckle = (follow(point, throw) for point in m.points)
         still = _Course(r * throw, np.zeros_like(throw))
         return piston.acceleration, (knuckle or [still])[0]

@@ -1,4 +1,4 @@
-"""Free forces and moments of an engine by order, inertia and gas.
+"""Compute the free forces and moments of an engine by order, of inertia and gas.
 
 An order is a number of oscillations per revolution of the crankshaft. The motion of pistons, rods
 and devices repeats after each revolution, so its orders are whole. Gas pressure in a four-stroke
@@ -47,7 +47,8 @@ from .kinds import EVERY_KIND, GAS_KINDS, KINDS, Kind
 if TYPE_CHECKING:
     from ..engine.gas import CylinderGas, EngineGas, GasLaw
 
-# orders x cylinders that are computed together, which bounds the memory: about 16 complex arrays
+# Largest number of orders x cylinders that are computed together, which bounds the memory: about 16
+# complex arrays.
 _AT_ONCE = 1 << 18
 
 
@@ -224,15 +225,15 @@ def refuse_too_many_loads(engine: Engine, orders: int, loads: int) -> None:
     most = MOST_LOADS_APART // 2 if engine.ripple else MOST_LOADS_APART
     if orders * loads > most:
         raise BalcliError(
-            f"{orders} orders of {loads} cylinders and counterweights one by one are "
+            f"{orders} orders of {loads} single cylinders and counterweights are "
             f"{orders * loads} forces, and at most {most} are kept: an engine with longer "
             "rods has fewer orders"
         )
 
 
 def count_engine_samples(engine: Engine) -> int:
-    """Return about how many samples of a revolution the mechanisms of an engine (or of variants)
-    need.
+    """Return the approximate number of samples of a revolution that the mechanisms of an engine (or
+    of variants) need.
     """
     if engine.placed:
         return sum(count_engine_samples(one.engine) for one in engine.cranks)
@@ -353,7 +354,7 @@ def dense_orders(highest: float, mixed: Iterable[float]) -> Array:
     return np.arange(round(highest / step) + 1.0) * step
 
 
-SHOWN = 1e-6  # share of a quantity's largest order below which an order is not worth showing
+SHOWN = 1e-6  # orders below this share of a quantity's largest order are not worth showing
 
 
 def is_order(number: float) -> bool:
@@ -469,8 +470,8 @@ def merge_orders(*several: Iterable[float]) -> Array:
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
 
-_LEAST = 24  # harmonics among which the largest one is
-_QUADRATURE = 8 * EPS  # error of a coefficient relative to the largest
+_LEAST = 24  # the largest harmonic is among this number of harmonics
+_QUADRATURE = 8 * EPS  # error of a coefficient, relative to the largest one
 
 
 def take_gas(engine: Engine) -> EngineGas:
@@ -488,9 +489,10 @@ class GasAtSpeeds(NamedTuple):
     """Gas of an engine at any speeds.
 
     Attributes:
-        torque: Function of speeds, rpm, to torques by order, N m, shape (orders, *speeds, ...).
-        imep: Function of speeds, rpm, to the indicated mean effective pressure, Pa.
-        law: How it depends on the speed; None: it does not.
+        torque: Function that returns torques by order, N m, shape (orders, *speeds, ...), at
+            speeds, rpm.
+        imep: Function that returns the indicated mean effective pressure, Pa, at speeds, rpm.
+        law: Law by which the gas depends on the speed; None: it does not.
     """
 
     torque: Callable[[ArrayLike], Complex]
@@ -498,7 +500,7 @@ class GasAtSpeeds(NamedTuple):
     law: GasLaw | None
 
     def select_orders(self, rows: NDArray[np.bool_]) -> GasAtSpeeds:
-        """Return the same with the torques of some orders."""
+        """Return the gas with the torques of only some orders."""
         return self._replace(torque=lambda speeds_rpm: self.torque(speeds_rpm)[rows])
 
 
@@ -507,8 +509,8 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
 
     Args:
         engine: Engine with gas, without trailing axes.
-        find: Function of the engine with the gas of one speed to torques by order, shape (orders,
-            ...), in which gas alone counts.
+        find: Function that returns gas torques by order, shape (orders, ...), for the engine with
+            the gas of one speed.
 
     Raises:
         BalcliError: The engine has no gas.

@@ -2,7 +2,7 @@
 cylinder's, and whether an order is balanced by symmetry or by chance.
 
 Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
-= m_rec r omega^2`, and moments as multiples of `F_n a`, a being the smallest distance of
+= m_rec r omega^2`, and moments as multiples of `F_n a`, where a is the smallest distance of
 neighbouring throws. The cylinder is number 1; if its rod is articulated, that of its master rod.
 Textbooks consider only reciprocating masses, each in the plane of its throw, because counterweights
 balance rotating masses. Source: Bosch, Automotive Handbook, "Free forces and moments of the 1st and
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Articulated
 
 # ------------------------------------------------------------------ multiples of one cylinder
-_NO_FORCE = 1e-12  # smaller A_n are 0
+_NO_FORCE = 1e-12  # smaller coefficients A_n count as 0
 
 
 class TextbookUnits(NamedTuple):
@@ -163,10 +163,10 @@ _GROUPS = {
 }
 _WORDS = {"turning": "torque and roll", "gas": "gas torque"}
 _INERTIA = ("force", "moment", "couple", "torque", "roll")
-NEARLY = 1e-2  # of one cylinder
+NEARLY = 1e-2  # an order below this share of one cylinder is nearly balanced
 _DRAWS = 3
 _SEED = 1
-_EVEN = 1e-11  # share of a cycle by which equal intervals may differ
+_EVEN = 1e-11  # intervals that differ by less than this share of a cycle are equal
 
 
 class Reason(NamedTuple):
@@ -175,13 +175,14 @@ class Reason(NamedTuple):
     Attributes:
         order: Order, above 0.
         quantity: Group of kinds: force, moment, couple, turning (torque and roll) or gas.
-        verdict: "none": no cylinder has any; "symmetry": balanced for any masses and rod length
-            that all cylinders have in common; "chance": balanced for these figures only; "nearly":
-            less than 1 % of one cylinder is left; "unbalanced".
-        size: Rest, in units of the largest that one cylinder makes.
-        reciprocating: Rest of the reciprocating masses alone, as textbooks have it, in `unit`.
-        built: Rest of the engine as built, in `unit`.
-        unit: F_n of the order, or F_n a; else empty.
+        verdict: "none": no cylinder has this order; "symmetry": balanced for any masses and rod
+            length that all cylinders have in common; "chance": balanced for these figures only;
+            "nearly": less than 1 % of one cylinder remains; "unbalanced".
+        size: Remaining amplitude, as a multiple of the largest of one cylinder.
+        reciprocating: Remaining amplitude of only the reciprocating masses, as textbooks state it,
+            in `unit`.
+        built: Remaining amplitude of the engine as built, in `unit`.
+        unit: F_n of the order, or F_n a; empty if there is no such unit.
     """
 
     order: float
@@ -221,8 +222,8 @@ class Symmetry(NamedTuple):
     """Whether each order of each group of kinds is balanced, and how.
 
     Attributes:
-        reasons: One for every order and group.
-        firing: Whether the engine fires evenly, in words; empty if the file does not tell.
+        reasons: Reason for every order and group.
+        firing: Whether the engine fires evenly, in words; empty if it is not known.
         scope: Parts of the engine that are ignored; omitted if there are none.
     """
 
@@ -253,9 +254,9 @@ def explain_symmetry(
     of this point is left out.
 
     Args:
-        engine: without trailing axes.
-        orders: multiples of 1/2, above 0.
-        kinds: any of force, moment, couple, torque, roll and gas; torque and roll have one reason
+        engine: Engine without trailing axes.
+        orders: Orders, multiples of 1/2 above 0.
+        kinds: Any of force, moment, couple, torque, roll and gas; torque and roll have one reason
             in common.
     """
     asked = {"turning" if kind in ("torque", "roll") else kind for kind in kinds}
@@ -336,7 +337,7 @@ def _draw(engine: Engine) -> Iterator[Engine]:
 
 
 def describe_firing(engine: Engine) -> str:
-    """Return in words whether the engine fires evenly; empty if the file does not tell."""
+    """Return in words whether the engine fires evenly; empty if the firing order is not known."""
     if not engine.fires_deg:
         return ""
     cycle = 180 * engine.strokes

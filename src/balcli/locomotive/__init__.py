@@ -1,1 +1,1 @@
-"""Locomotives: balance masses in the wheels and the hammer blow that they leave."""
+"""Balance masses in the wheels of locomotives, and the hammer blow that they leave."""

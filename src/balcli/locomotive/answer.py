@@ -1,15 +1,16 @@
-"""Engine of a locomotive -> balance masses in its wheels, hammer blow and the forces along the
-track: `analyze_locomotive`.
+"""Compute the balance masses in the wheels of a locomotive, the hammer blow and the forces along
+the track: `analyze_locomotive`.
 
-Everything that revolves is an unbalance (place z along the axle, complex mass x radius from
-cylinder 1's crank pin, axle): the pins with what turns on them, coupling masses, and the
-counterweights of the file. The lever rule divides each between the two planes of its axle's
-balance masses. The reciprocating masses of all cylinders enter as if a share c of them turned with
-the crank, divided between the axles by their parts f. With S the unbalance that revolves and Q that
-of the reciprocating masses in a plane, a wheel gets `B = -(S + c f Q)`. What it leaves, `S + B`,
-presses on the rail and lifts off it once a turn: the hammer blow `|S + B| w^2`, never `|B| w^2`. An
-inclined cylinder enters Q with its crank angle less its bank angle: its weight points straight back
-along the track when its piston is at the outer dead centre.
+Everything that revolves is an unbalance with an axle, a position z along it, and a complex mass x
+radius from cylinder 1's crank pin: the pins with the masses that turn on them, coupling masses, and
+the counterweights of the file. The lever rule divides each unbalance between the two planes of its
+axle's balance masses. The reciprocating masses of all cylinders enter as if a share c of them
+turned with the crank, divided between the axles by their shares f. Let S be the unbalance that
+revolves in a plane, and Q that of the reciprocating masses. A wheel then gets the balance mass `B =
+-(S + c f Q)`. The remaining unbalance `S + B` loads and unloads the rail once a turn: the hammer
+blow is `|S + B| w^2`, not `|B| w^2`. An inclined cylinder enters Q with its crank angle less its
+bank angle: its balance mass points straight back along the track when its piston is at the outer
+dead centre.
 
 Sources: Sarkar, Theory of Machines, ch. 12; Khurmi and Gupta, Theory of Machines, ch. 22; Bridge
 Stress Committee 1928 (blow of a rail and of the engine).
@@ -41,7 +42,7 @@ from ..shell.arguments import tell_arguments
 from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
 
-_ROUNDING = 1e-12  # share of the terms of a sum: less is nothing
+_ROUNDING = 1e-12  # a sum below this share of its terms is 0
 _WHY = "In the wheels, opposite all that revolves"
 NO_TABLE = "write [locomotive] with planes and factor, or start from `balcli new locomotive`"
 NO_SPEED = "give km/h (with wheel_diameter), or operation.speed in rpm"
@@ -53,12 +54,12 @@ class WheelLoads(NamedTuple):
     """A wheel: its balance mass, and its load on the rail.
 
     Attributes:
-        plane_mm: z of its balance mass.
+        plane_mm: Position z of the balance mass.
         unbalance: Unbalance of the balance mass, angle from cylinder 1's crank pin.
         mass_kg: Balance mass; null without a radius.
-        hammer_blow_N: Amplitude of the load that revolving unbalance adds.
+        hammer_blow_N: Amplitude of the load that the remaining unbalance adds.
         least_rail_load_N: Static load less the hammer blow; below 0 the wheel lifts.
-        most_rail_load_N: Static load and hammer blow.
+        most_rail_load_N: Sum of static load and hammer blow.
         lift_rpm: Crank speed at which the wheel lifts; null without a hammer blow.
         lift_km_h: Speed at which the wheel lifts.
     """
@@ -90,7 +91,7 @@ class AxleLoads(NamedTuple):
 
 
 class RailLoad(NamedTuple):
-    """A rail.
+    """Load of one rail.
 
     Attributes:
         hammer_blow_N: Amplitude of the load of all wheels on this rail together.
@@ -101,21 +102,22 @@ class RailLoad(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class LocomotiveBalance(Result):
-    """Balance masses in the wheels of a locomotive, their hammer blow, and what they leave along
-    the track.
+    """Balance masses in the wheels of a locomotive, the hammer blow, and the forces and moments
+    that remain along the track.
 
     Attributes:
         speed_rpm: Crank speed, taken as steady.
         speed_km_h: Speed on the track; null without a wheel diameter.
-        factor: Share of the reciprocating mass that the wheels balance; null: nothing is sized.
+        factor: Share of the reciprocating mass that the wheels balance; null: no balance masses are
+            sized.
         axles: Coupled axles, front to rear.
         rails: Rails, by ascending z.
         hammer_blow_N: Amplitude of the load of all wheels together.
         tractive_variation_N: Amplitude of order 1 of the free force along the track.
-        tractive_variation_peak_N: Its largest absolute value, all orders together.
+        tractive_variation_peak_N: Largest absolute value of this force, all orders together.
         swaying_couple_Nm: Amplitude of order 1 of the free moment about y.
-        swaying_couple_peak_Nm: Its largest absolute value, all orders together.
-        engine: The engine, without the balance masses that are sized.
+        swaying_couple_peak_Nm: Largest absolute value of this moment, all orders together.
+        engine: Engine without the balance masses that are sized.
         remedy: Balance masses that are sized, as tables of the engine file.
     """
 
@@ -146,7 +148,7 @@ class LocomotiveBalance(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings: cylinders that do not lie along the track."""
+        """Warnings of cylinders that do not lie along the track."""
         aside = np.abs(wrap_degrees(self.engine.cylinders.axis_of_each_deg, 180))
         each = sorted(zip(self.engine.numbers, aside.tolist(), strict=True))
         far = (f"cylinder {n} is {deg:.4g} deg from the track" for n, deg in each if deg > 45)
@@ -158,9 +160,9 @@ class Unbalances(NamedTuple):
     """Unbalances in the planes of the balance masses, from cylinder 1's crank pin, kg m.
 
     Attributes:
-        revolving: What revolves with each axle, shape (axles, 2).
+        revolving: Unbalance that revolves with each axle, shape (axles, 2).
         reciprocating: Share of each axle in the reciprocating masses, shape (axles, 2).
-        size: Sum of the sizes of all terms, of which rounding is a share.
+        size: Sum of the magnitudes of all terms, to which rounding errors are proportional.
     """
 
     revolving: Complex
@@ -213,9 +215,9 @@ def analyze_locomotive_of_engine(
     tractive effort and the swaying couple that are left.
 
     Args:
-        engine: Engine of a file with [locomotive]. An uneven speed does not count here.
+        engine: Engine of a file with [locomotive]. The speed is taken as steady.
         factor: Share of the reciprocating mass to balance instead of the file's, 0 to 1 or "2/3".
-        hammer_blow: Largest hammer blow of a wheel, which gives the factor, N or "40 kN".
+        hammer_blow: Largest hammer blow of a wheel, from which the factor follows, N or "40 kN".
         speed: Speed instead of the file's: crank speed in rpm, or "80 km/h".
 
     Raises:
@@ -235,7 +237,7 @@ def analyze_locomotive_of_engine(
     square = float(engine.omega) ** 2
     unbalances = find_unbalances(engine, axles, np.array(table.planes) / 1e3)
     if hammer_blow is not None and factor is not None:
-        raise BalcliError("--hammer-blow gives the factor; leave --factor out")
+        raise BalcliError("--hammer-blow determines the factor; leave --factor out")
     if hammer_blow is not None:
         limit = _read(Number(FORCE, above=0), "--hammer-blow", hammer_blow) / square
         largest = float(np.abs(unbalances.reciprocating).max())
@@ -282,7 +284,7 @@ analyze_locomotive.__module__ = __name__  # where pickle finds it
 
 
 def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Locomotive:
-    """Return [locomotive] of a file; InputError if something is missing that everything needs."""
+    """Return [locomotive] of a file; InputError if a key that all results need is missing."""
     if (table := model.locomotive) is None:
         raise InputError([Problem.of_missing("locomotive", NO_TABLE)])
     problems = {
@@ -296,7 +298,7 @@ def _take_table(engine: Engine, model: EngineFile, *, speed_given: bool) -> Loco
 
 
 def _read(number: Number, option: str, value: object) -> float:
-    """Return an argument as a key of a file is read; BalcliError with the name of its option."""
+    """Return an argument, read like a key of a file; an error names its option (BalcliError)."""
     try:
         return number.read(value)
     except ValueError as error:
@@ -315,7 +317,7 @@ def _read_speed(table: Locomotive, speed: float | str) -> float:
 def _list_wheels(
     engine: Engine, table: Locomotive, axle: Axle, added: Complex, left: Complex
 ) -> tuple[WheelLoads, ...]:
-    """Return both wheels of an axle; unbalances of balance mass and remainder in kg m."""
+    """Return both wheels of an axle; unbalances of balance masses and remainders in kg m."""
     load = table.wheel_load if axle.wheel_load is None else axle.wheel_load
     rpm, square, wheels = float(engine.speed_rpm), float(engine.omega) ** 2, []
     for z, new, rest in zip(table.planes, added.tolist(), left.tolist(), strict=True):

@@ -1,4 +1,4 @@
-"""`balcli locomotive`"""
+"""The command `balcli locomotive`: its options and its output."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ Factor = Annotated[
 ]
 HammerBlow = Annotated[
     str | None,
-    optional("N", "The factor that this hammer blow of a wheel allows, such as '40 kN'."),
+    optional("N", "Largest hammer blow of a wheel, instead of a factor, such as '40 kN'."),
 ]
-_LITTLE = 0.01  # balance factor below which a hammer blow was probably meant in kN
-Speed = Annotated[str | None, optional("KM_H|RPM", "As '80 km/h', '50 mph', or crank speed, rpm.")]
+_LITTLE = 0.01  # at a smaller balance factor the hammer blow was probably meant in kN
+Speed = Annotated[str | None, optional("KM_H|RPM", "Such as '80 km/h', '50 mph', or 300 (rpm).")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
 
 
@@ -41,12 +41,13 @@ def locomotive(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Hammer blow of a steam locomotive: balance masses in the wheels, rail loads, wheel lift,
-    variation of tractive effort and swaying couple.
+    """Balance of a steam locomotive: balance masses in the wheels, hammer blow, rail loads, wheel
+    lift, variation of tractive effort and swaying couple.
 
     The file has [locomotive] and, for coupled wheels, [[axle]] with the masses of the coupling rods
     (side rods); `balcli new locomotive` writes one to start from. Several factors make a table with
-    a row for each: more overbalance means less nosing and a larger dynamic augment.
+    a row for each: a larger factor (more overbalance) means less nosing and a larger dynamic
+    augment.
 
     \b
     Examples:
@@ -85,7 +86,7 @@ def locomotive(
 
 
 def _read_bare(text: str | None) -> float | str | None:
-    """Return a number without a unit as a number, anything else as it is."""
+    """Return a text without a unit as a number, and any other text unchanged."""
     try:
         return None if text is None else float(text)
     except ValueError:

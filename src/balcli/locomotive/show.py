@@ -1,4 +1,4 @@
-"""Balance of a locomotive: for people, as JSON and as CSV; and several factors in one table."""
+"""Show the balance of a locomotive as tables, JSON and CSV; and several factors in one table."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ _LEFT_OUT = ("format", "axles", "rails", "name", "wheels", "plane_mm")
 
 # ------------------------------------------------------------------ CSV
 def rows(result: LocomotiveBalance, system: System) -> Rows:
-    """Return a figure a line: of a wheel, of an axle (without a plane), of a rail (without an axle)
-    or of the whole locomotive (without both).
+    """Return the rows of CSV, one for each figure: of a wheel, an axle (without a plane), a rail
+    (without an axle), or the whole locomotive (without both).
     """
     document = to_document(result)
     planes = [system.length.of(wheel.plane_mm / 1e3) for wheel in result.axles[0].wheels]
@@ -59,7 +59,7 @@ def _convert(name: str, value: object, system: System) -> tuple[str, object, str
 
 # ------------------------------------------------------------------ for people
 def sheet(result: LocomotiveBalance, system: System) -> Sheet:
-    """Return the verdict, a table of the wheels, and what is left in all."""
+    """Return the verdict, a table of the wheels, and the forces and moments of all wheels."""
     force = system.force
     tractive = result.tractive_variation_N, result.tractive_variation_peak_N
     swaying = result.swaying_couple_Nm, result.swaying_couple_peak_Nm
@@ -115,7 +115,7 @@ def _make_wheel_table(result: LocomotiveBalance, system: System) -> Grid:
     ]
     note = "Angles count from cylinder 1's crank pin, in the sense of rotation."
     if result.factor is None:
-        note = "No factor is given: the figures are those of the weights in the file."
+        note = "No factor is given: the figures are those of the counterweights in the file."
     return Grid.of_columns("Wheels", columns, note)
 
 
@@ -142,12 +142,12 @@ def sheet_of_factors(results: Results, system: System) -> Sheet:
     columns = [_write_column(*column) for column in _list_columns(results, system)]
     speed = _tell_speed(results[0].speed_rpm, results[0].speed_km_h, system)
     title = f"{results[0].engine.name or NAMELESS}: balance factors"
-    note = "The largest of all wheels and rails, and the speed at which the first wheel lifts."
+    note = "Largest values of all wheels and rails; speed at which the first wheel lifts."
     return Sheet(title, (Facts((("speed", speed),)), Grid.of_columns("", columns, note)))
 
 
 def rows_of_factors(results: Results, system: System) -> Rows:
-    """Return a line for each factor."""
+    """Return a row of CSV for each factor."""
     columns = list(_list_columns(results, system))
     cells = ([value and unit.of(value) for value in values] for _, values, unit in columns)
     heads = [name_with_unit(name, unit.name) for name, _, unit in columns]

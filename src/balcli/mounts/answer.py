@@ -1,4 +1,4 @@
-"""Analysis of the vibration of an engine on its mounts: `analyze_mounts`."""
+"""Analyze the vibration of an engine on its mounts: `analyze_mounts`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from .records import AtRest, Fitted, MountAtRest, MountReport, Other
 from .response import RunningBody, list_meetings, respond
 from .rigid_body import drop_rounding, elastic_centre, roll_axis
 
-_SLOWEST = 1 / 8  # lowest default speed, relative to the file's
+_SLOWEST = 1 / 8  # lowest default speed, as a share of the file's speed
 _SPEEDS = 141
 _OF_BODY = ("body", "mount")  # tables of the file whose defaults matter
 
@@ -81,7 +81,7 @@ def report_mounts(
         asked = None if orders is None else check_orders(orders)
         if asked is not None and asked[0] == 0:
             raise BalcliError(
-                "order 0 is steady and does not vibrate; leave it out (see the table At rest)"
+                'order 0 is steady and does not vibrate; leave it out (see the table "At rest")'
             )
         engines = [] if engine is None else [engine]
         if engine is not None and scheme is not None:

@@ -56,11 +56,12 @@ class MountedBody(NamedTuple):
 
     Attributes:
         body: Body with its centre of gravity and inertia tensor.
-        static, dynamic: Mounts with their stiffness at rest and in vibration.
+        static: Mounts with their stiffness at rest.
+        dynamic: Mounts with their stiffness in vibration.
         names: Names of the mounts.
         weight: Weight of the body, N, shape (3,).
-        point_names, points: Names and positions (m, shape (points, 3)) of the points whose motion
-            is computed.
+        point_names: Names of the points whose motion is computed.
+        points: Positions of these points, m, shape (points, 3).
         carries_load: Whether the driven machine is part of the body.
     """
 
@@ -140,7 +141,7 @@ def find_mounting_faults(
     lists: dict[str, Sequence[Mount | Point]] = {"mount": model.mount, "point": model.point}
     for key, tables in lists.items():
         if len(tables) > MOST_MOUNTS:
-            yield Problem(key, f"stands {len(tables)} times; at most {MOST_MOUNTS} are taken")
+            yield Problem(key, f"is given {len(tables)} times; at most {MOST_MOUNTS} are allowed")
         names = [table.name for table in tables if key in legible]
         for number, name in enumerate(names, 1):
             if (first := names.index(name) + 1) < number:
@@ -185,10 +186,12 @@ class BodyModes(NamedTuple):
     """Equations `(K + i w C - w^2 M) q = f` about the centre of gravity, and their natural modes.
 
     Attributes:
-        stiffness, damping, mass: K (dynamic), C and M, SI, shape (6, 6).
+        stiffness: Dynamic stiffness K in SI units, shape (6, 6).
+        damping: Damping C in SI units, shape (6, 6).
+        mass: Mass M in SI units, shape (6, 6).
         modes: Undamped modes, lowest first.
         loss: Loss factor of each mode, shape (6,).
-        each: Records of the modes, still without the orders that meet them.
+        each: Records of the modes, without the orders that meet them.
     """
 
     stiffness: Complex
@@ -234,8 +237,8 @@ def settle(mounted: MountedBody, torque: float = 0.0) -> tuple[Real, Real]:
     return settle_body(mounted.body, mounted.static, load)
 
 
-SAG_LEAST, SAG_MOST = 0.02, 200.0  # mm; rubber mounts sag by 1 to 20
-SMALL_BODY = 0.01  # radius of gyration over the distance of a mount; engines have 0.2 to 1
+SAG_LEAST, SAG_MOST = 0.02, 200.0  # usual travel under the weight, mm; rubber mounts have 1 to 20
+SMALL_BODY = 0.01  # unlikely ratio of radius of gyration and distance of a mount; usual: 0.2 to 1
 
 
 def read_mounted(path: str | Path) -> tuple[EngineFile, Engine | None, tuple[str, ...]]:

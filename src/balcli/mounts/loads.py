@@ -1,5 +1,5 @@
-"""Load that an engine puts on its body on mounts: free forces, moments and gas torque about the
-center of gravity, by order.
+"""Compute the load of an engine on its body on mounts: free forces, moments and gas torque about
+the centre of gravity, by order.
 
 At uneven speed, an order of the crank angle (cycles in a turn) is not one frequency: a force of
 order 1 over the angle has sidebands over time. The loads are then computed by orders of time.
@@ -39,20 +39,20 @@ from .rigid_body import ROLL, load_at_centre
 if TYPE_CHECKING:
     from ..engine.gas import GasLaw
 
-_MOST_COUNTED = 1 << 26  # most samples times orders, which take seconds
+_MOST_COUNTED = 1 << 26  # limit of samples times orders, which takes seconds
 
 
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
-    """Return the spectra of an engine by orders of the time, in which the crank turns faster than
-    over the angle at uneven speed; arguments as for `compute_spectra`.
+    """Return the spectra of an engine by orders of the time; arguments as for `compute_spectra`.
+    At uneven speed, the mean over the time is not the mean over the crank angle.
 
     Returns:
-        The spectra, and the mean speed over the time, as a multiple of that over the angle.
+        The spectra, and the ratio of the mean speed over the time to that over the angle.
 
     Raises:
-        BalcliError: The crank almost stops; a kind of gas for an engine without gas.
+        BalcliError: The crank almost stops, or a kind includes gas but the engine has none.
     """
     if not engine.ripple:
         return compute_spectra(engine, orders, kinds), 1.0
@@ -62,7 +62,7 @@ def compute_spectra_in_time(
     slowest = find_slowest(engine.ripple).value
     samples = 1 << math.ceil(
         math.log2(32 * len(fastest) / slowest)
-    )  # enough samples where the crank is slowest
+    )  # the samples have to suffice where the crank is slowest
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
@@ -89,14 +89,13 @@ class BodyLoads:
         orders: Orders, all above 0, shape (orders,).
         inertia: Force (N) and moment about the centre of gravity (N m) at `omega`, shape
             (orders, 6); they grow with the square of the speed.
-        omega: Speed of `inertia`, rad/s, mean over the time, as all speeds here are.
-        turns: This speed over the mean over the crank angle.
-        gas: Torque of the gas, which leaves its reaction as a roll, by the mean speed over the
-            crank angle; None: the file has no gas.
-        mean: Steady torque about the crankshaft's axis on the body, N m: the reaction to a constant
-            load, which takes the mean of the gas torque over the crank angle, at uneven speed as
-            well, less the share that goes into friction, which acts between parts of the body. It
-            is that at the engine's own speed.
+        omega: Speed of `inertia`, rad/s: the mean over the time, as for all speeds of this class.
+        turns: Ratio of this speed to the mean speed over the crank angle.
+        gas: Torque of the gas, whose reaction on the body is a roll, as a function of the mean
+            speed over the crank angle; None: the file has no gas.
+        mean: Steady torque about the crankshaft's axis on the body, N m, at the engine's own speed:
+            the reaction to a constant load. The load takes the mean of the gas torque over the
+            crank angle, less the share that goes into friction between parts of the body.
         silent: Cylinders that do not fire.
     """
 
@@ -117,12 +116,12 @@ class BodyLoads:
         return load
 
     def to_crank_rpm(self, omega: Real) -> Real:
-        """Return the mean speeds over the crank angle, rpm, of those over the time, rad/s."""
+        """Return the mean speeds over the crank angle, rpm, for those over the time, rad/s."""
         return np.asarray(omega / self.turns / RPM)
 
     @property
     def law(self) -> GasLaw | None:
-        """How the gas depends on the speed; None: it does not."""
+        """Law by which the gas depends on the speed; None: it does not."""
         return None if self.gas is None else self.gas.law
 
     @property
@@ -151,7 +150,7 @@ def find_loads(
 
     Args:
         engine: Single engine (no trailing axes).
-        centre: Center of gravity of the body, m, shape (3,).
+        centre: Centre of gravity of the body, m, shape (3,).
         orders: Orders of the load; default: all relevant orders.
         gas_orders: Default orders of the gas torque; None: those of `list_gas_orders`.
 

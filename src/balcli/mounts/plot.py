@@ -1,5 +1,5 @@
-"""Picture of an engine on its mounts: forces over speed, orders that meet modes, motion of points,
-and the body moving in each mode.
+"""Draw an engine on its mounts: forces over speed, orders that meet modes, motion of points, and
+the motion of the body in each mode.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from ..show.plot_style import Look
 
 
-_WIDEST, _THINNEST = 7.0, 0.6  # lines of orders, points
-_SWING = 0.22  # travel of the farthest corner over the body's size, in pictures of modes
+_WIDEST, _THINNEST = 7.0, 0.6  # largest and smallest width of the lines of orders, points
+_SWING = 0.22  # drawn travel of the farthest corner in a mode, as a share of the body's size
 
 
 def make_mounts(result: MountReport, system: System) -> Figure:

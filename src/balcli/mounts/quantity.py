@@ -54,7 +54,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities for one variant of a file after another; constant parts are computed
+    """Evaluator of quantities, one variant of a file after the other; constant parts are computed
     once.
 
     Args:

@@ -1,4 +1,4 @@
-"""Records of the results of `balcli mounts`. JSON, CSV and the schema derive from them
+"""Define the records of the results of `balcli mounts`, from which JSON, CSV and schema derive
 (`core.records`).
 
 Forces act from the body on its mounts, along the engine's axes. Arrays over speeds have the shape
@@ -22,7 +22,7 @@ from ..sizing.remedy import Remedy
 from .build import BodyMode, MountedBody
 from .loads import BodyLoads
 
-TRAVEL_MOST = 0.05  # m; amplitude of a mount beyond which to warn
+TRAVEL_MOST = 0.05  # m; a warning is given if a mount has a larger amplitude
 
 
 class MountAtRest(NamedTuple):
@@ -183,7 +183,8 @@ class BodyResponse:
         no_burning_in: Cylinders that compress and burn nothing; left out if there are none.
         orders: Orders in the response: those requested, or all that contribute.
         speeds_rpm: Crank speeds.
-        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all.
+        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all
+            speeds.
         mounts: Force of each mount.
         points: Motion of each point.
         passed: Load on the frame, by order.

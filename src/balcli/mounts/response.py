@@ -1,5 +1,5 @@
-"""Vibration of an engine that runs on its mounts: forces on mounts and motion of points at every
-speed, order by order and with all orders added up in time.
+"""Compute the vibration of an engine that runs on its mounts: forces on mounts and motion of points
+at every speed, order by order and with all orders added up in time.
 """
 
 from __future__ import annotations
@@ -45,12 +45,13 @@ from .records import (
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
 _BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds about a resonance, in its widths
-RESONANT = 0.05  # relative distance of an order's frequency from a mode's that counts as resonance
+RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
 _PART = 0.25  # a resonance is reported if it has this share of the largest order
 _AT = 1e-9  # relative difference below which speeds are equal
 _BEYOND = 1e-4  # share of the largest order that the sum of neglected higher orders may have
-_LOOKED_AT = 24  # speeds at which that sum is computed
-_NEAR = 0.8  # of the highest at these speeds: a higher peak may lie between two of them
+_LOOKED_AT = 24  # number of speeds at which that sum is computed
+# Next to a speed with this share of the highest value, a higher peak may lie between two speeds.
+_NEAR = 0.8
 _OF_MOUNT: tuple[type, type, type] = (MountForce, ForceOfOrder, WorstForce)
 _OF_POINT: tuple[type, type, type] = (PointMotion, MotionOfOrder, WorstMotion)
 _COMPONENTS = (*(f"force_{axis}_N" for axis in "xyz"), *(f"moment_{axis}_Nm" for axis in "xyz"))
@@ -89,8 +90,8 @@ class RunningBody(NamedTuple):
 
         Args:
             mounted: Body on its mounts.
-            modes: Its equations of motion and modes.
-            engine: Engine that shakes it.
+            modes: Equations of motion and modes of the body.
+            engine: Engine that shakes the body.
             omega: Rising speeds, rad/s, shape (speeds,).
             orders: Orders of the load.
             ranged: Whether the speeds represent a whole range, so that resonances between them

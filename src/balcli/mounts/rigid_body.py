@@ -1,4 +1,4 @@
-"""A rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
+"""Compute a rigid body on mounts: its stiffness, statics, natural modes and forced vibration.
 
 A motion is a vector of six numbers along the engine's axes: displacement of the centre of gravity
 (m) and rotation (rad). A load has the corresponding forces (N) and moments about the centre of
@@ -215,9 +215,9 @@ def drop_rounding(values: ArrayLike, size: ArrayLike | None = None) -> Real:
 
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 ROLL = AXES.index("rz")  # the turn about the crankshaft's axis
-_ALONE = 0.8  # share of the energy from which a motion alone names a mode
-_PART = 0.15  # share from which a motion is named with others
-_STEEP = 0.8  # least cosine between an axis and the vertical to call it up and down
+_ALONE = 0.8  # a motion with this share of the energy names a mode alone
+_PART = 0.15  # a motion with this share of the energy is one of several that name a mode
+_STEEP = 0.8  # an axis with this cosine to the vertical is called up and down
 _EXACT = 1e-9  # smaller components of a direction are rounding
 
 
@@ -268,7 +268,7 @@ def describe_free_motion(motion: Real) -> str:
     return f"{'turning about' if turns else 'moving along'} {along}"
 
 
-_FLATTEST = 0.05  # least square of a block's side, relative to the largest
+_FLATTEST = 0.05  # smallest square of a drawn block's side, as a share of the largest
 # On the page, x points up, z to the right, y to the left and towards the reader.
 PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 

@@ -28,16 +28,17 @@ from .records import BodyResponse, MountForce, MountReport, PointMotion, WorstFo
 from .rigid_body import AXES
 
 _HEADER = ("part", "name", "order", "speed_rpm", "figure", "value", "unit")
-_COLUMNS = 6  # columns of orders or speeds that fit a table
-_ROWS = 9  # rows of speeds in a table
-_SHARE = 1e-3  # of the largest free load: smaller loads get no row
+_COLUMNS = 6  # largest number of columns of orders or speeds in a table
+_ROWS = 9  # largest number of rows of speeds in a table
+_SHARE = 1e-3  # loads below this share of the largest free load have no row
 
 
 class Kind(NamedTuple):
     """Kind of result at places: the force of mounts, or the motion of points.
 
     Attributes:
-        part, figure: "mount" and "force", or "point" and "motion".
+        part: "mount" or "point".
+        figure: "force" or "motion".
         unit: Unit in which values are shown, relative to the unit of the records.
     """
 
@@ -138,8 +139,8 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
         return f"Order {order} meets {named} at {at} rpm: resonance."
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
-            return f"That is the {end} speed of the range; most of the force is {named}."
-    return f"Most of it is {named}; that order shakes at {number(hertz, 3)} Hz."
+            return f"This is the {end} speed of the range; most of the force is from {named}."
+    return f"Most of it is from {named}; this order has {number(hertz, 3)} Hz."
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
@@ -153,9 +154,7 @@ def _grid_worst(result: MountReport, kind: Kind) -> Grid:
         if response is result.response:
             columns.append(("largest order", [order_name(worst.order) for worst in every]))
             columns.append(("alone", [kind.show(worst[3]) for worst in every]))
-    note = (
-        "The largest value over the cycle, orders added up in time; over all speeds of the range."
-    )
+    note = "Largest values over the cycle and all speeds of the range, orders added up in time."
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
     return Grid.of_columns(title, columns, note)
 
@@ -173,8 +172,8 @@ def _grid_modes(result: MountReport) -> Grid:
     if any(mode.loss_factor for mode in modes):
         columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
-        "Shares of the kinetic energy in moving along x, y, z and turning about them; products of "
-        "inertia may make one negative. Without damping, dynamic stiffness."
+        "Shares of the kinetic energy of moving along x, y, z and turning about them; products of "
+        "inertia may make one negative. Frequencies are without damping, with dynamic stiffness."
     )
     return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
 
@@ -202,7 +201,7 @@ def _grid_rest(result: MountReport, system: System, length: ShownUnit) -> Grid:
     if result.response and result.response.loads.mean and not result.mounted.carries_load:
         mean = number(system.moment.of(abs(result.response.loads.mean)), 4)
         leaning = f" and the reaction to the load's mean torque of {mean} {system.moment.name}"
-    note = f"Of the body on its mounts, under its weight{leaning}; static stiffness."
+    note = f"Forces of the body on its mounts under its weight{leaning}, with static stiffness."
     return Grid.of_columns("At rest", columns, note)
 
 

@@ -61,7 +61,7 @@ def report(
     small: Small = None,
     speed: Speed = None,
     orders: Orders = None,
-    cylinder: Annotated[int | None, optional("N", "Also the motion of this piston.")] = None,
+    cylinder: Annotated[int | None, optional("N", "Also show the motion of this piston.")] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Write a self-contained page: the engine in motion, and its free forces and moments without
@@ -117,7 +117,9 @@ def plot(
     speed: Speed = None,
     orders: Orders = None,
     speeds: Annotated[str | None, optional("A:B:STEP", SPEEDS)] = None,
-    cylinder: Annotated[int | None, optional("N", "Of the page piston; default: 1.")] = None,
+    cylinder: Annotated[
+        int | None, optional("N", "Cylinder of the page piston; default: 1.")
+    ] = None,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Draw free forces and moments: the locus over a revolution and the spectrum of orders, or

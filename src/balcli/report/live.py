@@ -53,9 +53,14 @@ from ..studies.parameters import find_numbers
 # tables with numbers to change
 _TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
-# Numbers that count only at an uneven speed.
+# Numbers that have an effect only at an uneven speed.
 _UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
-_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")  # axes, pins or positions
+_MOVING = (
+    "crank.s",
+    "crank.throws",
+    "crank.positions",
+    "layout.",
+)  # numbers that move axes, pins or positions
 _UNITS = {  # further units that the page reads, by dimension
     LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
     MASS: ("mg", "g", "gram", "grams", "t", "lb", "lbs", "pounds", "oz", "ounces"),
@@ -88,7 +93,7 @@ def explain_still(engine: Engine) -> str:
     if engine.cylinders.linkage is not None:
         return "it has articulated rods"
     if engine.cylinders.harmonic:
-        return "its pistons move as a cosine"
+        return "its pistons have harmonic motion"
     if engine.model is not None and engine.model.locomotive is not None:
         return "it is a locomotive"
     crank = None if engine.model is None else engine.model.crank
@@ -274,8 +279,8 @@ def _find_value(tables: Mapping[str, object], name: str) -> float | None:
 
 # ------------------------------------------------------------------ the text of the file
 def _is_plain(text: str) -> bool:
-    """Return whether each table has a header and each of its keys a line of its own. The page can
-    then change the text line by line.
+    """Return whether each table has a header, and each key a line of its own, so that the page can
+    change the text line by line.
     """
     _, *parts = HEADER.split(text.replace("\r\n", "\n"))
     bodies: dict[str, list[str]] = {}

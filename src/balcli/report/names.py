@@ -11,7 +11,7 @@ OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
 OF_PARTS = ("piston", "journals")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
-    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also for a Balance
+    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # pages of a Balance as well
     *("ladder", "factor", "bank", "inner"),
     *OF_PARTS,
     *OF_GAS,

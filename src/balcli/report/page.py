@@ -1,6 +1,6 @@
-"""Write a self-contained HTML page on an engine, with pictures, tables and animation; it loads
-nothing from elsewhere. Its scripts get the mechanism and its vectors (mm, deg), the body on its
-mounts (mm, rad), and torque and pressure over the cycle.
+"""Write a self-contained HTML page on an engine, with pictures, tables and animation. The data for
+its scripts are the mechanism and its vectors (mm, deg), the body on its mounts (mm, rad), and
+torque and pressure over the cycle.
 """
 
 from __future__ import annotations
@@ -55,9 +55,9 @@ if TYPE_CHECKING:
     from jinja2 import Template
 
 
-_YOKE = 3  # crank radii from the pin to the piston that is drawn in harmonic motion
+_YOKE = 3  # drawn distance from pin to piston in harmonic motion, in crank radii
 _SHAFT_WIDTH = 1.6  # width of a shaft in the picture, in crank radii
-ASSUMED_BORE = 0.95  # of the stroke, for drawing pistons if the file gives no bore
+ASSUMED_BORE = 0.95  # bore over stroke for drawing pistons if the file gives no bore
 
 
 def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
@@ -89,9 +89,9 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 
 
 def _cylinder_entries(engine: Engine) -> list[Node]:
-    """Return one entry a cylinder, mm and degrees: axis, its own crank angle at crank angle 0, rod
-    (0 in harmonic motion), offset, place; crank radius where they differ; knuckle pin and master's
-    row.
+    """Return an entry for each cylinder, mm and degrees: axis, its own crank angle at crank angle
+    0, rod (0 in harmonic motion), offset, position; crank radius if these differ; knuckle pin and
+    the master's row.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -141,9 +141,9 @@ def _vector_rows(phasors: Phasors, unit: ShownUnit) -> list[list[float]]:
 
 
 def place_beside(engine: Engine, bore: float) -> dict[int, complex]:
-    """Return positions beside the engine for shafts that would be drawn within the circle of the
-    crank pins, by device index, m: real upwards, imaginary to the right. Shafts that turn with the
-    crank are to the right of the engine, the others to its left.
+    """Return positions next to the engine for shafts that would be drawn within the circle of the
+    crank pins, by device index, m: real part upwards, imaginary part to the right. Shafts that turn
+    with the crank are to the right of the engine, the others to its left.
 
     Args:
         bore: Cylinder bore, m.
@@ -190,12 +190,13 @@ def _shakes(result: Analysis, order: float) -> bool:
 FOLDER = Path(__file__).with_name("assets")
 _PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
 _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
-_STILL = (("force", "polar"), ("moment", "polar"))  # for a browser without JavaScript
+# Pictures for a browser without JavaScript.
+_STILL = (("force", "polar"), ("moment", "polar"))
 
 
 class Answers(NamedTuple):
-    """Results in a report on an engine; None for a chapter that its file does not have. The motion
-    of one piston is drawn if its cylinder is named.
+    """Results in a report on an engine; None for a chapter that its file does not have. If a
+    cylinder is named, the motion of its piston is drawn.
     """
 
     result: Analysis
@@ -231,7 +232,7 @@ def find_answers(
     balanced = balance_engine(engine, scheme, options, orders)
     mounted = twisted = None
     if model.body:
-        fitted = scheme if balanced.remedy.reasons else None  # no devices, no comparison
+        fitted = scheme if balanced.remedy.reasons else None  # without devices, no comparison
         with _warning("mounts"):
             mounted = report_mounts(model, engine, scheme=fitted, name=name, options=options)
     if model.torsion:
@@ -260,7 +261,7 @@ def page(
         found: Results to show.
         system: Units of figures and pictures.
         tell: Called with the share of the pictures of forces and moments that is drawn.
-        live: Numbers to change on the page, as of `live.make_book`; None: none.
+        live: Data of the numbers to change on the page, from `live.make_book`; None: none.
 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
@@ -380,7 +381,7 @@ def _choose_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
 ) -> list[tuple[PageSubject, str, str]]:
     """Return the panels to draw. For a quantity without a picture, only its first panel is
-    returned, at the end, for the words in its place.
+    returned, at the end; it shows words in place of the picture.
     """
     words = {quantity: subject.find_words(quantity) for quantity in told}
     shown = [(subject, what, name) for name, what in panels if name in told and not words[name]]
@@ -402,7 +403,7 @@ def _template() -> Template:
     return environment.get_template("report.html")
 
 
-_SPEEDS = 48  # most speeds on the page
+_SPEEDS = 48  # largest number of speeds on the page
 
 
 def rocking(result: MountReport) -> Node | None:
@@ -427,7 +428,7 @@ def rocking(result: MountReport) -> Node | None:
     }
 
 
-_STEP = 2.0  # deg
+_STEP = 2.0  # step of the crank angle, deg
 
 
 def running(engine: Engine, system: System) -> Node:

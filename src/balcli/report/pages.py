@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_LARGEST_RATIO = 10.0  # of radii that are drawn
+_LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -130,7 +130,7 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 
 @dataclass(frozen=True)
 class PageSubject:
-    """The engine of a page, the units in which it is drawn, and the cylinder of the page piston."""
+    """Engine of a page, units in which it is drawn, and cylinder of the page piston."""
 
     study: Study
     system: System = SI
@@ -192,7 +192,7 @@ class PageSubject:
         """Return the title of one of the pictures of a quantity."""
         title = _TITLES[quantity]
         if quantity == ABOUT and self.now.engine.gas is not None:
-            title += ", with gas" if what == "spectrum" else ", of inertia alone"
+            title += ", with gas" if what == "spectrum" else ", of inertia only"
         return title.replace("the crank", tell_pivot(self.now.engine).removesuffix(" axis"))
 
 

@@ -1,4 +1,4 @@
-"""The function `plot`, and the drawing and writing of the pages of `balcli plot`."""
+"""Draw an engine or a result (`plot`), and draw and write the pages of `balcli plot`."""
 
 from __future__ import annotations
 
@@ -76,8 +76,8 @@ def plot(
         what: Page of an engine, its analysis or balance: "overview" (default: one locus, and the
             spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "ladder" (loci, step by step), "bank" (a vee over its bank angle, with scheme
-            "two-shaft" the radii of its shafts), "factor" (over the balance factor), "piston",
+            "ladder" (loci, step by step), "bank" (a vee over its bank angle; with scheme
+            "two-shaft", the radii of its shafts), "factor" (over the balance factor), "piston",
             "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; for torsion "all",
             "modes", "campbell", "response", "waterfall". Other results have one picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
@@ -88,7 +88,7 @@ def plot(
         cylinder: Number of the cylinder whose piston is drawn.
 
     Raises:
-        BalcliError: There is no such picture; the error lists those there are.
+        BalcliError: There is no such picture; the error lists the existing ones.
         TypeError: `shown` has no picture.
 
     Example:
@@ -158,7 +158,7 @@ _SHOWN = {
 
 
 class Asked(NamedTuple):
-    """Options as typed, except the parsed options of a balance scheme."""
+    """Texts of the options, and the parsed options of a balance scheme."""
 
     speed: str | None
     orders: str | None
@@ -174,11 +174,11 @@ def make_figures(path: str, pages: Sequence[str], asked: Asked) -> list[Figure]:
     and once for all others.
 
     Raises:
-        BalcliError: an option does not suit a page, or the file lacks data for a page.
+        BalcliError: An option does not suit a page, or the file lacks data for a page.
     """
     found: dict[str, Figure] = {}
     if asked.cylinder is not None and "piston" not in pages:
-        warn("--cylinder counts for the page piston alone")
+        warn("--cylinder has an effect only on the page piston")
     of_torsion = [page for page in pages if page in OF_TORSION]
     others = [page for page in pages if page not in OF_TORSION]
     if of_torsion:

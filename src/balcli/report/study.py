@@ -28,9 +28,9 @@ from ..sizing.sizing import size
 from .names import OF_GAS, OF_PARTS
 
 FACTORS = tuple(k / 50 for k in range(51))
-_NO_RADIUS = 1e-9  # share of the largest force below which one counts as 0
+_NO_RADIUS = 1e-9  # a force below this share of the largest one counts as 0
 _OF_ONE_CRANK = ("bank", "factor", "inner", "pressure", "p-v", "pin", "main", *OF_PARTS)
-_ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages of the engine without a scheme
+_ALONE = ("ladder", "bank", *OF_GAS, *OF_PARTS)  # pages that show the engine without a scheme
 
 
 class Banks(NamedTuple):
@@ -54,9 +54,9 @@ class Banks(NamedTuple):
         a roll moment, as shares of the longest radius, and their ratio; nan where no force turns
         with the crank. Each has the shape (angles,).
 
-        Radii are inverse to the forces. Their sign is Liu's: above 0, one shaft stands above and
-        one below the crank on the same side of the middle plane; below 0, they stand at one height
-        on either side (docs/theory.md).
+        Radii are inversely proportional to the forces. Their sign is Liu's: above 0, one shaft is
+        above and one below the crank on the same side of the middle plane; below 0, both are at the
+        same height on opposite sides (docs/theory.md).
         """
         forward, backward = self.force.forward[0], self.force.backward[0]
         alike = forward * backward * unit(-2 * self.middle_deg)
@@ -71,11 +71,12 @@ class Study(NamedTuple):
     """Data of a page.
 
     Attributes:
-        now, before: Analysis of the engine, and of the engine without fitted devices, if any.
+        now: Analysis of the engine.
+        before: Analysis of the engine without fitted devices; None if there are none.
         remedy: Fitted devices.
-        factors: Rows of peaks over the balance factor, ascending, with the best of all.
+        factors: Peaks by balance factor, ascending, including the best factor.
         banks: One order over the bank angle.
-        pair: Whether the page is of the two shafts that cancel the force at each bank angle.
+        pair: Whether the page shows the two shafts that cancel the force at each bank angle.
         bent: Loads along the crankshaft now, and before.
         steps: Engine with the devices of each step of the ladder, by name.
     """
@@ -120,7 +121,7 @@ def compute_study(
         options: Options of the scheme; "factor" uses only planes, "ladder" only small.
 
     Raises:
-        BalcliError: the scheme is unknown, cannot be fitted, or does not suit the page, or "bank"
+        BalcliError: The scheme is unknown, cannot be fitted, or does not suit the page, or "bank"
             is requested for an engine that is not a vee.
     """
     if what in _OF_ONE_CRANK:
@@ -136,7 +137,9 @@ def compute_study(
         force = now.spectra["force"]
         free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
         order = asked.order or [*(orders or free), 2][0]
-        swung = with_reciprocating_only(engine) if pair else engine  # counterweights take the rest
+        swung = (
+            with_reciprocating_only(engine) if pair else engine
+        )  # counterweights cancel the rest
         return Study(now, banks=swing_banks(swung, order), pair=pair)
     if scheme is not None:
         found = balance(engine, scheme, options, orders)
@@ -155,7 +158,7 @@ def compute_study(
 def refuse_scheme(scheme: str | None, what: str) -> None:
     """Raise BalcliError if a scheme is given for a page that shows the engine without one."""
     if scheme is not None:
-        alone = "; it takes --scheme two-shaft with --order alone" if what == "bank" else ""
+        alone = "; it takes only --scheme two-shaft with --order" if what == "bank" else ""
         raise BalcliError(
             f"--what {what} shows the engine as it is: leave --scheme and its options out{alone}"
         )
@@ -167,7 +170,7 @@ def _sweep_factors(
     """Return the peaks over the balance factor, ascending, including the best factor."""
     asked = options or SchemeOptions()
     if scheme not in (None, "factor"):
-        raise BalcliError(f"--what factor is of the scheme factor: leave --scheme {scheme} out")
+        raise BalcliError(f"--what factor shows the scheme factor: leave --scheme {scheme} out")
     if asked.factor is not None or asked.measured is not None:
         raise BalcliError("--what factor shows all factors: leave --factor and --measured out")
     asked = asked._replace(factor=FACTORS)
@@ -180,7 +183,7 @@ def swing_banks(engine: Engine, order: float) -> Banks:
     unchanged crankshaft.
 
     Raises:
-        BalcliError: the engine is not a vee.
+        BalcliError: The engine is not a vee.
     """
     c = engine.cylinders
     axes = np.ravel(c.axis_deg)

@@ -20,7 +20,7 @@ from ..forces.spectrum import check_orders
 from ..limits import HIGHEST_TORSION_ORDER, LARGEST_INERTIA, MOST_SPEEDS, SMALLEST_POSITIVE
 
 Words = str | Iterable[str]  # names, or one text with names separated by commas
-_MOST_GIVEN = 1_000_000  # longest list of speeds, including equal ones
+_MOST_GIVEN = 1_000_000  # largest number of given speeds, including equal ones
 _OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 P = ParamSpec("P")
 Answer = TypeVar("Answer")
@@ -67,7 +67,7 @@ def join_names(function: str, words: Words | None) -> str | None:
         words: Names, or a text with commas.
 
     Raises:
-        TypeError: They are not names.
+        TypeError: The values are not names.
     """
     if words is None or isinstance(words, str):
         return words
@@ -83,7 +83,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
 
     Raises:
         BalcliError: A speed is not above 0, or there are too many speeds or axes.
-        TypeError: They are not numbers.
+        TypeError: The values are not numbers.
     """
     if speeds_rpm is None:
         return None
@@ -100,7 +100,7 @@ def check_speeds(function: str, speeds_rpm: ArrayLike | None) -> Array | None:
     except OverflowError:  # a whole number of hundreds of digits
         found = np.array([math.inf])
     if given.ndim > 1:
-        raise BalcliError(f"speeds_rpm: of shape {given.shape}; give them along one axis")
+        raise BalcliError(f"speeds_rpm: has the shape {given.shape}; give speeds along one axis")
     if found.size > MOST_SPEEDS:
         raise BalcliError(f"speeds_rpm: {found.size} speeds; at most {MOST_SPEEDS} are computed")
     if not found.size or not np.all((found >= SMALLEST_POSITIVE) & (found < 1e9)):
@@ -112,8 +112,8 @@ def check_torsion_orders(orders: Iterable[float] | None) -> Array | None:
     """Return orders of a torsional excitation, ascending and without repetition; None for None.
 
     Raises:
-        BalcliError: there are no orders, or one is not a multiple of 1/2, not above 0, or too high.
-        TypeError: they are not numbers.
+        BalcliError: There are no orders, or one is not a multiple of 1/2, not above 0, or too high.
+        TypeError: The values are not numbers.
     """
     if orders is None:
         return None

@@ -108,7 +108,7 @@ def format_of(
     default: F | None = None,
     option: str = "--output",
 ) -> F:
-    """Return the format of a file: by its ending, or by `--format` if the ending does not tell.
+    """Return the format of a file: by its ending, or by `--format` if it has none.
 
     Args:
         output: File; None: standard output.
@@ -118,19 +118,19 @@ def format_of(
         option: Option that names the file, for messages.
 
     Raises:
-        BalcliError: format and ending contradict each other, or the ending is not among these.
+        BalcliError: Format and ending contradict each other, or the ending is unknown.
     """
     ending = "" if output is None else output.suffix.lower()
     written = endings.get(ending)
     if written is not None:
         if asked not in (None, written):
-            told = f"{option} {output}: {ending} is {written}, but --format says {asked}"
+            told = f"{option} {output}: {ending} is {written}, but --format is {asked}"
             raise BalcliError(f"{told}; leave one of them out")
         return written
     usual = asked or default
     if usual is not None and (not ending or (asked is not None and ending not in _KNOWN)):
         return usual
-    reason = f"{ending} cannot be written here" if ending else "has no ending that says its format"
+    reason = f"{ending} cannot be written here" if ending else "has no ending for its format"
     *others, last = endings
     known = f"{', '.join(others)} or {last}" if others else last
     raise BalcliError(f"{option} {output}: {reason}; give a name that ends in {known}")

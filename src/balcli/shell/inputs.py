@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ..file.model import EngineFile
 
 
-# Words of --only whose results include moments, among other things.
+# Words of --only whose results include moments.
 ABOUT_MOMENTS = frozenset({"peak", "sizing", "ladder", "guide", "pru", "xy", "textbook", "verdict"})
 
 P = TypeVar("P")
@@ -57,14 +57,16 @@ def read_engine(
     """Read one file (`-`: standard input), with warnings about suspicious values on standard error.
 
     Args:
-        speed_rpm: crank speed of the engine instead of the file's.
-        asked: names of requested quantities and tables; None: all that the command shows. Without
+        path: Path of the file.
+        speed_rpm: Crank speed of the engine instead of the file's.
+        asked: Names of requested quantities and tables; None: all that the command shows. Without
             moments among them, no warning of unknown moments is printed.
-        prepare: Changes the file before the engine is built.
-        over: Speeds at which the engine is looked at, rpm; None: its own.
+        prepare: Function that changes the file before the engine is built.
+        over: Speeds for which results are computed, rpm; None: the engine's own speed.
 
     Raises:
-        BalcliError: all mistakes of the file; a moment or gas that was asked for and is not known.
+        BalcliError: The file has mistakes (the error lists all), or a moment or gas was requested
+            and is not known.
     """
     if path in WORDS_OF_ONLY and not os.path.exists(path):
         raise BalcliError(f"{path}: no such file; was --only force,{path} meant?")
@@ -133,7 +135,7 @@ def try_each(
             results.append(work(path))
         except BalcliError as error:
             if path in found and isinstance(error, OtherKindError):
-                note(f"{path}: passed over, a file of another kind")
+                note(f"{path}: skipped, a file of another kind")
             else:
                 errors.append(str(error))
     return results, errors
@@ -148,11 +150,11 @@ def exit_on_errors(errors: Sequence[str]) -> None:
 
 
 def find_engine_files(paths: Sequence[Path]) -> list[Path]:
-    """Return the named files, and all engine files in named folders and their subfolders. Hidden
-    folders and pyproject.toml are skipped.
+    """Return the named files, and all engine files in named folders and their subfolders. Files in
+    hidden folders and pyproject.toml are skipped.
 
     Raises:
-        BalcliError: a path does not exist, or a folder has no engine files.
+        BalcliError: A path does not exist, or a folder has no engine files.
     """
     files: list[Path] = []
     for path in paths:
@@ -177,7 +179,7 @@ def find_expected(paths: Sequence[Path]) -> list[Path]:
 
 
 def _walk(folder: Path) -> Iterator[Path]:
-    """Yield all files in a folder and its subfolders, except hidden ones."""
+    """Yield all files in a folder and its subfolders, except files in hidden folders."""
     for path in folder.rglob("*"):
         if not any(part.startswith(".") for part in path.relative_to(folder).parts[:-1]):
             yield path

@@ -22,10 +22,10 @@ from ..sizing.options import check_small
 from .file_names import TEXTS, format_option, parse_output
 from .values import optional, read_length, read_share, read_speed
 
-# words of `analyze --only` for tables and texts of quantities that are computed anyway
+# Words of `analyze --only` for tables and texts of quantities that are always computed.
 PARTS = ("xy", "textbook", "verdict")
-CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only if named
-OF_ONE = (*PARTS, *CLOSER[2:])  # of one engine at one speed
+CLOSER = ("inner", "guide", "journals", "masses", "parts", "pru")  # words of further quantities
+OF_ONE = (*PARTS, *CLOSER[2:])  # words of tables that describe one engine at one speed
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
@@ -134,7 +134,7 @@ def parse_orders(text: str | None) -> list[float] | None:
     """Return the orders in a text such as `1-8`, `1,2,4`, `1-4,8`, or `0.5-8` in steps of a half.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if text is None:
         return None
@@ -151,7 +151,7 @@ def read_orders(text: str, right: str, bounds: str, least: float, most: float) -
         bounds: Hint that ranges must rise between the bounds, for messages.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     start = f'--orders "{text[:LONGEST_SHOWN]}": '
     orders: list[float] = []
@@ -180,13 +180,15 @@ def parse_only(text: str | None) -> list[str] | None:
     are allowed.
 
     Raises:
-        BalcliError: the word "all" is among them.
+        BalcliError: The word "all" is among them.
     """
     if text is None:
         return None
     words = [word.lower() for word in re.split(r"\s*,\s*|\s+", text.strip())]
     if "all" in words:
-        raise BalcliError("--only all: without --only there is all that is usual, with --all more")
+        raise BalcliError(
+            "--only all: leave --only out for the usual tables, or give --all for all"
+        )
     return [word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word for word in words]
 
 
@@ -216,7 +218,7 @@ def parse_small(text: str | None) -> float:
     """Return the share of `--small`.
 
     Raises:
-        BalcliError: the value is not a share from 0 to MOST_SMALL.
+        BalcliError: The value is not a share from 0 to MOST_SMALL.
     """
     wanted = "a share of one cylinder's first order, such as 2%"
     return check_small(SMALL if text is None else read_share("--small", text, wanted))
@@ -229,7 +231,7 @@ def parse_speed(text: str | None) -> float | None:
     """Return the speed of `--speed`, rpm.
 
     Raises:
-        BalcliError: it is not positive and finite.
+        BalcliError: The speed is not positive and finite.
     """
     if text is None:
         return None
@@ -249,7 +251,7 @@ def parse_guide_height(text: str | None, units: Units) -> float | None:
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: It is not positive and finite.
+        BalcliError: The height is not positive and finite.
     """
     if text is None:
         return None

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 R = TypeVar("R")
-_OF_RESULTS = ("OUT", "--output")  # here - means standard output
+_OF_RESULTS = ("OUT", "--output")  # options for which - means standard output
 
 
 def show(
@@ -79,7 +79,7 @@ def standard_output() -> Iterator[TextIO]:
     """Yield standard output. A closed pipe is not an error.
 
     Raises:
-        BalcliError: standard output cannot be written.
+        BalcliError: Standard output cannot be written.
     """
     try:
         yield sys.stdout
@@ -124,12 +124,12 @@ def make_folder_of(path: Path) -> Path:
     """Create the folder of a file unless it exists; return the file's path.
 
     Raises:
-        BalcliError: the folder cannot be created.
+        BalcliError: The folder cannot be created.
     """
     try:
         path.parent.mkdir(exist_ok=True)
     except OSError as error:
-        raise BalcliError(f"{path.parent}: cannot be made ({error.strerror or error})") from None
+        raise BalcliError(f"{path.parent}: cannot be created ({error.strerror or error})") from None
     return path
 
 
@@ -156,7 +156,7 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
         writes: Target by option (`--output`); None: the option is not given.
 
     Raises:
-        BalcliError: a target is also a file that is read or that an engine file names, or the
+        BalcliError: A target is also a file that is read or that an engine file names, or the
             target of another option, or its folder does not exist; standard input is read twice;
             `-` is given for an option that does not allow it.
     """
@@ -173,15 +173,14 @@ def refuse_overwriting(*, reads: Sequence[str], writes: Mapping[str, Path | Plac
     done: list[Path] = []
     for option, target in targets.items():
         if str(target) == "-" and option not in _OF_RESULTS:
-            raise BalcliError(f"{option} -: name a file; standard output is for results alone")
+            raise BalcliError(f"{option} -: name a file; standard output is only for results")
         if any(_is_same_file(target, source) for source in sources):
             raise BalcliError(
-                f"{option} {target}: this is a file that is read, which stays as it is; "
-                "choose another name"
+                f"{option} {target}: this file is read and must not change; choose another name"
             )
         if any(_is_same_file(target, other) for other in done):
             raise BalcliError(
-                f"{option} {target}: another result goes there as well; choose another name"
+                f"{option} {target}: another result is written there as well; choose another name"
             )
         done.append(target)
         try:
@@ -206,7 +205,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
         target: Path of the new file.
 
     Raises:
-        BalcliError: the target's folder lacks a named file, or has a different one of that name.
+        BalcliError: The target's folder lacks a named file, or has a different one of that name.
     """
     folder = Path(source).parent
     if folder.resolve() == target.parent.resolve():

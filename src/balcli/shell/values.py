@@ -55,7 +55,7 @@ def read_length(option: str, text: str, units: Units = Units.SI) -> float:
         units: System of units of a bare number.
 
     Raises:
-        BalcliError: It is not a length.
+        BalcliError: The text is not a length.
     """
     return _read(option, text, LENGTH, units) / 1e3
 
@@ -70,7 +70,7 @@ def read_lengths(
         count: Required number of lengths; None: one or more.
 
     Raises:
-        BalcliError: the text has another form, or only some of the lengths have a unit.
+        BalcliError: The text has another form, or only some of the lengths have a unit.
     """
     parts = [part.strip() for part in text.split(",")]
     if not all(any(map(str.isdigit, part)) for part in parts) or (
@@ -79,7 +79,7 @@ def read_lengths(
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
     bare = [_as_bare(part) for part in parts]
     if None in bare and any(bare):  # 0 is 0 in every unit
-        raise BalcliError(f"{_shown(option, text)}: give every number its unit, or none")
+        raise BalcliError(f"{_shown(option, text)}: give all numbers a unit, or none")
     found = tuple(_read(option, part, LENGTH, units) / 1e3 for part in parts)
     if not all(map(math.isfinite, found)):
         raise BalcliError(f"{_shown(option, text)}: give {needed}")
@@ -146,7 +146,7 @@ def read_number(option: str, text: str, needed: str) -> float:
 
 
 def read_share(option: str, text: str, needed: str) -> float:
-    """Return a share, given as a number, a fraction or in per cent; errors as of `read_number`."""
+    """Return a share, given as a number, fraction or percentage; errors as for `read_number`."""
     try:
         return read_fraction(text)
     except ValueError:
@@ -221,7 +221,7 @@ def parse_speeds(
         most: Largest number of speeds.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if text is None:
         return None
@@ -241,7 +241,7 @@ def parse_speeds(
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
     if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
         meant = f"{figure[1]}{figure[2]} rpm"
-        warn(f"{start}a comma parts speeds, not thousands: was {meant} meant?")
+        warn(f"{start}a comma separates speeds, not thousands: was {meant} meant?")
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]

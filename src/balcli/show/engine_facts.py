@@ -19,9 +19,9 @@ from .figures import silent_entries
 from .sheet import Facts, get_digits, given, number, tell_assumed
 from .units import System
 
-AXES_SHOWN = 9  # most axes of banks in a line
+AXES_SHOWN = 9  # largest number of axes of banks in a line
 THROWS_SHOWN = 12
-EVEN_DEG = 0.05  # firing intervals that differ by less count as equal
+EVEN_DEG = 0.05  # firing intervals that differ by less than this count as equal
 
 
 def speed_facts(engine: Engine, *, steady: bool = False) -> Facts:
@@ -44,7 +44,7 @@ def tell_pivot(engine: Engine) -> str:
     return "the point of reference" if any(engine.reference_m[:2]) else "the crank axis"
 
 
-_TURNING = '"with the crank" is with the cylinders here, and counterweights stand on them'
+_TURNING = '"with the crank" means with the cylinders, which carry the counterweights'
 
 
 def engine_facts(
@@ -146,7 +146,7 @@ def tell_speed(engine: Engine, *, steady: bool = False) -> str:
         steady: Whether the figures ignore an uneven speed.
     """
     counts = "uneven: figures are those of the uneven speed"
-    counts = "the file's uneven one does not count" if steady else counts
+    counts = "steady; the uneven speed of the file is not used" if steady else counts
     uneven = f", {counts}" if engine.ripple else ""
     return f"{given(float(engine.speed_rpm))} rpm{uneven}"
 
@@ -180,7 +180,7 @@ def _throws(engine: Engine) -> str:
 
 def _banks(engine: Engine) -> str:
     if engine.rotary:
-        return " that turn about a crank standing still"
+        return " that turn about a crank at rest"
     axes = np.ravel(engine.cylinders.axis_deg)
     if len(axes) == 1:
         return " in line"

@@ -1,4 +1,4 @@
-"""Records of an engine's figures (orders, peaks, size and state), and their lines of CSV."""
+"""Define records of an engine's figures (orders, peaks, size and state), and their rows of CSV."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -249,7 +249,7 @@ def list_assumed(
 
     Args:
         names: Names of the engines.
-        assumed: Values that each file leaves out; None: none.
+        assumed: Values that each file leaves out; None: there are none.
     """
     each = [lines or () for lines in assumed]
     common = [line for line in each[0] if all(line in lines for lines in each)]

@@ -122,7 +122,8 @@ class Columnar(Generic[Shown]):
     """Conversion of one kind of result to documents and columns.
 
     Attributes:
-        document: Function that returns the JSON document, in SI units; default: the record's.
+        document: Function that returns the JSON document, in SI units; default: the document of
+            the record.
         columns: Function that returns the columns of DataFrames; None: the columns of CSV.
     """
 

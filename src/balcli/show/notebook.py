@@ -11,7 +11,7 @@ from .formats import Columns
 from .sheet import NAMELESS, Facts, Grid, Sheet, Text, number
 from .units import SI
 
-ENDS = 5  # shown rows at the head and the foot of a long table
+ENDS = 5  # number of rows that are shown at each end of a long table
 
 
 def show_engine(engine: Engine) -> str:

@@ -94,7 +94,7 @@ def draw_locus(
     largest, most = (
         float(np.abs(paths).max()) for paths in (path, np.concatenate([path, *others]))
     )
-    tiny = largest <= 0.3 * most  # it is enlarged in a corner
+    tiny = largest <= 0.3 * most  # a tiny path is enlarged in a corner
     s = unit.fit(most)
     limit = set_up_plane(ax, (1.25 if tiny else 1) * most / s.size, names, s.name)
     for old in others:
@@ -135,7 +135,8 @@ def draw_paths(
     Args:
         ax: Axes of the picture.
         paths: Paths by label, in the unit of the axes, real upwards, each of shape (angles,).
-        names, unit: Names of the axes and their unit.
+        names: Names of the axes.
+        unit: Unit of the axes.
         taper: Difference of line widths between a path and the one drawn over it.
     """
     from matplotlib import colormaps

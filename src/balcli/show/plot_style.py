@@ -1,4 +1,4 @@
-"""Style of all pictures; figures are opened and saved in this style.
+"""Define the style of all pictures, and open and save figures in this style.
 
 Global state of matplotlib is restored, and no display is needed.
 """
@@ -34,7 +34,7 @@ BLUE, RED, GREEN = "#0072b2", "#d55e00", "#009e73"
 MANY_LOOKS = (*zip(("-", "--", ":") * 4, (BLUE, RED, GREEN, INK) * 3, strict=True),)
 _WORDS = ("ink", "soft", "faint", "paper", "blue", "red", "green")
 NAMES = dict(zip((INK, SOFT, FAINT, PAPER, BLUE, RED, GREEN), _WORDS, strict=True))
-_LETTER, _WIDE_LETTER = 0.1, 0.19  # width in a title, inches
+_LETTER, _WIDE_LETTER = 0.1, 0.19  # width of a letter and of a wide letter in a title, inches
 
 STYLE = Path(__file__).with_name("balcli.mplstyle")
 # Font families with Chinese, Japanese and Korean glyphs; the first that is installed is used.

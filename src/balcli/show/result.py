@@ -1,5 +1,5 @@
-"""Base class of all results, with a summary, HTML for notebooks, and export as dict, rows,
-DataFrame or Parquet file.
+"""Define the base class of all results, with a summary, HTML for notebooks, and export as dict,
+rows, DataFrame or Parquet file.
 
 The renderer of each kind of result is in the package of its chapter and is imported when it is
 first needed (`names.RENDERERS`).
@@ -70,7 +70,7 @@ class Result:
         are in the names or in a column `unit`.
 
         Raises:
-            BalcliError: pandas is not installed.
+            BalcliError: Pandas is not installed.
         """
         try:
             import pandas
@@ -85,7 +85,7 @@ class Result:
         """Write the rows into a Parquet file; each column has its unit in the metadata.
 
         Raises:
-            BalcliError: pyarrow is not installed, or the file cannot be written.
+            BalcliError: Pyarrow is not installed, or the file cannot be written.
         """
         try:
             import pyarrow

@@ -1,5 +1,5 @@
-"""Sheets, the readable form of results for terminal, Markdown and HTML: tables, facts and texts,
-and the formatting of their numbers.
+"""Define sheets, the readable form of results for terminal, Markdown and HTML: tables, facts and
+texts; and format their numbers.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def get_digits(usual: int = USUAL_DIGITS) -> int:
 
 
 NAMELESS = "engine without a name"
-# share of one cylinder's value, or of the largest order, below which an order is negligible
+# An order below this share of one cylinder's value, or of the largest order, is negligible.
 NEGLIGIBLE = 1e-3
 NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown one
 
@@ -133,7 +133,7 @@ def _write(value: float, digits: int) -> str:
         return UNKNOWN
     if value == 0:
         return "0"
-    # rounded first, so that rounding errors do not decide to which side a half is rounded
+    # Rounded first, so that rounding errors do not decide to which side a half is rounded.
     value = float(f"{value:.{max(digits, 12)}g}")
     text = f"{value:.{digits}g}"
     if "e" not in text:
@@ -200,7 +200,7 @@ def degrees(value: float, turn: float = 360) -> str:
     return "0.0" if tenths == 360 else f"{tenths:.1f}"
 
 
-VISIBLE = 1e-3  # share of the largest order below which an order is invisible in pictures
+VISIBLE = 1e-3  # orders below this share of the largest order are invisible in pictures
 
 
 R = TypeVar("R")
@@ -232,7 +232,7 @@ class NamedResult(NamedTuple, Generic[R]):
 
     Attributes:
         result: Result.
-        name: Name of the engine, which distinguishes its rows from those of the others.
+        name: Name of the engine, which distinguishes its rows from those of other engines.
         view: Parts that a sheet shows.
     """
 

@@ -14,11 +14,11 @@ from ..errors import legible
 from .sheet import Facts, Grid, Sheet, Text
 
 WIDTH = 80  # width of prose, and of tables if folding allows
-GAP = 3  # blanks between the columns of a grid
-FACTS_GAP = 2  # blanks between names and their values
+GAP = 3  # number of blanks between the columns of a grid
+FACTS_GAP = 2  # number of blanks between names and their values
 LABEL = 12  # headings of rows up to this width (`order 10`) are not folded
 PROSE = 50  # largest width of columns of words; figures are never folded
-_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # letters of our own texts that take one place
+_SINGLE = frozenset("–−…≠≤≥→∠⋅θλμπψω")  # letters in texts of balcli that take one place
 
 
 Piece = tuple[str, str]  # part of a line: text, and style in a terminal

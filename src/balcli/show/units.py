@@ -1,4 +1,4 @@
-"""Units of shown results: SI and imperial, with larger units for large values."""
+"""Define the units of shown results: SI and imperial, with larger units for large values."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""The bobweight card: the masses that a balancing shop fixes to each crank pin to represent rods
-and pistons; and records of the scheme `factor`.
+"""Compute the bobweight card: the masses that a balancing shop fixes to each crank pin to represent
+rods and pistons. Define the records of the scheme `factor`.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ DEFINITION = (
     "locks, rod small ends"
 )
 NO_THROW = (
-    "counts as 0, as crank.throw_mass is 0 or not given: with it the counterweights are heavier by "
-    "what the throw itself weighs at the crank radius"
+    "counts as 0, because crank.throw_mass is 0 or not given; with it, the counterweights are "
+    "heavier by the mass of the throw at the crank radius"
 )
 WHOLE_PISTON = "piston complete"
 ROTATING = ("big end", "rod bearing", "oil")
@@ -66,8 +66,8 @@ class Bobweight:
         rotating_g: Sum of all rotating parts.
         reciprocating_g: Sum of all reciprocating parts.
         bobweight_g: Rotating mass plus factor times reciprocating mass.
-        throw_g: Mass of the throw itself at the crank radius, as far as this pin has it;
-            counterweights balance it in addition to the bobweight.
+        throw_g: This pin's share of the mass of the throw at the crank radius; counterweights
+            balance it in addition to the bobweight.
         lines: All parts that are weighed, in the order of the card.
     """
 
@@ -156,7 +156,7 @@ class PlaneNeed:
     Attributes:
         position_mm: Position of the plane along the crankshaft.
         wanted: Counterweight that this plane needs for the pins, kg m.
-        present: Unbalance of the file's counterweights there, kg m.
+        present: Unbalance of the file's counterweights in this plane, kg m.
         missing: Unbalance that has to be added, kg m.
     """
 

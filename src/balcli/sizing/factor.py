@@ -29,16 +29,20 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # share of one cylinder's mass; weighed pistons of an engine differ by less
-_FLAT = 1e-9  # share of the largest value; factors with smaller differences are equally good
-_ROUNDS = 32  # of the search: they reach 2e-7 of the range of factors
+_NEARLY = 0.05  # masses within this share of one cylinder's nearly cancel; pistons differ by less
+_FLAT = 1e-9  # factors whose peaks differ by less than this share of the largest are equally good
+_ROUNDS = 32  # steps of the search, which narrow the range of factors to 2e-7
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
-_UNCHANGED = 1e-9  # share of the wanted weight; a smaller change counts as 0
+_UNCHANGED = 1e-9  # a change of a weight by a smaller share counts as 0
 
 
 class _Pin(NamedTuple):
-    """Load of one crank pin: numbers of its cylinders; unbalance that is to be balanced (throw
-    included) at crank angle 0, kg m; centre of these masses along z, m.
+    """Load of one crank pin.
+
+    Attributes:
+        cylinders: Numbers of its cylinders.
+        unbalance: Unbalance to be balanced (throw included) at crank angle 0, kg m.
+        z: Centre of these masses along the crank, m.
     """
 
     cylinders: tuple[CylinderNumber, ...]
@@ -47,9 +51,13 @@ class _Pin(NamedTuple):
 
 
 class _Planes(NamedTuple):
-    """Planes of counterweights: their z, m, shape (planes,); the unbalance that each needs, has and
-    lacks at crank angle 0, kg m, shape (3, planes); and, without given planes, the pins of each
-    plane.
+    """Planes of counterweights.
+
+    Attributes:
+        z: Positions of the planes, m, shape (planes,).
+        needs: Unbalance that each plane needs, has and lacks at crank angle 0, kg m, shape (3,
+            planes).
+        sets: Pins of each plane; empty if planes are given.
     """
 
     z: Array
@@ -62,8 +70,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
     planes; pins and weights are transferred to them by the lever rule. Default planes are those of
-    the file's counterweights, or, if these are in fewer than two planes, those of the pins. Pins in
-    the same plane are added.
+    the file's counterweights, or, if these are in fewer than two planes, those of the pins. If the
+    file has a counterweight, pins in the same plane are added; else each pin has its own plane.
 
     For several factors, the peaks of each are listed, and the factor with the smallest peak force
     is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
@@ -99,7 +107,7 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     note = _note(fitting, best, found.z, own)
     if not note and options.planes is None and planes is not None:
         note = (
-            "these planes are where the counterweights of the file stand; --planes throws computes "
+            "these are the planes of the counterweights of the file; --planes throws computes "
             "weights at every throw instead"
         )
     return fitting.remedy._replace(
@@ -265,7 +273,7 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
     if not reciprocating:
-        raise BalcliError("--measured: nothing goes to and fro in this engine: there is no factor")
+        raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
     told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
@@ -274,7 +282,9 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
             "pin rotate; is the unit right?"
         )
     if factor < 0:
-        warn(f"{told}: is less than the {turning} g that rotate on a pin, a factor of {factor:.2%}")
+        warn(
+            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
+        )
     return factor
 
 
@@ -322,7 +332,7 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
     counterweights if there are at least two, else None (the planes of the pins).
     """
     if options.planes is None:
-        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding
+        places = np.round(_find_counterweights(engine)[0], 12)  # without rounding errors
         own = np.unique(places)
         return tuple(own.tolist()) if len(own) > 1 and engine.places_known else None
     if not engine.places_known:
@@ -345,11 +355,11 @@ def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
 
 
 def name_one_cylinder(engine: Engine) -> str:
-    """Return in words the reciprocating mass to which a factor refers: that of any cylinder, or the
-    mean of unequal ones.
+    """Return in words the reciprocating mass to which a factor refers: that of any cylinder if all
+    are equal, else the mean of all.
     """
     masses = {round(float(weighed.reciprocating), 9) for weighed in engine.weighed}
-    return f"one cylinder's reciprocating mass{', in the mean' if len(masses) > 1 else ''}"
+    return f"one cylinder's{' mean' if len(masses) > 1 else ''} reciprocating mass"
 
 
 # ------------------------------------------------------------------ what is wanted, what is there
@@ -358,14 +368,14 @@ def _fit_factor(
 ) -> tuple[Fitting, _Planes]:
     """Fit the missing weight in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
-    counted = "; what the counterweights of the file do is counted"
+    counted = "; less the counterweights of the file"
     less = counted if _find_counterweights(engine)[1].any() else ""
     taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
     found = _find_needs(engine, factor, planes)
     slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
     missing = found.needs[2].tolist()
     if planes is not None:
-        reason = f"In these planes, carried to them by the lever: {taken} of every pin{less}"
+        reason = f"In these planes, divided by the lever rule: {taken} of every pin{less}"
         return fitting.add(slots, missing, reason), found
     for slot, unbalance, pins in zip(slots, missing, found.sets, strict=True):
         numbers = [str(number) for pin in pins for number in pin.cylinders]

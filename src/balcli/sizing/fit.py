@@ -40,8 +40,8 @@ TARGETS = {
     "roll": (ROLL,),
     ROLL_TOTAL.name: (ROLL,),
 }
-_LOST = 1e-10  # share of the largest singular value; smaller ones count as 0
-_NOTHING = 1e-12  # share of the largest unbalance of an order; smaller ones are rounding
+_LOST = 1e-10  # singular values below this share of the largest count as 0
+_NOTHING = 1e-12  # unbalances below this share of the largest of their order are rounding
 _REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
 
 
@@ -73,7 +73,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
 
     Args:
         engine: Engine without these devices.
-        model: Engine file with them.
+        model: Engine file with these devices.
         targets: Quantities to cancel, of `TARGETS`; default: force and, if known, moment.
 
     Raises:
@@ -97,7 +97,9 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
             if np.abs(each).max() <= _LOST * largest:
                 notes.append(f"{name} has no effect on these targets: its unbalance is 0.")
             elif len(values) == 1 and values[0] < 0:
-                notes.append(f"{name} has to stand opposite: its angle is turned by 180 deg.")
+                notes.append(
+                    f"{name} has to be on the opposite side: its angle is turned by 180 deg."
+                )
     if undetermined := unknowns - rank:
         notes.insert(
             0,
@@ -133,7 +135,7 @@ def _set_up(
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
     if not scales.force:
-        raise BalcliError('nothing reciprocates, so that "fit" has no cylinder to compare with')
+        raise BalcliError('"fit" needs reciprocating masses, with which forces are compared')
     parts, there, weights = [], [], []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)

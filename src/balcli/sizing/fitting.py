@@ -75,7 +75,8 @@ class Slot(NamedTuple):
         kind: Kind of the device.
         order: Speed over crank speed.
         sense: Sense of rotation: 1 with the crank, -1 against it; 0 for a slider.
-        z, place: Position along the crank, m; position x + iy in the plane, m.
+        z: Position along the crank, m.
+        place: Position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
         role: Role of a shaft.
         carrier: Of geared engines, the one whose crank carries a counterweight.
@@ -212,7 +213,7 @@ def solve_exactly(
     if left > max(noise, LEFT * size):
         raise BalcliError(
             f"order {residual.order}: unbalances of {largest * 1e6:.3g} g mm would work against "
-            f"each other and leave {left / size:.1g} of what shakes; choose planes farther apart"
+            f"each other and leave {left / size:.1g} of the parts; choose planes farther apart"
         )
     if len(slots) == 1:  # least squares would leave rounding in the force
         return fit._replace(unbalances=size_unbalances(slots, residual, parts[:1]).unbalances)
@@ -359,7 +360,7 @@ def explain_counterweights(residual: Residual, sense: int = 1) -> str:
     the sense of the first one or against it.
     """
     both = "both" if residual.force(sense) and residual.moment(sense) else "it"
-    turn = "counterweights turn with it too and cancel"
+    turn = "counterweights also turn with it and cancel"
     crank = "with the crank" if sense > 0 else "with the crank that turns against the first"
     return f"{_name(residual, sense)} turning {crank}: {turn} {both}"
 
@@ -392,7 +393,7 @@ def tell_moment(residual: Residual, sense: int, z: float, cure: str) -> str:
     """Return words on the moment that one eccentric at z (m) leaves, with the remedy; empty if no
     moment remains.
     """
-    return "" if takes_moment(residual, sense, z) else f"; a moment stays, which {cure}"
+    return "" if takes_moment(residual, sense, z) else f"; a moment remains, which {cure}"
 
 
 def explain_couple(residual: Residual, sense: int) -> str:
@@ -401,7 +402,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
     return (
         f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
-        f"the shaft stands{needless * (sense * residual.order == 1)}"
+        f"the shaft is{needless * (sense * residual.order == 1)}"
     )
 
 

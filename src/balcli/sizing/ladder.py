@@ -1,4 +1,5 @@
-"""The ladder: devices that balance an engine step by step, and the forces left with each step.
+"""Compute the ladder: devices that balance an engine step by step, and the forces that each step
+leaves.
 
 Counterweights in the end planes cancel the part of order 1 that turns with the crank.
 Counterweights at every throw cancel it where it arises, so that main bearings do not carry it.
@@ -47,13 +48,13 @@ STEPS = (AS_DRAWN, WEIGHTS, WEIGHTS_AT_THROWS, SHAFT, SHAFTS)
 
 _AT_THROWS = (
     "At every throw, against the part of order 1 that turns with the crank, so that main bearings "
-    "and crankshaft do not carry it"
+    "and crankshaft do not carry this part"
 )
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """Force and moment of one cylinder, with which parts are compared.
+    """Force and moment of one cylinder. A part of an order is small compared with them.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
@@ -71,10 +72,10 @@ class Step:
 
     Attributes:
         step: Name of the step.
-        peak_force_N: Largest free force over a revolution, sum of all orders.
-        peak_moment_Nm: Largest free moment over a revolution; left out for unknown positions.
-        main_bearing_N: Largest load of a main bearing by inertia; left out where all throws are in
-            one plane.
+        peak_force_N: Largest free force over a revolution, all orders added up.
+        peak_moment_Nm: Largest free moment over a revolution; left out if positions are unknown.
+        main_bearing_N: Largest load of a main bearing by inertia; left out if all throws are in one
+            plane.
         inner_moment_Nm: Largest bending moment of the crankshaft by inertia.
         counterweights: Number of new counterweights.
         shafts: Number of new shafts.
@@ -157,8 +158,8 @@ class Ladder:
         raise BalcliError(f'step "{step[:60]}": choose from {rows}; 0 is the engine as drawn')
 
     def _explain(self, out: LeftOut) -> str:
-        """Return in words the effect of an omitted step, and the option with which it is listed, if
-        any.
+        """Return in words the effect of an omitted step, and the option that lists it, if there is
+        one.
         """
         share, fall = self.measure(out), out.main_bearing_N
         does, hint = "cancel", f"; --small {math.floor(share)}% lists it"

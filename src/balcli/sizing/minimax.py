@@ -35,9 +35,9 @@ from .planes import (
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
-_SAME = 8 * EPS  # relative; points no farther outside than this are on the circle
-_TOUCHING = 1e-11  # relative; the same limit for the reported angles
-_APART = 1e-3  # rad; closer angles are one peak
+_SAME = 8 * EPS  # share of the radius; a point outside by no more than this is on the circle
+_TOUCHING = 1e-11  # share of the radius; limit of the same kind for the reported angles
+_APART = 1e-3  # rad; angles closer together are one peak
 _FIXED = 1e-9  # share of the radius by which a point that fixes a circle may lie inside it
 _ROUNDS = 60
 
@@ -150,7 +150,7 @@ def size_minimax(engine: Engine, options: SchemeOptions) -> Remedy:
     noise = fitting.find_residual(1).noise[FORWARD_FORCE] * newtons_per_kg_m
     centred = abs(circle.centre) <= max(noise, circle.noise)
     nothing_gained = (
-        "no counterweight makes the largest force smaller than it is: the smallest circle around "
+        "no counterweight makes the largest force smaller: the smallest circle around "
         "the force as seen from the crank has its centre at 0"
     )
     if centred and options.planes is None:
@@ -205,8 +205,8 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
     slots, unbalances = _split(engine, options, fitting, wanted - residual.force(1))
     largest = 2 * abs(against) / (1 + options.ratio) * residual.newtons_per_kg_m
     reason = (
-        "The force of order 1 keeps its part that turns against the crank; the weight makes the "
-        "other part such that both add up in the wanted direction, and to the wanted ratio across"
+        "The force of order 1 keeps its part that turns against the crank. The weight sets the "
+        "other part such that the ellipse has the wanted direction and ratio of axes"
     )
     fitting = fitting.add(slots, unbalances, reason)
     return fitting.remedy.add_details(
@@ -217,8 +217,8 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
 def _split(
     engine: Engine, options: SchemeOptions, fitting: Fitting, unbalance: complex
 ) -> tuple[Sequence[Slot], Sequence[complex]]:
-    """Return slots and unbalances (kg m) whose sum is this one: in one plane, or in the given
-    planes such that they also cancel the forward moment of order 1.
+    """Return slots and unbalances (kg m) that add up to this unbalance: in one plane, or in the
+    given planes such that they also cancel the forward moment of order 1.
     """
     if options.planes is None:
         z = find_crank_middle(engine) if options.position is None else read_position(options)

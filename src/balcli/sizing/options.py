@@ -1,5 +1,5 @@
-"""Names of the balance schemes, a line that describes each, and the options that each takes, which
-are checked here for command and Python function. This module does not load numpy.
+"""Define the balance schemes: their names, a line that describes each, and the options of each,
+which are checked here for command and Python function. This module does not load numpy.
 """
 
 from __future__ import annotations
@@ -71,12 +71,12 @@ class SchemeOptions(NamedTuple):
 
     Attributes:
         order: Order to balance; default: the lowest with a part that the scheme cancels.
-        at: Positions x + iy of shafts or sliders; of a pair of shafts, first that of the shaft
-            turning against the crank.
-        position: Position z of new devices; of compensators one z, or two (fore and aft).
+        at: Positions x + iy of shafts or sliders; for a pair of shafts, the position of the shaft
+            that turns against the crank comes first.
+        position: Position z of new devices; compensators take one z, or two (fore and aft).
         planes: "ends", "throws", or positions z of new devices.
-        factor: Shares of the reciprocating mass; the best one is fitted; default: 0.5.
-        measured: Mass on each bare pin that balances the crank, kg, instead of a factor.
+        factor: Shares of the reciprocating mass to try; the best one is fitted; default: 0.5.
+        measured: Mass on each bare pin that balances the crank, kg; replaces a factor.
         roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
         orders: Orders of the force whose largest value is minimised; default: all.
         small: Share of one cylinder below which a part of an order is left unbalanced.
@@ -176,7 +176,7 @@ class SchemeOptions(NamedTuple):
         """
         at = self.at or (0j,)
         if len(at) > 1:
-            raise BalcliError("--at: this scheme has one place; give it once")
+            raise BalcliError("--at: this scheme has one device; give one place")
         return at[0]
 
 
@@ -192,7 +192,7 @@ def check_small(share: float) -> float:
 
 
 def _are(values: object, kind: type, finite: bool) -> bool:
-    """Return whether there are values and all are numbers of this kind (`finite`: and finite)."""
+    """Return whether there are values, and all are numbers of this kind (`finite`: and finite)."""
     if not isinstance(values, tuple) or not values:
         return False
     try:

@@ -71,8 +71,8 @@ def find_crank_middle(engine: Engine) -> float:
 
 
 def locate_force(residual: Residual, sense: int) -> float:
-    """Return z (m) at which the force in this sense (not 0) would cause as much of the moment as
-    possible: `z_ref + Re(M / iV)`.
+    """Return the z (m) at which the force in this sense (not 0) would cause as much of the moment
+    as possible: `z_ref + Re(M / iV)`.
     """
     return residual.reference.z + (residual.moment(sense) / residual.force(sense)).real
 
@@ -110,7 +110,7 @@ def choose_plane(engine: Engine, options: SchemeOptions, residual: Residual, sen
 def read_position(options: SchemeOptions) -> float:
     """Return the given z, m; BalcliError for several."""
     if isinstance(options.position, tuple):
-        raise BalcliError("--position: this scheme has one place along z; give it once")
+        raise BalcliError("--position: this scheme has one position along z; give one")
     return options.position or 0.0
 
 
@@ -155,7 +155,7 @@ def _find_reach(places: ArrayLike) -> tuple[float, float]:
 
 DeviceTable: TypeAlias = Counterweight | Shaft | Slider
 
-# kinds of devices in the order of the file, and the keys that describe a new one
+# Kinds of devices in the order of the file, with the keys that describe a new device.
 FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
     Counterweight: ("unbalance", "angle", "position", "axle"),
     Shaft: ("ratio", "unbalance", "angle", "at", "position"),
@@ -163,7 +163,7 @@ FIELDS: dict[type[DeviceTable], tuple[str, ...]] = {
 }
 KINDS = tuple(FIELDS)
 TABLES = ("counterweight", "shaft", "slider")  # tables of these kinds in an engine file
-_ROUNDING = 1e-12  # share of the largest eccentric; a smaller sum is no force
+_ROUNDING = 1e-12  # a sum of eccentrics below this share of the largest is no force
 
 
 def name_kind(device: DeviceTable) -> str:

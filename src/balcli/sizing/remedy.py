@@ -1,4 +1,4 @@
-"""`Remedy`: the devices that a scheme fits to an engine, with the reasons."""
+"""Define `Remedy`: the devices that a scheme fits to an engine, with the reasons."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class Remedy(NamedTuple):
             (scheme factor).
         sweep: Largest values for each of several factors (scheme factor).
         knuckle_angles_deg: New `articulation.knuckle_angles` (scheme knuckles).
-        beyond: Devices that no engine file can describe, SI.
-        start: Engine to which the devices are fitted, if it is not that of the file.
+        beyond: Devices that no engine file can describe, in SI units.
+        start: Engine to which the devices are fitted, if it is not the engine of the file.
         step: Name of the step of the ladder (schemes auto and step).
     """
 

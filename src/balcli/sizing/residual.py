@@ -1,5 +1,5 @@
-"""`Residual`: free force, moment and roll of one order that a scheme has to cancel, as rotating
-vectors; and how large they are compared with one cylinder.
+"""Compute the free force, moment and roll of one order that a scheme has to cancel (`Residual`), as
+rotating vectors, and their sizes compared with one cylinder.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ class ResidualPart(NamedTuple):
 
     Attributes:
         kind: "force", "moment" or "roll".
-        sense: 1 if the vector turns with the crank, -1 if against it; 0 for the roll, a scalar.
+        sense: 1 if the vector turns with the crank, -1 if it turns against it; 0 for the roll, a
+            scalar.
     """
 
     kind: PartKind
@@ -196,7 +197,7 @@ def choose_residual(
         engine: Engine with its devices.
         options: Options of the scheme.
         kinds: Kinds of parts that the scheme cancels.
-        senses: Senses of rotation that it cancels: 1 with the crank, -1 against it.
+        senses: Senses of rotation that the scheme cancels: 1 with the crank, -1 against it.
 
     Raises:
         NothingToBalanceError: There is no such part.

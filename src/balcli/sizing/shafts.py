@@ -1,10 +1,10 @@
-"""Balancer shafts for any order: the schemes `single-shaft` and `couple-shaft`, and the schemes
-`two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions. The scheme
-`compensator` has such pairs far from the engine, where their force makes a moment.
+"""Compute balancer shafts for any order: the schemes `single-shaft` and `couple-shaft`, and the
+schemes `two-shaft` and `four-shaft` with pairs of shafts that turn in opposite directions. The
+scheme `compensator` has such pairs far from the engine, where their force makes a moment.
 
-In a pair, A is the shaft that turns against the crank, B the one that turns with it. V- and V+ are
-the two rotating vectors of the force of their order, p_A and p_B the positions x + iy of the shafts
-from the crank axis. The shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A
+In a pair, shaft A turns against the crank and shaft B with it. V- and V+ are the two rotating
+vectors of the force of their order, p_A and p_B the positions x + iy of the shafts from the crank
+axis. The shafts cause the roll `Re c e^{in theta}` with `c = i conj(p_B) V+ - i p_A
 conj(V-)`.
 """
 
@@ -50,8 +50,8 @@ from .residual import (
 
 _ROUNDING_M = 1e-9
 _COMPENSATES = (
-    "Order {} moment about y: a pair of masses that turn against each other makes a force along x, "
-    "and so the opposite moment; the force remains"
+    "Order {} moment about y: two masses that turn in opposite directions make a force along x, "
+    "whose moment is the opposite one; the force remains"
 )
 
 
@@ -65,7 +65,7 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     two = options.planes is not None
     if two and options.position is not None:
-        raise BalcliError("--planes and --position both say where along the shaft: give one")
+        raise BalcliError("--planes and --position both place the eccentrics: give one of them")
     residual = choose_residual(engine, options, ("force", "moment") if two else ("force",), (-1,))
     fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
@@ -109,7 +109,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     return fitting.describe_left(residual.order, "moment_left_Nm", "force_left_N").remedy
 
 
-Places = dict[int, tuple[complex, ...]]  # x + iy (m) of the shafts that turn in each sense
+Places = dict[int, tuple[complex, ...]]  # positions x + iy (m) of the shafts, by sense of rotation
 
 
 def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -132,9 +132,8 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit compensators for the moment of order N about y, which is that of the forces along x: at
-    one place, or fore and aft. Each is a pair of equal masses at +N and -N; together they make a
-    force along x.
+    """Fit compensators, at one place or fore and aft, for the moment of order N about y (of the
+    forces along x). Each is a pair of equal masses at +N and -N, which make a force along x.
 
     With `m` the amplitude of this moment, the force at one place is `-m/(z - z_ref)`; at two places
     it is `-m/(z1 - z2)` at the first and its opposite at the second.
@@ -175,8 +174,8 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _find_moment_about_y(residual: Residual) -> complex:
-    """Return the complex amplitude of the moment about y over `n^2 omega^2`, kg m^2; 0 for rounding
-    errors.
+    """Return the complex amplitude of the moment about y, divided by `n^2 omega^2`, kg m^2; 0 if
+    it is rounding.
     """
     moment = residual.moment(1) + residual.moment(-1).conjugate()
     noise = sum(residual.noise[part] for part in MOMENT)
@@ -244,13 +243,15 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     """
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
-        raise BalcliError("--at: a pair of shafts has two places, that against the crank first")
+        raise BalcliError(
+            "--at: a pair of shafts has two places; give first that of the shaft against the crank"
+        )
     if not (forward and backward):
         if options.roll:
             way = "with" if forward else "against"
             raise BalcliError(
-                f"order {residual.order}: its force turns {way} the crank alone, so that one shaft "
-                "takes it; leave out --roll"
+                f"order {residual.order}: its force turns only {way} the crank, so that one shaft "
+                "cancels it; leave out --roll"
             )
         place = at[0] if at else 0j
         return {1 if forward else -1: (place, -place) if place else (0j,)}

@@ -1,5 +1,5 @@
-"""Schemes for a single cylinder with devices that no engine file can describe: shafts of variable
-speed, and Oldham couplings (Wang).
+"""Compute schemes for a single cylinder with devices that no engine file can describe: shafts of
+variable speed, and Oldham couplings (Wang).
 
 Eccentric slider (Wang, section 2.4): a slider on an eccentric disc turns two balance shafts
 unevenly; their best eccentricity and mass are sought.
@@ -33,18 +33,18 @@ from .fitting import Fitting
 from .options import CRITERIA, DESIGNS, SchemeOptions
 from .remedy import Remedy
 
-FORCES = ("orders 1+2", "all orders")  # first cos theta + lambda cos 2 theta, then the exact force
-_LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1 its series is too long
-_COUNT = 512  # samples of a revolution: enough for k above _LEAST_K
+FORCES = ("orders 1+2", "all orders")  # cos theta + lambda cos 2 theta; the exact force
+_LEAST_K, _MOST_K = 1.2, 1e12  # limits of k; nearer to 1, the series is too long
+_COUNT = 512  # number of samples of a revolution, enough for k above _LEAST_K
 _GRID = np.linspace(0, np.pi, 1025)
 _ORDERS = np.arange(_COUNT // 4)
 _ROUNDS = 60
 _NOISE = 5e-16  # rounding of the transform, which squares of the orders would multiply
-_SETTLED = 1e-10  # relative step that ends the search
+_SETTLED = 1e-10  # a relative step below this ends the search
 _FARTHEST_TO_PEAK, _FARTHEST_TO_MEAN = 0.25, 0.1  # largest change of k in one step, as a share of k
-_SINGULAR = 1e-14  # smaller determinants are singular
+_SINGULAR = 1e-14  # matrices with smaller determinants are singular
 _BELOW_0 = -1e-12  # a weight above this counts as 0 or positive
-_NEWTON_STEPS = 8  # they lead from the middle of a grid cell to a root, up to rounding
+_NEWTON_STEPS = 8  # number of steps from the middle of a grid cell to a root, up to rounding
 
 
 class Optimum(NamedTuple):
@@ -79,7 +79,7 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
         lam: Crank radius over rod length.
 
     Raises:
-        BalcliError: lambda is so large that the search does not converge.
+        BalcliError: Lambda is so large that the search does not converge.
     """
     engine = _expand_engine_force(engine_force, lam)
     try:
@@ -116,7 +116,7 @@ def find_optima(lam: float) -> tuple[Optimum, ...]:
 
 
 def expand_shaft_wave(design: str, k: float) -> tuple[Array, Array]:
-    """Return the cosine coefficients of cos phi over the crank angle, phi being the angle of the
+    """Return the cosine coefficients of cos phi over the crank angle, where phi is the angle of the
     shafts, and their derivatives by k.
     """
     theta = np.arange(_COUNT) * np.float64(2 * np.pi / _COUNT)
@@ -248,20 +248,21 @@ def _step_to_mean(design: str, engine: Array, x: Array) -> Array:
 
 _SMALLEST = 1e-17  # harmonics of the shafts below this amplitude are omitted
 _ECCENTRIC_SLIDER = (
-    "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2 (m "
-    "reciprocates); design a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the "
-    "shaft; criteria: largest and mean force; pin and weight of each shaft at the same radius r_b, "
-    "its axis e from that of the disc; the shafts stand alike on either side of the cylinder axis"
+    "k = r_b/e, mu = m_b r_b/(m r) of each of the two shafts; forces in units of m r omega^2, with "
+    "the reciprocating mass m; design a: pin on the shaft, slot in the disc; b: pin on the disc, "
+    "slot on the shaft; criteria: largest and mean force; pin and weight of each shaft have the "
+    "same radius r_b; the axis of a shaft is at the distance e from that of the disc; the shafts "
+    "are symmetric to the cylinder axis"
 )
 _SPEED_LAW = (
     "a: 1 + cos theta/sqrt(k^2 - sin^2 theta), b: k (k - cos theta)/(1 + k^2 - 2 k cos theta) "
     "times crank speed"
 )
 _OLDHAM = (
-    "a side: first-order weight = m r/2 opposite the piston's motion, block mass x e = A2 m r/8, "
-    "e half the distance of the coupling's shafts; m the reciprocating mass; e is for a block as "
-    "heavy as the weight: of half its mass it takes 2 e; in either slot the block slides 2 e to "
-    "both sides"
+    "each side has a first-order weight of m r/2 opposite the piston's motion, and a block with "
+    "block mass x e = A2 m r/8, where m is the reciprocating mass and e half the distance of the "
+    "coupling's shafts; e is given for a block as heavy as the weight (a block of half the mass "
+    "needs 2 e); in each slot the block slides by 2 e to both sides"
 )
 
 

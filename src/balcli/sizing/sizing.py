@@ -138,9 +138,9 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
     fitting = fitting.add(
         slots,
         fit.unbalances,
-        "One plane takes the force and moment of order 1 turning with the crank as well as "
-        "one can (least squares of force, and of moment over the longest arm of weight, rods and "
-        "crank radius)",
+        "Best weight in one plane for the force and moment of order 1 turning with the crank "
+        "(least squares of force, and of moment over the longest arm of weight, rods and crank "
+        "radius)",
     )
     fitting = fitting.describe_left(1, "force_with_crank_left_N", "moment_with_crank_left_Nm")
     stays = fitting.remedy.details["moment_with_crank_left_Nm"]
@@ -206,7 +206,7 @@ def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = N
 
     Args:
         engine: Engine without trailing axes.
-        scheme: Name of a scheme, of `SCHEMES`.
+        scheme: Name of a scheme in `SCHEMES`.
         options: Options of the scheme.
 
     Raises:

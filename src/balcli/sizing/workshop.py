@@ -1,5 +1,5 @@
-"""Figures of a device for the workshop: mass at a radius, force, a first guess of its size in
-steel, and holes to drill.
+"""Compute the figures of a device for the workshop: mass at a radius, force, a first guess of its
+size in steel, and holes to drill.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ class Tools(NamedTuple):
         drill: Diameter of the drill; without it no holes are planned.
         max_depth: Largest depth of holes; default: to the axis.
         slug: Density of slugs that fill the holes, kg/m3; default: empty holes.
-        width: Axial room for a row of holes; default: the smallest distance of neighboring
-            throws, or the stroke of a crank with one throw or without spacing.
+        width: Axial room for a row of holes; default: the smallest distance of neighbouring
+            throws, or the stroke if there is one throw or positions are not known.
     """
 
     radius: float | None = None
@@ -68,18 +68,19 @@ class Practical:
 
     Attributes:
         unbalance_kg_m: Unbalance of the device.
-        mass_kg: Mass at `radius_mm` that makes the unbalance (a slider: of this amplitude).
+        mass_kg: Mass at `radius_mm` that makes the unbalance; mass of a slider whose amplitude is
+            `radius_mm`.
         radius_mm: Radius at which masses are stated.
-        force_N: Centrifugal force (largest force of a slider) at the engine's speed.
-        speed_rpm: Speed of the shaft; of a slider its strokes a minute.
-        disc_radius_mm: Radius of a semicircular steel disc, its diameter through the axis of
-            rotation; left out for a counterweight that is a sector.
+        force_N: Centrifugal force, or largest force of a slider, at the engine's speed.
+        speed_rpm: Speed of the shaft; for a slider, its strokes a minute.
+        disc_radius_mm: Radius of a semicircular steel disc whose diameter passes through the axis
+            of rotation; left out for a counterweight that is a sector.
         disc_thickness_mm: Thickness of this disc.
-        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. None, as below,
-            without a drill, and for sliders.
-        holes: Number of equal holes side by side along the axis: they remove an unbalance opposite
-            to it, or add it with slugs on its own side.
-        hole_angle_deg: Angle of the holes, counted as that of the device.
+        drill_depth_mm: Depth of each radial hole from a rim at `radius_mm` inwards. All figures of
+            holes are None without a drill, and for sliders.
+        holes: Number of equal holes side by side along the axis. Empty holes are opposite to the
+            unbalance; holes with slugs are on its side.
+        hole_angle_deg: Angle of the holes, measured like the angle of the device.
     """
 
     unbalance_kg_m: float
@@ -193,7 +194,7 @@ def _plan_holes(
 
 
 def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
-    """Return the radius of a device, m: that of the throw nearest to it where none is given."""
+    """Return the radius of a device, m; without a given one, that of the nearest throw."""
     return tools.radius or engine.find_radius(device.position / 1e3)
 
 
@@ -231,7 +232,7 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         shapes: Bearings and sector.
 
     Raises:
-        BalcliError: Bearings or a sector that cannot be, or that no new device has.
+        BalcliError: Bearings or sector are impossible, or no new device has any.
     """
     for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
         if getattr(shapes, option) is not None and not found:

@@ -16,7 +16,8 @@ from ..file.table import label_table
 from ..file.torsion_tables import Part, find_stiffness
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-_ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}  # per SI unit
+# Number of the file's units in an SI unit.
+_ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
 
 
@@ -127,7 +128,7 @@ def _list_parts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
     for n in sorted(parts.numbers):
         rod = parts.find_rod(n, n in parts.masters).rod
         if rod.length is None and rod.ratio is None:
-            continue  # of a harmonic motion
+            continue  # a rod in harmonic motion has no length
         length = 1e3 * float(rod.length_for(parts.find_radius(n)))
         yield _relative(f"rod length {n}", within.length, {f"cylinder.{n}.rod_length": length})
     for k, angle in parts.pins.throws_deg.items():

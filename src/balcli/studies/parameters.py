@@ -63,7 +63,7 @@ class Place(NamedTuple):
     value: object
 
 
-# Keys without effect on any quantity: names of directions, and what `--only parts` shows.
+# Keys without effect on any quantity: they name directions, or only `--only parts` uses them.
 _SHOWN_ALONE = {(Frame, "up"), (Piston, "skirt"), (Shaft, "bearings"), (Shaft, "drag")}
 _SHOWN_ALONE |= {(Gear, key) for key in Gear.model_fields}
 
@@ -90,7 +90,7 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     idle += [path for path, place in numbers.items() if (place.table, place.key) in _SHOWN_ALONE]
     for path in idle:
         del numbers[path]
-    for k in range(len(model.layout.firing_intervals or ())):  # they add up to a cycle
+    for k in range(len(model.layout.firing_intervals or ())):  # intervals add up to a cycle
         del numbers[f"layout.firing_intervals.{k + 1}"]
     if plan.banks != 2:  # an angle would turn the engine into a vee
         numbers.pop("layout.bank_angle", None)
@@ -118,7 +118,7 @@ def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
 
 
 _IDLE_TABLES = ("torsion", "locomotive", "axle")  # of engines that are geared together
-# Numbers that `locomotive` alone reads
+# Numbers that only `locomotive` reads.
 _OF_WHEELS = r"locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 
 
@@ -191,11 +191,11 @@ def _marks_of(annotation: object) -> Iterator[object]:
 
 # ------------------------------------------------------------------ names and values from users
 def parse_parameter(text: str, model: EngineFile) -> Parameter:
-    """Return the parameter for a text `path=from:to:step` (both ends included) or `path=a,b,c`;
-    figures may have units.
+    """Return the parameter for a text `path=from:to:step` (`to` is included if a step meets it) or
+    `path=a,b,c`; figures may have units.
 
     Raises:
-        BalcliError: the file has no such number (the message suggests the nearest name), there are
+        BalcliError: The file has no such number (the message suggests the nearest name), there are
             no values, or values are out of bounds.
     """
     path, equals, wanted = (part.strip() for part in text.partition("="))
@@ -214,8 +214,8 @@ def choose_values(path: str, values: ArrayLike, model: EngineFile) -> Parameter:
     or one text as in `parse_parameter`, such as "0.24:0.32:0.01".
 
     Raises:
-        BalcliError: the name or a value is wrong; see `parse_parameter`.
-        TypeError: the values have a wrong type.
+        BalcliError: The name or a value is wrong; see `parse_parameter`.
+        TypeError: The values have a wrong type.
     """
     known = find_numbers(model)
     where = shorten(f"{path}={values}") if isinstance(values, str) else path
@@ -279,9 +279,9 @@ def _describe_unknown(path: str, known: Mapping[str, Number], model: EngineFile)
     of a table for the table's name, or the nearest name.
     """
     if path.startswith("layout.firing_intervals."):
-        return f"{path}: firing intervals add up to a cycle, so that none varies alone"
+        return f"{path}: firing intervals add up to a cycle, so that a single one cannot vary"
     if _list_idle_paths(model, [path]) and model.gas is not None:
-        return f"{path}: changes nothing of the gas in this file"
+        return f"{path} has no effect on the gas of this file"
     if members := [name for name in known if re.fullmatch(rf"{re.escape(path)}\.\d+", name)]:
         return f"{path} is a list of {len(members)}; vary {members[0]} to {members[-1]}"
     dotted = path.replace("_", ".", 1)

@@ -59,7 +59,7 @@ AnyQuantity = Quantity | TargetQuantity
 
 
 class Variants(Protocol):
-    """Evaluates some quantities for one variant of a file after another."""
+    """Object that evaluates some quantities, one variant of a file after the other."""
 
     def evaluate(self, values: Mapping[str, float]) -> list[float]:
         """Return the value of each quantity for one variant; `values` are its varied figures by
@@ -115,7 +115,7 @@ def _parse_quantity(word: str, with_gas: bool) -> AnyQuantity:
     hint = suggest_nearest(word.partition(".")[0], BEGINNINGS, there)
     if alike:
         hint = f"give {' or '.join(join_patterns(alike))}"
-    raise BalcliError(f"{word} is no quantity: {hint}")
+    raise BalcliError(f"{word} is not a quantity: {hint}")
 
 
 def choose_of_engine(wanted: Iterable[AnyQuantity]) -> tuple[Quantity, ...]:
@@ -149,10 +149,9 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
     refuse_unknown_of_engine(engine, choose_of_engine(wanted))
 
 
-# Tables whose defaults matter for the quantities of a chapter, in addition to any engine's.
+# Tables whose defaults matter for the quantities of a chapter, in addition to those of any engine.
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
-# Quantities without the inertia of rods, and those with the mass of throws at steady speed: about
-# a point off the axis, a couple and a roll have it, too.
+# Beginnings of the names of quantities that do not depend on the inertia of rods.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
 _OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
@@ -253,7 +252,7 @@ def _vary_gas(
 
 
 class Evaluator:
-    """Evaluates some quantities for variants of an engine file.
+    """Evaluator of some quantities for variants of an engine file.
 
     Args:
         model: Engine file.
@@ -337,10 +336,10 @@ class FileNumber:
 
 @dataclass(frozen=True)
 class NamedQuantity:
-    """Quantities by a pattern.
+    """Quantities whose names have the same pattern.
 
     Attributes:
-        name: N stands for an order or a number, PART for a word of the meaning.
+        name: Pattern; N stands for an order or a number, PART for a word of the meaning.
         unit: SI unit.
         meaning: Meaning in words.
     """
@@ -371,7 +370,7 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
     """Yield the quantities of an engine file, chapter by chapter; N stands for any order.
 
     Raises:
-        BalcliError, InputError: a chapter of the file has mistakes.
+        BalcliError, InputError: A chapter of the file has mistakes.
     """
     there = [form for form in FORMS if not form.table or getattr(model, form.table)]
     for chapter, forms in groupby(there, lambda form: form.chapter):

@@ -1,5 +1,5 @@
-"""Table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names, units,
-meanings, and the chapter that computes each. Help, errors and completion use it.
+"""Define the table of all quantities of `numbers`, `sweep`, `search`, `scatter` and `check`: names,
+units, meanings, and the chapter that computes each. Help, errors and completion use it.
 
 `N` stands for an order or a number, `NAME` for the name of a part in the file, `MOTION` for one of
 x, y, z, rx, ry, rz and roll, `PART` for one of the words in the meaning.
@@ -16,7 +16,7 @@ ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
 JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
 _OF_VECTOR = "major, minor, forward, backward, axis (deg), x, y, x_cos, x_sin, y_cos, y_sin"
 _OF_SCALAR = "amplitude, cos, sin"
-# Chapter, pattern, unit, table of the file that is needed, meaning.
+# Columns: chapter, pattern, unit, table of the file that is needed, meaning.
 _TABLE = f"""
 engine   force.N.PART         N           free force: {_OF_VECTOR}
 engine   moment.N.PART        N·m         free moment: {_OF_VECTOR}
@@ -101,7 +101,10 @@ FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
 _RANGES = {
-    ("mount.", "point."): "Mounts, points: largest value from 1/8 to 1 times the engine's speed.",
+    (
+        "mount.",
+        "point.",
+    ): "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
     ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed.",
 }
 

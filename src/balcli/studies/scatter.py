@@ -38,9 +38,9 @@ from .quantities import (
 )
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default samples: as arrays, one by one
-CHUNK, AT_ONCE = 8_192, 400_000  # samples and deviations computed at once
-_EQUAL = 1e-8  # effects that differ by less, relative to the largest, are equal
+RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples: as arrays, one by one
+CHUNK, AT_ONCE = 8_192, 400_000  # largest numbers of samples and deviations computed at once
+_EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of a figure are rounding
 _LEAST = -0.99  # least relative deviation, so that no mass or spring becomes negative
 _DEGREES = Number(ANGLE, least=0, most=90)
@@ -65,7 +65,7 @@ class Spread:
         p95: 95th percentile.
         max: Largest value.
         bound: First-order bound: the nominal value plus the magnitudes of all changes.
-        sensitivity: Change by the tolerance of each part alone, largest first.
+        sensitivity: Change by the tolerance of each single part, largest first.
     """
 
     nominal: float
@@ -183,7 +183,7 @@ class Variants:
         if within.stiffness is not None and not apart:
             raise BalcliError(
                 f"--stiffness-scatter: {', '.join(q.name for q in asked)} depends on no mount and "
-                "no shaft; leave it out, or ask for a quantity such as mode.roll.Hz"
+                "no shaft; leave the option out, or give a quantity such as mode.roll.Hz"
             )
         if angles := [q.name for q in of_engine if q.unit == "deg"]:
             raise BalcliError(
@@ -246,7 +246,7 @@ class Variants:
         samples = self.usual if samples is None else samples
         most = MOST_SINGLE_SAMPLES if self._slow else MOST_TOLERANCE_SAMPLES
         if not 1 <= samples <= most:
-            why = f", as {self.asked[0].name} is computed one by one" if self._slow else ""
+            why = f", because {self.asked[0].name} is computed one by one" if self._slow else ""
             raise BalcliError(
                 f"{count_name(samples)} samples: give from 1 to {count_name(most)}{why}"
             )
@@ -334,8 +334,8 @@ def scatter(
     seed: int | None = None,
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
-    """Spread of free forces and moments when masses, rod lengths and throw angles vary, and the
-    tolerances that matter most. Quantities of mounts or torsion spread with stiffness.
+    """Return the spread of free forces and moments when masses, rod lengths and throw angles vary,
+    and the tolerances that matter most. Quantities of mounts or torsion spread with stiffness.
 
     Args:
         engine: Engine, from `load`.

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from .scatter import Scatter, Spread
 
 
-SHOWN = 6  # changes of each quantity in a table
-BOUND = "Bound: nominal value plus all changes below; a variant may lie slightly beyond"
+SHOWN = 6  # largest number of changes of each quantity in a table
+BOUND = "Bound: nominal value plus the changes by all tolerances; a variant may lie slightly beyond"
 _SHAPES = {
     "uniform": "evenly distributed",
     "normal": (
@@ -66,11 +66,11 @@ def sheet(result: Scatter, system: System) -> Sheet:
     note = " ".join(filter(None, notes))
     title = f"Spread of {count_name(result.samples)} random {result.varied}"
     heads = tuple(rows(result, system).header[:-1])
-    spreads = Grid(title, heads, tuple(lines), note)
-    heads, title = ("quantity", "change", "made by each of"), "Change by each tolerance alone"
+    spread_of_all = Grid(title, heads, tuple(lines), note)
+    heads, title = ("quantity", "change", "made by each of"), "Change by each single tolerance"
     changes = Grid(f"{title}, largest first", heads, tuple(causes), words=(0, 2))
     name = result.model.name or NAMELESS
-    return Sheet(name, (*assumed_facts(result.assumed), spreads, changes))
+    return Sheet(name, (*assumed_facts(result.assumed), spread_of_all, changes))
 
 
 def _list_tolerances(result: Scatter) -> str:
@@ -101,7 +101,7 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 MASS = "Tolerance of piston, rod and throw masses, and of inertias."
 ANGLE = "Tolerance of throw angles, such as 0.2 deg."
 STIFFNESS = "Tolerance of mounts or shafts."
-OF_EACH = "15% of mounts, 5% of shafts"
+OF_EACH = "15% for mounts, 5% for shafts"
 SAMPLES = "Default: 100000, or 500 for quantities that are computed one by one."
 SHAPES = "Uniform within the tolerances, or normal with a third of them as standard deviation."
 QUANTITY = "Such as force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."

@@ -55,10 +55,10 @@ if TYPE_CHECKING:
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 Box: TypeAlias = tuple[slice, ...]
-ALONE = 64  # variants in a box if each is computed by itself
-CHUNK = 65_536  # most variants in a box; larger boxes share no more work
-BYTES = 1 << 24  # largest array of a box: it fits into the cache
-SAMPLES = 1 << 20  # most samples of revolutions in a box: a tenth of a second
+ALONE = 64  # number of variants in a box if each is computed by itself
+CHUNK = 65_536  # largest number of variants in a box; larger boxes share no more work
+BYTES = 1 << 24  # size of the largest array of a box, which fits into the cache
+SAMPLES = 1 << 20  # largest number of samples in a box, computed in a tenth of a second
 
 
 class Share(Protocol):
@@ -85,7 +85,7 @@ class Sweep:
     file: EngineFile
     parameters: tuple[Parameter, ...]
     quantities: tuple[AnyQuantity, ...]
-    name: str = "engine"  # name of the file in messages
+    name: str = "engine"  # name of the file, for messages
 
     @property
     def columns(self) -> list[str]:
@@ -269,8 +269,8 @@ def divide_grid(shape: tuple[int, ...], most: int) -> Iterator[Box]:
 
 
 def evaluate_chunks(sweep: Sweep, share: Share = map) -> Iterator[Chunk]:
-    """Yield the values of all variants, box by box, in the order of rows. They do not depend on how
-    the work is shared.
+    """Yield the values of all variants, box by box, in the order of rows. The values do not depend
+    on the way in which the work is shared.
     """
     boxes, parts = tee(divide_grid(sweep.shape, count_at_once(sweep)))
     return map(Chunk, boxes, share(evaluate_sweep, map(sweep.cut, parts)))
@@ -291,7 +291,7 @@ def share_among_threads(
     try:
         yield from run_in_order(pool.submit, work, items, 2 * threads)
     except RuntimeError as error:
-        raise BalcliError(f"--jobs {threads}: {error}; give fewer, as --jobs 1") from None
+        raise BalcliError(f"--jobs {threads}: {error}; give fewer, such as --jobs 1") from None
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -372,14 +372,14 @@ def sweep(
     quantities: Words | None = None,
     threads: int | None = None,
 ) -> Swept:
-    """Quantities for many variants of an engine: numbers of its file vary over ranges, which span a
-    grid.
+    """Return quantities for many variants of an engine. Numbers of its file vary over ranges, which
+    span a grid.
 
     Args:
         engine: Engine, from `load`.
         vary: Values of numbers of the engine file, by dotted name (`rod.ratio`, `crank.throws.2`,
             `layout.bank_angle`): a one-dimensional array or list in the unit of the file (mm, kg,
-            deg, rpm), texts with units, or a range that includes both ends ("0:180:1"). Several
+            deg, rpm), texts with units, or a range from:to:step ("0:180:1"). Several
             names span a grid.
         quantities: Names such as `force.2.major` (minor, forward, backward, axis, x, y),
             `moment.1.backward`, `couple.4.amplitude`, `peak.force`; for engines with mounts,

@@ -97,8 +97,8 @@ def numbers(path: EnginePath, form: FormatOption = None, output: Output = None) 
 
 
 VARY = (
-    "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step, ends "
-    "included) or crank.throws.2=90,180. Several span a grid, the last one fastest."
+    "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step) or "
+    "crank.throws.2=90,180. Several numbers span a grid, in which the last varies fastest."
 )
 QUANTITY = f"Figures by name: {describe_names()}"
 FORM = (
@@ -185,7 +185,7 @@ def _choose_target(
     """Return the path for the variants (None: standard output) and the format.
 
     Raises:
-        BalcliError: format and ending contradict each other, or an option does not go with a
+        BalcliError: Format and ending contradict each other, or an option does not go with a
             folder.
     """
     file = None if output is None else output.path
@@ -199,7 +199,7 @@ def _choose_target(
         )
     if plot is not None:
         raise BalcliError(
-            f"--plot {plot}: figures that go into a folder are not kept for a picture; write one "
-            "file, or leave --plot out"
+            f"--plot {plot}: figures in a folder are not kept for a picture; write one file, or "
+            "leave --plot out"
         )
     return file, Format.PARQUET

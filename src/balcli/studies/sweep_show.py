@@ -136,7 +136,7 @@ def check_drawable(sweep: Sweep) -> None:
     """Check that a picture of the sweep is possible, before anything is computed.
 
     Raises:
-        BalcliError: not one or two parameters have several values, or there are too many variants.
+        BalcliError: Not one or two parameters have several values, or there are too many variants.
     """
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:

@@ -47,13 +47,14 @@ from .sweep import (
 )
 from .sweep_show import make_sheet, sweep_csv, sweep_json
 
-ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8  # a box takes about a tenth of a second
+# Largest numbers of rows and boxes in a block; a box takes about a tenth of a second.
+ROWS_A_BLOCK, BOXES_A_BLOCK = 1 << 20, 8
 MANIFEST = "_balcli_sweep.json"  # Parquet readers skip names that begin with _
 _BLOCK = re.compile(r"part-\d{6,}\.parquet")
 # The hidden name of an unfinished block is that of `files.name_hidden`.
 _OURS = re.compile(rf"{_BLOCK.pattern}|\.{_BLOCK.pattern}\.[0-9a-f]+|{re.escape(MANIFEST)}")
-RETRIES = 3  # of a task that a worker has not finished
-AHEAD = 4  # pending tasks for each thread
+RETRIES = 3  # number of retries of a task that a worker has not finished
+AHEAD = 4  # number of pending tasks for each thread
 
 
 # ------------------------------------------------------------------ one file
@@ -71,7 +72,7 @@ def write_sweep_parquet(sweep: Sweep, chunks: Iterable[Chunk], place: Path) -> N
         place: Path of the file.
 
     Raises:
-        BalcliError: pyarrow is missing.
+        BalcliError: Pyarrow is missing.
     """
     try:
         import pyarrow
@@ -142,7 +143,7 @@ def write_blocks(
         force: Whether to delete another sweep in this folder first.
 
     Raises:
-        BalcliError: the folder holds other files or another sweep, it cannot be written, or pyarrow
+        BalcliError: The folder holds other files or another sweep, it cannot be written, or pyarrow
             is missing.
     """
     try:
@@ -183,7 +184,7 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
     """Create the folder and its manifest, unless they exist.
 
     Raises:
-        BalcliError: there is a file of this name, or the folder holds other files or another sweep.
+        BalcliError: There is a file of this name, or the folder holds other files or another sweep.
     """
     if folder.exists() and not folder.is_dir():
         raise BalcliError(f"{folder}/: is a file; choose another name for the folder")
@@ -195,8 +196,8 @@ def _claim(folder: Path, manifest: str, force: bool) -> None:
     strange = [name for name in names if not _OURS.fullmatch(name)]
     if strange or (names and MANIFEST not in names):
         raise BalcliError(
-            f"{folder}/: holds {(strange or names)[0]}, which is no part of a sweep; choose a "
-            "folder that is empty or not there"
+            f"{folder}/: holds {(strange or names)[0]}, which is not part of a sweep; choose an "
+            "empty or new folder"
         )
     if names and not force:
         raise BalcliError(
@@ -222,7 +223,7 @@ def connect_cluster(address: str) -> Iterator[Share]:
     address such as tcp://host:8786, or of a temporary cluster on this machine (`local`).
 
     Raises:
-        BalcliError: dask is not installed, or no scheduler responds.
+        BalcliError: Dask is not installed, or no scheduler responds.
     """
     try:
         import distributed

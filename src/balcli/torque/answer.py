@@ -1,4 +1,4 @@
-"""Analysis of the torque on an engine's crank, `analyze_torque`: by order and over the cycle, with
+"""Analyze the torque on an engine's crank (`analyze_torque`): by order and over the cycle, with
 means, extremes and the flywheel.
 """
 
@@ -47,8 +47,8 @@ def analyze_torque_of_engine(
         orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
             with many cylinders also the firing order and its double.
         cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's.
-        fluctuation: (highest - lowest)/mean speed for which to compute the inertia.
-        loads: "pin" (of crank pins), "main" (of main bearings), or both.
+        fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
+        loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
 
     Raises:
         BalcliError: The engine has no gas or no such cylinder, the fluctuation is not between 1e-9
@@ -62,7 +62,7 @@ def analyze_torque_of_engine(
     kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
     check_type("cylinder", cylinder, kinds, "give a whole number from 1")
     if fluctuation is not None:
-        fluctuation = check_number("fluctuation", fluctuation, "give a number, as 1 / 200")
+        fluctuation = check_number("fluctuation", fluctuation, "give a number, such as 1 / 200")
     wanted = list_words("loads", loads, '["pin", "main"]')
     if strange := [word for word in wanted if word not in KINDS_OF_LOAD]:
         raise BalcliError(f"--loads: {strange[0]!r}; choose from {', '.join(KINDS_OF_LOAD)}")

@@ -108,7 +108,7 @@ def torque(
     if path is not None and path.lower().endswith(".csv"):
         raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
     misplaced: dict[str, object] = {"--load": load, "--inertia": inertia}
-    needed = "--curve; the inertia of an engine stands in its file: [crank] inertia, [flywheel]"
+    needed = "--curve; an engine file gives the inertia itself: [crank] inertia, [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
         misplaced["--cylinder"], needed = cylinder != "1", "an engine file"

@@ -1,4 +1,4 @@
-"""Fluctuation of the speed of a shaft under a torque, and the inertia that limits it."""
+"""Compute the fluctuation of a shaft's speed under a torque, and the inertia that limits it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ..errors import BalcliError
 from ..file.fields import order_number
 from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_FLUCTUATION
 
-_WORTH = 1e-4  # smaller orders of the speed, as a share of the largest, are left out
+_WORTH = 1e-4  # orders of the speed below this share of the largest are left out
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,8 @@ class Flywheel:
         speed_max_rpm: Highest speed.
         speed_min_rpm: Lowest speed.
         stall: Message with the angle at which the crank stalls.
-        speed_max_deg, speed_min_deg: Crank angles of highest and lowest speed.
+        speed_max_deg: Crank angle of the highest speed.
+        speed_min_deg: Crank angle of the lowest speed.
         lines: Orders of the uneven speed, without negligible ones.
     """
 

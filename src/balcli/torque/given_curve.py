@@ -1,4 +1,4 @@
-"""Analysis of a given torque curve without an engine, for example that of a press."""
+"""Analyze a given torque curve without an engine, such as that of a press."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ from .records import (
     write_whole,
 )
 
-SAME_MEAN = 1e-6  # relative to the largest torque: figures in files are rounded
-_NOISE = 1e-14  # relative to the largest torque: rounding errors of a harmonic
-_SAME = 1e-9  # turns by which equal periods may differ
-_WHOLE = 1e-4  # relative rounding error of a period in a file: 102.86 deg for 720/7
+SAME_MEAN = 1e-6  # largest difference of equal means, as a share of the largest torque
+_NOISE = 1e-14  # rounding error of a harmonic, as a share of the largest torque
+_SAME = 1e-9  # largest difference of equal periods, in turns
+_WHOLE = 1e-4  # relative rounding error of a period in a file, such as 102.86 deg for 720/7
 
 
 def read_curve(path: Path) -> PiecewiseCurve:
@@ -88,11 +88,11 @@ def analyze_curve(
 
     Args:
         name: Name of the result.
-        torque, load: Torque and load, N m, over the same period; without a load it is the constant
-            mean.
+        torque: Torque, N m.
+        load: Torque of the load, N m, over the same period; None: the constant mean.
         speed_rpm: Mean speed of the shaft, rpm; None: not known.
         inertia: Inertia of all that turns, kg m2; None: not known.
-        fluctuation: (highest - lowest)/mean speed, for which the inertia is wanted.
+        fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
         orders: Orders (cycles in 360 degrees) to show; default: the harmonics of the period up to
             the order HIGHEST_GAS_ORDER_UNASKED, at least two and at most MOST_HARMONICS_UNASKED of
             them.
@@ -148,8 +148,8 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
         highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
         raise BalcliError(
-            f"order {every[high[0]] / turns:g}: of a period of {turns:g} turns there are "
-            f"orders to {highest:g}"
+            f"order {every[high[0]] / turns:g}: a period of {turns:g} turns has orders up to "
+            f"{highest:g}"
         )
     return every
 

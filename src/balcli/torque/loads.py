@@ -1,4 +1,4 @@
-"""Loads of crank pins, knuckle pins and main bearings over a cycle, at the mean speed."""
+"""Compute loads of crank pins, knuckle pins and main bearings over a cycle, at the mean speed."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ class CycleLoad:
         bearing: Number of the main bearing from the free end.
         position_mm: Position of the main bearing along the crank.
         max_N: Largest load.
-        max_deg: Crank angle at which it is reached.
+        max_deg: Crank angle of the largest load.
         mean_N: Mean load.
-        pressure_Pa: Largest load over diameter times width; left out if the file does not give
-            both.
+        pressure_Pa: Largest load divided by diameter times width; left out if the file does not
+            give both.
     """
 
     cylinder: int | None = None

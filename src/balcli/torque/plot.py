@@ -1,4 +1,4 @@
-"""Pictures of an engine with gas: pressure, torque over the cycle, and polar diagrams of loads.
+"""Draw an engine with gas: pressure, torque over the cycle, and polar diagrams of loads.
 
 Curves are computed every half degree over one cycle, at the mean speed.
 """
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_STEP = 0.5  # deg
-_BESIDE = 1e-7  # deg, on both sides of a jump
-_COLUMNS = 7  # polar diagrams side by side
+_STEP = 0.5  # step of the crank angle, deg
+_BESIDE = 1e-7  # distance of the points on both sides of a jump, deg
+_COLUMNS = 7  # largest number of polar diagrams side by side
 
 
 def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:

@@ -1,4 +1,6 @@
-"""Torque on the crank: records of the result of `balcli torque` and `analyze_torque`."""
+"""Define the records of the torque on the crank, the result of `balcli torque` and
+`analyze_torque`.
+"""
 
 from __future__ import annotations
 
@@ -105,7 +107,7 @@ class TorqueAnalysis(Result):
         engine: Analyzed engine; None for a given curve.
         spectra: Gas, inertia and total torque of the engine by order.
         cylinder: Number of the cylinder in `orders`.
-        load_Nm: Mean of the given load, and mean of the torque minus the load.
+        load_Nm: Mean of the given load, and mean of the difference of torque and load.
     """
 
     format: Literal["balcli.torque/1"] = "balcli.torque/1"

@@ -33,7 +33,7 @@ from .loads import CycleLoads
 from .records import TorqueAnalysis, write_whole
 
 _NO_INERTIA = "The uneven speed is not known: no inertia is given ([crank] inertia, [flywheel])."
-_size = partial(size_text, digits=None)  # with the default number of digits
+_size = partial(size_text, digits=None)  # a size with the default number of digits
 _PARTS = ("torque", "energy", "flywheel", "loads", "orders")
 
 
@@ -168,7 +168,7 @@ def _list_flywheel(
         small = number(100 * (wheel.fluctuation_small or 0.0))
         one_in = f"1/{number(1 / share)}" if share else "0"
         exact = number(100 * share)
-        yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small ones"
+        yield "fluctuation", f"{exact} % ({one_in}); {small} % by the rule for small fluctuations"
         low, high = wheel.speed_min_rpm or 0.0, wheel.speed_max_rpm or 0.0
         ends = ((low, wheel.speed_min_deg), (high, wheel.speed_max_deg))
         yield "speed", " to ".join(f"{number(rpm, 6)} rpm at {tenths(at)} deg" for rpm, at in ends)
@@ -189,8 +189,8 @@ def _list_flywheel(
 
 def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
     cut = (
-        "Half-way between neighbouring throws and as far outside the end ones; the shaft counts "
-        "as cut in each."
+        "Half-way between neighbouring throws, and as far outside the end throws; the shaft is "
+        "taken as cut in each bearing."
     )
     for title, word, each, note in (
         ("Crank pins", "cylinder", loads.pin or (), ""),
@@ -220,13 +220,13 @@ def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
     """
     orders, alone = list(result.orders), f"gas of {result.cylinder}"
     many = len(orders) == MOST_HARMONICS_UNASKED
-    note = "--orders asks for higher ones." if many else ""
+    note = "--orders lists higher ones." if many else ""
     kinds = {"torque": [order.torques.torque_Nm for order in orders]}
     if result.engine is not None:
         keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}
         kinds = {kind: [getattr(o.torques, key) for o in orders] for kind, key in keys.items()}
         kinds[alone] = [getattr(order.one_cylinder, keys["gas"]) for order in orders]
-        note = f"The last column is the gas torque of cylinder {result.cylinder} alone."
+        note = f"The last column is the gas torque of cylinder {result.cylinder} only."
     lines = list(zip(orders, *kinds.values(), strict=True))
     unit = system.moment.fit(max((h.amplitude for _, *line in lines for h in line), default=0.0))
     if result.engine is not None:

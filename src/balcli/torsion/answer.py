@@ -1,4 +1,4 @@
-"""Analysis of torsional vibration: `analyze_torsion`."""
+"""Analyze torsional vibration: `analyze_torsion`."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
-BREAKING = 1000e6  # vibratory stress, Pa, beyond the yield strength of the best steel
-ASTOUNDING = 45.0  # deg; usual are fractions of a degree, and a few degrees on soft couplings
+BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
+ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
 _ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
 
 
@@ -65,7 +65,7 @@ class TorsionQuestion(NamedTuple):
 
 
 class ChainNode(NamedTuple):
-    """Inertia of the chain.
+    """One inertia of the chain.
 
     Attributes:
         name: Name of the node.
@@ -99,8 +99,9 @@ class HolzerRow(NamedTuple):
         angle: Angle of the node, relative to the first node.
         torque_Nm: Torque of its inertia for 1 rad of the first node.
         sum_Nm: Torque of all inertias up to this node, carried by the shaft to the next node.
-        stiffness_Nm_per_rad: Stiffness of this shaft; null if it is rigid, 0 at the last node.
-        twist: Twist of this shaft.
+        stiffness_Nm_per_rad: Stiffness of the shaft to the next node; null if it is rigid, 0 at the
+            last node.
+        twist: Twist of the shaft to the next node.
     """
 
     node: str
@@ -228,10 +229,10 @@ def answer_question(
         tell: Called with the share of the work done so far.
 
     Raises:
-        BalcliError: a damper's node or inertia is given without its kind, or a damper without
+        BalcliError: A damper's node or inertia is given without its kind, or a damper without
             speeds; a response lacks excitation or passes an undamped resonance; a mode does not
             exist; a Holzer table is requested for a chain with loops; no node can carry the damper.
-        InputError: contradictions in the file.
+        InputError: The file contradicts itself.
     """
     kind, node, inertia = question.damper
     if kind is None:
@@ -297,8 +298,8 @@ def _tabulate(
         raise system.refusal(f"--holzer: {error}") from None
     if shape is not None and np.abs(table.angle * shape[first] - shape).max() > _ASTRAY:
         raise system.refusal(
-            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: that "
-            "hardly moves in it, or a branch swings by itself"
+            f"--holzer: mode {asked.mode} cannot be followed from {system.nodes[first]}: this node "
+            "hardly moves in the mode, or a branch swings by itself"
         )
     columns = (column.tolist() for column in (chain.inertia, *table[:5]))
     rows = tuple(map(HolzerRow, system.nodes, *columns))
@@ -387,8 +388,8 @@ def analyze_torsion(
     damper_at: str | None = None,
     damper_inertia: float | None = None,
 ) -> TorsionAnalysis:
-    """Torsional vibration of a crankshaft, or of any shafts: natural modes, critical speeds, and
-    vibratory torque and stress over a range of speeds.
+    """Return the torsional vibration of a crankshaft, or of any shafts: natural modes, critical
+    speeds, and vibratory torque and stress over a range of speeds.
 
     Args:
         source: Engine whose file has [torsion]; or the path, text or dict of tables of such a file
@@ -396,11 +397,11 @@ def analyze_torsion(
         speeds_rpm: Speeds of the forced vibration; default: only modes and criticals are computed.
         orders: Orders of the excitation to use, multiples of 1/2; default: all orders of a chain;
             for an engine, orders to 32, the firing order and its double.
-        damper: Kind of damper to size. It minimizes the largest stress over `speeds_rpm`, which
-            must be given; the results include it.
-        damper_at: Name of the node that carries it; default: the foremost part.
-        damper_inertia: Inertia of its ring, or of its pendulums about the axis, kg m2; default: the
-            inertia in the file, or a usual share of the mode's inertia.
+        damper: Kind of damper to size. It minimises the largest stress over `speeds_rpm`, which
+            must be given; the results include the damper.
+        damper_at: Name of the node that carries the damper; default: the foremost part.
+        damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
+            default: the inertia in the file, or a usual share of the mode's inertia.
 
     Returns:
         `modes` (`frequency_Hz`, `shape`), `criticals` (`speed_rpm`, `order`, `mode`), `response`
@@ -408,10 +409,10 @@ def analyze_torsion(
         largest of the range), and `barred_rpm`: the attributes are the keys of the JSON.
 
     Raises:
-        BalcliError: the file has no [torsion]; orders or inertia are impossible; a response lacks
+        BalcliError: The file has no [torsion]; orders or inertia are impossible; a response lacks
             excitation or passes an undamped resonance; no node can carry the damper.
-        InputError: the file has mistakes; the error lists all of them.
-        TypeError: an argument has the wrong type.
+        InputError: The file has mistakes; the error lists all of them.
+        TypeError: An argument has the wrong type.
 
     Example:
         >>> analyze_torsion(load("i6_diesel.toml"), range(1000, 2501, 25)).barred_rpm

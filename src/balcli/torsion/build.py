@@ -58,8 +58,8 @@ from .chain_file import ChainFile, ChainShaft as ShaftTable, Gear, refuse_node
 from .system import Excitation, Pendulums, TorsionalSystem, ViscousRing
 
 NO_DAMPERS: Mapping[str, Damper | None] = MappingProxyType({})
-_LIGHT = 0.05  # share of the smaller neighbor's inertia: a lighter shaft may be neglected
-_MOST_NAMED = 4  # shafts, in a message
+_LIGHT = 0.05  # a shaft below this share of the smaller neighbour's inertia may be neglected
+_MOST_NAMED = 4  # largest number of shafts that a message names
 _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
@@ -99,15 +99,15 @@ def assemble_system(
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
-    """Return the system; its rubber rings are nodes and shafts after all others. Half of the
-    inertia of a shaft counts at either end.
+    """Return the system; rubber rings are nodes and shafts after all others. Half of the inertia of
+    a shaft is added to the node at each end.
 
     Args:
         planned: Nodes, front to rear.
-        joining: Shafts between them.
-        keys: Loss of shafts without their own, and limits of stress and angle.
+        joining: Shafts between these nodes.
+        keys: Default loss of shafts, and limits of stress and angle.
         clamped: Nodes that are held.
-        fitted: Dampers by the name of their node, each in place of the first that the node has.
+        fitted: Dampers by the name of their node; each replaces the first damper of the node.
         others: Further attributes of the system.
     """
     nodes, shafts, rings, pendulums = list(planned), list(joining), [], []
@@ -164,7 +164,7 @@ def _place_dampers(
 
 
 def _find_stress(table: ShaftKeys) -> float:
-    """Return the shear stress at the surface for a torque of 1 N m, Pa; 0 without a diameter."""
+    """Return the shear stress at the surface under a torque of 1 N m, Pa; 0 without a diameter."""
     outer, inner = (table.diameter or 0.0) / 1e3, (table.bore or 0.0) / 1e3
     return find_shear_stress(outer, inner) if outer else 0.0
 
@@ -201,7 +201,7 @@ def build_chain(
         fitted: Dampers by node name; they replace those in the file.
 
     Raises:
-        InputError: nodes without a shaft, gears that lock each other, no node that can turn.
+        InputError: A node has no shaft, gears lock each other, or no node can turn.
     """
     index = {node.name: k for k, node in enumerate(file.node)}
     nodes = [PlannedNode(node, node.damping) for node in file.node]
@@ -260,7 +260,7 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     meshes, free = np.isinf(chain.stiffness), ~np.any(chain.clamped)
     apart = np.unique(find_pieces(chain).first)[1:].tolist()
     for node in apart:
-        text = f"{shorten(names[node])} hangs on nothing that hangs on {shorten(names[0])}"
+        text = f"{shorten(names[node])} is not connected to {shorten(names[0])}"
         yield Problem(f"node.{node + 1}", f"{text}; join them by a [[shaft]] or a [[gear]]")
     if locked := list(_find_contradiction(chain, paths, meshes)):
         yield from locked
@@ -273,16 +273,20 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
     roots = [*held.tolist(), *np.setdiff1d(first, first[held]).tolist()]
     joined = [branch.shaft for branch in grow_branches(chain, roots, meshes)]
     for mesh in np.setdiff1d(np.flatnonzero(meshes), joined).tolist():
-        hint = "nothing says how they share the torque; leave it out, or give a stiffness"
+        hint = "their shares of the torque are not determined; leave it out, or give a stiffness"
         yield Problem(paths[mesh], f"closes a loop of gears and rigid shafts: {hint}")
     yield from _find_contradiction(chain, paths, np.full(len(meshes), free))
     if system.angle_limit is not None and still[0]:
-        text = f"is of the first node, and {shorten(names[0])} stands still; leave it out, or begin"
-        yield Problem("angle_limit", f"{text} with the node that may swing so far")
+        text = (
+            f"applies to the first node, and {shorten(names[0])} is fixed; leave it out, or begin"
+        )
+        yield Problem("angle_limit", f"{text} the chain with the node that may swing so far")
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
             node = int(np.argmax(piece))
-            yield Problem.of_missing(f"node.{node + 1}.inertia", "nothing that turns has any")
+            yield Problem.of_missing(
+                f"node.{node + 1}.inertia", "no part that turns with it has any"
+            )
 
 
 def _find_contradiction(
@@ -344,7 +348,7 @@ def build_engine_system(
         fitted: Dampers by part name; they replace those in the file.
 
     Raises:
-        InputError: contradictions in [torsion], by their paths.
+        InputError: [torsion] contradicts itself; the error lists each contradiction by its path.
     """
     torsion = require_torsion(model, name)
     throws = list_throws(engine)
@@ -357,7 +361,7 @@ def build_engine_system(
     led, gears = _lead_outward(joints, throws), dict.fromkeys(throws, 1.0)
     for _, part, of in led:
         gears[part.name] = gears[of] if part.gear is None else part.gear
-    leading = [  # the shaft from a part's neighbor to the part; stiffness at the part's speed
+    leading = [  # the shaft from a part's neighbour to the part; stiffness at the part's speed
         PlannedShaft(part.name, place[of], place[part.name], part, gears[part.name] / gears[of])
         for _, part, of in joints
     ]
@@ -491,8 +495,8 @@ def excite_engine(model: EngineFile, engine: Engine, orders: Real | None) -> Exc
     engine has gas, gas torque.
 
     Args:
-        orders: Orders, shape (orders,); None: orders to HIGHEST_TORSION_ORDER_UNASKED, including
-            half orders for a four-stroke engine with gas, and the firing orders of
+        orders: Orders, shape (orders,); None: all orders up to HIGHEST_TORSION_ORDER_UNASKED (with
+            half orders for a four-stroke engine with gas), and the firing orders of
             `list_gas_orders`.
     """
     front = 0 if model.torsion is None else len(model.torsion.front)
@@ -529,9 +533,11 @@ def _find_misfits(
     led = {joint.part.name for joint in _lead_outward(joined, throws)}
     for k, (path, part, of) in enumerate(joints, len(throws)):
         if part.name in reserved:
-            yield Problem(f"{path}.name", f"{shorten(part.name)} is a name that throws have")
+            yield Problem(f"{path}.name", f"{shorten(part.name)} is the name of a throw")
         elif part.name in names[:k]:
-            yield Problem(f"{path}.name", f"{shorten(part.name)} is there twice; give each its own")
+            yield Problem(
+                f"{path}.name", f"{shorten(part.name)} is given twice; rename one of them"
+            )
         if of not in names:
             yield Problem(f"{path}.of", refuse_node(of, names))
         elif part.name not in led and part.name not in reserved:

@@ -1,4 +1,5 @@
-"""Torsional chains: inertias (nodes) joined by shafts and gears; and dampers as complex inertias.
+"""Compute torsional chains: inertias (nodes) joined by shafts and gears; and dampers as complex
+inertias.
 
 A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A ratio other than 1
 means a gear mesh at its start; its stiffness refers to the speed of its end. A gear mesh is a rigid
@@ -35,7 +36,7 @@ class ChainShaft(NamedTuple):
 
 
 class Pieces(NamedTuple):
-    """Nodes that turn together, piece by piece.
+    """Connected pieces of a chain.
 
     Attributes:
         first: (nodes,) first node of the piece that each node belongs to.
@@ -53,7 +54,8 @@ class Chain(NamedTuple):
 
     Attributes:
         inertia: (nodes,) kg m2; 0: massless.
-        start, end: (shafts,) indices of the two nodes of each shaft.
+        start: (shafts,) index of the node at the start of each shaft.
+        end: (shafts,) index of the node at the end of each shaft.
         ratio: (shafts,) speed of the end over that of the start.
         stiffness: (shafts,) N m/rad at the speed of the end; inf: a mesh of gears.
         clamped: (nodes,) whether a node is held.
@@ -105,8 +107,8 @@ def join_chain(
 
 
 def find_pieces(chain: Chain, shafts: NDArray[np.bool_] | None = None) -> Pieces:
-    """Return which nodes are connected by the selected shafts (mask, shape (shafts,)), by default
-    by all.
+    """Return the pieces of nodes that the selected shafts (mask, shape (shafts,); None: all)
+    connect.
     """
     joining = np.ones(len(chain.start), bool) if shafts is None else shafts
     first, pace = np.full(len(chain.inertia), -1), np.ones(len(chain.inertia))
@@ -177,7 +179,7 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
-_TUNED = 1e-12  # smallest detuning; a closer tuned damper would divide by zero
+_TUNED = 1e-12  # smallest detuning; with a smaller one, a division by zero would follow
 
 
 def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Real) -> Complex:
@@ -189,8 +191,8 @@ def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Rea
 
 def pendulum_inertia(mass: float, radius: float, length: float, order: Real) -> Complex:
     """Return the effective inertia `m (R + L)^2/(1 - n^2 L/R)` of a centrifugal pendulum of mass m
-    (kg) and length L (m), hung up at a radius R (m), at an order n of its node's speed. A pendulum
-    with n^2 = R/L holds its node at rest.
+    (kg) and length L (m) with its pivot at a radius R (m), at an order n of its node's speed. A
+    pendulum with n^2 = R/L holds its node at rest.
     """
     return mass * (radius + length) ** 2 / _detune(radius, length, order)
 
@@ -203,7 +205,7 @@ def pendulum_swing(radius: float, length: float, order: Real) -> Complex:
 
 
 def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> float:
-    """Return the damping c (N m s) with which a viscous ring minimizes the peak response of a
+    """Return the damping c (N m s) with which a viscous ring minimises the peak response of a
     system of one degree of freedom: `c = 2 J w / sqrt(2 (1 + ratio) (2 + ratio))`, where J (kg m2)
     is the ring's inertia, `ratio` is J over the system's inertia, and w (rad/s) is the natural
     frequency. The peak is then 1 + 2/ratio times the static response (Den Hartog, Mechanical

@@ -36,33 +36,40 @@ from .motion import compute_curves
 from .response import find_largest
 from .system import TorsionalSystem
 
-# Figures of a damper: key in JSON, number of the file's units in one SI unit, and label.
+# Figures of a damper: key in JSON, number of the file's units in an SI unit, and label.
 DAMPER_KEYS = {
     "inertia": ("inertia_kg_m2", 1e6, "ring"),
     "damping": ("damping_Nms_per_rad", 1.0, "damping"),
     "stiffness": ("stiffness_Nm_per_rad", 1.0, "stiffness"),
     "loss": ("loss", 1.0, "loss factor"),
-    "mass": ("mass_kg", 1.0, "pendulums, in all"),
-    "radius": ("radius_m", 1e3, "hung up at a radius of"),
+    "mass": ("mass_kg", 1.0, "mass of all pendulums"),
+    "radius": ("radius_m", 1e3, "radius of the pivots"),
     "length": ("length_m", 1e3, "length to the centre of mass"),
 }
 RUBBER_LOSS = 0.15  # usual loss factor of damper rubber
-FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}  # sized figure
-_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}  # search from start/width to start*width
+# Figure of each kind of damper that is sized.
+FIGURES = {"viscous": "damping", "rubber": "stiffness", "pendulum": "length"}
+# The search runs from start/width to start*width.
+_WIDTH = {"viscous": 30.0, "rubber": 4.0, "pendulum": 1.2}
 # default inertia of a damper, relative to the mode's inertia at the node
 _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
-WIDE_SWING = 20.0  # deg; on a circle the frequency is 0.8 % low there, by swing^2/16
-_MASSES = 16  # tried until pendulums swing by less than this
-_HEAVIER = 1.1  # times the mass that would do if the swing fell exactly as the mass grows
-_MOST_AT_ONCE = 3.0  # times the mass of the last try
-_MOST_PENDULUM = 0.5  # of the inertia of the node that carries the pendulums
-_PLACES = 13  # grid points of the search before the best is refined
-_RESPONSES = _PLACES + 2 + ROUNDS + 2  # expected; the last two are with and without the best damper
-_END = 0.99  # share of the (logarithmic) range beyond which an optimum counts as at its end
-_HARDLY = 0.99  # of the largest stress without a damper: one that leaves more is useless
-_HEAVY = 10.0  # times the inertia of the carrier: there is no room for more
+# Largest half swing of pendulums, deg. At this swing the frequency of a pendulum on a circle is
+# swing^2/16 = 0.8 % lower than at small swings.
+WIDE_SWING = 20.0
+_MASSES = 16  # largest number of masses that are tried to bring pendulums below WIDE_SWING
+_HEAVIER = 1.1  # margin on the mass that suffices if the swing is inversely proportional to it
+_MOST_AT_ONCE = 3.0  # largest ratio of a tried mass to the last one
+_MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of their node's
+_PLACES = 13  # number of grid points of the search; then the best one is refined
+# Expected number of responses; the last two are those with and without the best damper.
+_RESPONSES = _PLACES + 2 + ROUNDS + 2
+_END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at its end
+_HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
+_HEAVY = 10.0  # a damper of more than this multiple of its carrier's inertia has no room
 _LOSS = 0.01  # loss factor of shafts for comparing modes if nothing damps a resonance
-_MOVES = 2.0  # times the whole inertia: above this equivalent inertia a node hardly moves
+# If the equivalent inertia of a mode at a node is above this multiple of the whole inertia, the
+# node hardly moves.
+_MOVES = 2.0
 
 
 class DamperAsked(NamedTuple):
@@ -70,7 +77,7 @@ class DamperAsked(NamedTuple):
 
     Attributes:
         kind: Kind of damper: viscous, rubber or pendulum; None: no damper.
-        node: Name of the node that carries it; None: the first node that can carry one.
+        node: Name of the node that carries the damper; None: the first node that can carry one.
         inertia: Inertia of ring or pendulums, kg m2; None: the inertia of the file's damper on that
             node, or a usual share of the mode's inertia.
     """
@@ -85,30 +92,30 @@ class SizedDamper:
     """Sized damper, and the largest stress (or torque) without and with it.
 
     Attributes:
-        node: Name of the node that carries it.
+        node: Name of the node that carries the damper.
         kind: Kind of damper.
         inertia_kg_m2: Moment of inertia of the ring.
         damping_Nms_per_rad: Damping of the oil film.
         stiffness_Nm_per_rad: Stiffness of the rubber.
         loss: Loss factor of the rubber.
         mass_kg: Mass of all pendulums.
-        radius_m: Radius at which pendulums hang.
+        radius_m: Distance of the pivots of pendulums from the axis.
         length_m: Length of a pendulum.
-        mode: Number of the mode that it is tuned to.
+        mode: Number of the mode that the damper is tuned to.
         before_Pa: Largest stress without a damper on the node; null if it has no bound.
-        after_Pa: Largest stress with it.
+        after_Pa: Largest stress with the damper.
         before_Nm: Largest torque without a damper on the node, if no shaft has a diameter; null if
             it has no bound.
-        after_Nm: Largest torque with it, if no shaft has a diameter.
-        heat_W: Largest power that it dissipates.
-        heat_rpm: Speed of this largest power.
+        after_Nm: Largest torque with the damper, if no shaft has a diameter.
+        heat_W: Largest power that the damper dissipates.
+        heat_rpm: Speed at which it dissipates this power.
         doubts: Warnings of unlikely figures; left out if there are none.
         damper: Damper in the units of a file.
         start: Value of the sized figure (damping, stiffness or length) at which the search began,
             in the file's unit.
-        measure: Minimized quantity: stress, or torque if no shaft has a diameter.
+        measure: Minimised quantity: stress, or torque if no shaft has a diameter.
         before: Largest stress (Pa) or torque (N m) without a damper on the node; inf: no bound.
-        after: Largest stress (Pa) or torque (N m) with it.
+        after: Largest stress (Pa) or torque (N m) with the damper.
     """
 
     node: str
@@ -138,7 +145,7 @@ class SizedDamper:
 def size_damper(
     source: Source, asked: DamperAsked, speeds: Real, tell: Tell = tell_nobody
 ) -> SizedDamper:
-    """Return the damper that minimizes the largest stress of all shafts over a range of speeds.
+    """Return the damper that minimises the largest stress of all shafts over a range of speeds.
 
     Args:
         source: File of the chain or engine.
@@ -147,7 +154,7 @@ def size_damper(
         tell: Called with the share of the work done so far.
 
     Raises:
-        BalcliError: no node can carry the damper, or the system has no excitation.
+        BalcliError: No node can carry the damper, or the system has no excitation.
     """
     node = _find_carrier(source, asked, speeds)
     own = source.dampers[node]
@@ -164,8 +171,8 @@ def size_damper(
         first = _limit_swing(source, speeds, node, first)
 
     def judge(damper: Damper | None) -> float:
-        """Return the largest stress or torque with a damper; inf: no bound, or pendulums of a free
-        mass that swing too far.
+        """Return the largest stress or torque with a damper; inf if it has no bound, or if
+        pendulums whose mass is not given swing too far.
         """
         tell(min(next(tried) / _RESPONSES, 1.0))
         if free and damper and _find_pendulum_swing(source, node, damper, speeds) > WIDE_SWING:
@@ -214,7 +221,7 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
         if asked.node not in carriers:
             able = ", ".join(map(printable, carriers))
             name = printable(asked.node)
-            raise BalcliError(f'--damper-at "{name}": cannot carry a damper; what can is {able}')
+            raise BalcliError(f'--damper-at "{name}": cannot carry a damper; choose from {able}')
         return asked.node
     system = source.system(NO_DAMPERS)
     if asked.kind == "pendulum" and source.throws:
@@ -228,11 +235,11 @@ def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
 
 
 def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> Damper:
-    """Return pendulums that are heavy enough to swing by at most WIDE_SWING. The swing falls about
-    as the mass grows.
+    """Return pendulums that are heavy enough to swing by at most WIDE_SWING at some length of the
+    searched range, with this length. The swing is about inversely proportional to the mass.
 
     Raises:
-        BalcliError: They would have more than half of the inertia of their node.
+        BalcliError: The pendulums would have more than half of the inertia of their node.
     """
     bare = source.system({node: None})
     place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
@@ -276,7 +283,7 @@ def _find_hardest(system: TorsionalSystem, speeds: Real) -> tuple[int, float, fl
 
     Args:
         system: System with an excitation.
-        speeds: (speeds,) rising, rpm.
+        speeds: Rising speeds, rpm, shape (speeds,).
     """
     rings, stress = len(system.nodes) - 1 - system.last, system.stress_by_torque
     weights = (stress if any(stress) else np.ones(len(stress)))[: len(stress) - rings]
@@ -344,10 +351,10 @@ def _propose(
     crank_radius: float | None,
 ) -> Damper:
     """Return a damper of the requested inertia with the optimal tuning for a system with one degree
-    of freedom. Pendulums hang at the radius in the file, else at the crank radius (m).
+    of freedom. The pivots of pendulums are at the radius of the file, else at the crank radius (m).
 
     Raises:
-        BalcliError: the node is at rest in the mode, the radius of pendulums is unknown, or the
+        BalcliError: The node is at rest in the mode, the radius of pendulums is unknown, or the
             tuning is impossible.
     """
     if mode.shape[node] == 0:
@@ -383,7 +390,9 @@ def _propose(
 
 # ------------------------------------------------------------------ doubts
 def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterator[str]:
-    """Yield warnings of unlikely figures of a damper; `given`: its inertia comes from the user."""
+    """Yield warnings of unlikely figures of a damper; `given`: whether the user gave its
+    inertia.
+    """
     node, inertia = printable(found.node), found.inertia_kg_m2
     if inertia is None:  # pendulums, about the axis
         inertia = (found.mass_kg or 0.0) * ((found.radius_m or 0.0) + (found.length_m or 0.0)) ** 2

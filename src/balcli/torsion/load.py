@@ -30,7 +30,9 @@ from .build import (
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .system import TorsionalSystem
 
-_SMALL = 1.0  # kg mm2 or mm; a steel disc 10 mm across and 10 mm thick has 0.08 kg mm2
+_SMALL = (
+    1.0  # kg mm2 or mm; smaller figures are unlikely (a 10 mm steel disc, 10 mm thick: 0.08 kg mm2)
+)
 
 
 class Source(NamedTuple):
@@ -38,13 +40,13 @@ class Source(NamedTuple):
 
     Attributes:
         text: Text of the file; empty if nothing can be written into it.
-        doubts: Warnings of figures that are allowed and yet unlikely.
-        system: Function of dampers by the names of their nodes to the system that the file
-            describes, with these in place of its own; it raises InputError where the file
+        doubts: Warnings of figures that are allowed but unlikely.
+        system: Function that returns the system of the file. Its argument is a dict of dampers by
+            node name, which replace those of the file. It raises InputError if the file
             contradicts itself.
-        dampers: Nodes that may carry a damper, by name, each with the first damper it has.
+        dampers: Nodes that may carry a damper, by name, each with its first damper.
         engine: Engine of the file; None: it describes a chain.
-        throws: Names of the nodes of its throws.
+        throws: Names of the nodes of the engine's throws.
     """
 
     text: bytes
@@ -109,8 +111,8 @@ def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] =
 
 
 def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | None = None) -> Source:
-    """Return the source for an engine and its file. It has no text, so nothing can be written into
-    it.
+    """Return the source for an engine and its file. The source has no text, so that nothing can be
+    written into it.
 
     Raises:
         BalcliError: The file has no [torsion].

@@ -1,5 +1,7 @@
-"""Natural modes of a torsional system: frequencies, shapes, positions of nodes, losses. Critical
-speeds are those at which orders excite modes.
+"""Compute natural modes of a torsional system (frequencies, shapes, positions of nodes, losses),
+and critical speeds, at which orders excite modes.
+
+A mode has vibration nodes, places that do not move. The nodes of the chain are its inertias.
 
 Holzer's table lists angles and torques of a chain at one frequency, node by node, as in textbooks.
 """
@@ -29,8 +31,10 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(0.25j * np.pi)  # shift of the eigenvalues; no pole lies there: it would grow
-_INFINITE = 1e-6  # smaller eigenvalues, relative to the largest, are (double) zeros
+_SIGMA = np.exp(
+    0.25j * np.pi
+)  # shift of the eigenvalues; a pole there would grow, so none is there
+_INFINITE = 1e-6  # eigenvalues below this share of the largest are (double) zeros
 
 
 def find_chain_modes(chain: Chain) -> Modes:
@@ -99,9 +103,9 @@ def chain_loss(
 
 
 def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
-    """Return where the vibration nodes of a mode lie: the shafts whose ends turn against each
-    other, and the nodes of the chain that are at rest between neighbors that turn against each
-    other. Of meshed wheels at rest only the first is listed.
+    """Return the positions of the vibration nodes of a mode: the shafts whose ends turn against
+    each other, and the nodes of the chain that are at rest between neighbours that turn against
+    each other. Of meshed wheels at rest, only the first is listed.
 
     Args:
         chain: Inertias and shafts.
@@ -111,7 +115,7 @@ def locate_nodes(chain: Chain, shape: Real) -> tuple[Indices, Indices]:
     ahead = np.where(moves, np.sign(shape), 0)
     across = ahead[chain.start] * ahead[chain.end] * np.sign(chain.ratio)
     meshes = find_pieces(chain, np.isinf(chain.stiffness))
-    pulled = np.zeros((2, len(shape)), bool)  # whether a neighbor turns one way, and the other
+    pulled = np.zeros((2, len(shape)), bool)  # whether a neighbour turns forward, and backward
     for here, there in ((chain.start, chain.end), (chain.end, chain.start)):
         way, wheel = ahead[there] * np.sign(chain.ratio * meshes.pace[here]), meshes.first[here]
         pulled[0, wheel[way > 0]] = pulled[1, wheel[way < 0]] = True
@@ -159,7 +163,7 @@ class NaturalMode(NamedTuple):
         nodes: Number of vibration nodes, places that do not move.
         node_in: Names of the shafts with a vibration node: their ends turn against each other.
         node_at: Names of the nodes of the chain that are at rest between others that move.
-        loss: Loss factor of dampers and shafts together.
+        loss: Loss factor of the mode by dampers and shafts together.
         number: Number of the mode, from 1.
     """
 
@@ -257,7 +261,7 @@ def find_criticals(
     moved = np.array([mode.shape[excitation.nodes] for mode in modes])
     moved = moved.reshape(len(modes), 1, len(excitation.nodes))
     speeds = np.array([mode.omega for mode in modes])[:, None] / orders  # (modes, orders)
-    within = np.clip(speeds, low * RPM, high * RPM).ravel()  # others do not count
+    within = np.clip(speeds, low * RPM, high * RPM).ravel()  # speeds outside are ignored
     shape = len(orders), len(modes), len(orders), len(excitation.nodes)
     torque = np.einsum("kmks->mks", excitation.at(within).reshape(shape))
     phasors, rpm = np.abs(np.sum(torque * moved, axis=-1)), speeds / RPM
@@ -287,7 +291,7 @@ class Holzer(NamedTuple):
         total: (nodes,) torque of all inertias up to this node, carried by the shaft to the next.
         stiffness: (nodes,) stiffness of the shaft to the next node at the node's own speed; 0 at
             the last node.
-        twist: (nodes,) twist of that shaft, total over stiffness.
+        twist: (nodes,) twist of the shaft to the next node, total over stiffness.
         residual: torque that is left at the last node; 0 at a natural frequency. If the last node
             is clamped, the angle of the last row is 0 at a natural frequency instead.
     """
@@ -301,8 +305,7 @@ class Holzer(NamedTuple):
 
 
 def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = -1) -> Holzer:
-    """Return Holzer's table at a frequency w (rad/s); it begins at the first node with an angle of
-    1.
+    """Return Holzer's table at a frequency w (rad/s). The angle of the first node is 1.
 
     Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft and
     `w^2 J x = sum of T` for each node except the last, where the difference is the residual.
@@ -316,7 +319,7 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
         last: Node at which the table ends.
 
     Raises:
-        ValueError: the chain has a loop or two pieces; a node meshes with a clamped node; a node on
+        ValueError: The chain has a loop or two pieces; a node meshes with a clamped node; a node on
             the line other than the last is clamped; a branch resonates by itself.
     """
     count = len(chain.inertia)

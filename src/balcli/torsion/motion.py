@@ -1,4 +1,4 @@
-"""Forced steady vibration of a torsional system, order by order at given speeds.
+"""Compute the forced steady vibration of a torsional system, order by order at given speeds.
 
 Angles and torques are phasors c; their values in time are `Re(c e^{i w t})`. Frequencies w (rad/s)
 may have any shape; nodes or shafts are on the last axis of results. See `vibration`.
@@ -37,7 +37,7 @@ from .modes import chain_loss, find_chain_modes, find_poles
 from .system import TorsionalSystem
 
 _WEAK_PIVOT = 1e-3  # sums that cancel to a smaller share need a solution with pivoting
-_RESONANT = 1e-9  # share to which the sum of the whole chain cancels at resonance
+_RESONANT = 1e-9  # at resonance, the sum of the whole chain cancels to less than this share
 
 
 class Twist(NamedTuple):
@@ -71,8 +71,8 @@ def respond_chain(
             `TorsionalSystem.attached`.
 
     Raises:
-        UndampedResonanceError: a load drives an undamped mode at its own frequency.
-        ValueError: a shaft is a dashpot without a spring, and a frequency is 0.
+        UndampedResonanceError: A load drives an undamped mode at its own frequency.
+        ValueError: A shaft is a dashpot without a spring, and a frequency is 0.
     """
     frequency = np.asarray(frequency, float)
     shape, w = (*frequency.shape, len(chain.inertia)), frequency.ravel()
@@ -102,7 +102,7 @@ def _find_flexibilities(
     stiffness = (k * (1 + 1j * damping.loss))[:, None] + 1j * np.outer(c, w)
     bends = carrying & np.isfinite(chain.stiffness)
     if np.any(stiffness[bends] == 0):
-        raise ValueError("a shaft that is a dashpot alone carries nothing at a frequency of 0")
+        raise ValueError("a shaft that is only a dashpot carries no torque at a frequency of 0")
     return np.divide(1, stiffness, out=np.zeros_like(stiffness), where=bends[:, None])
 
 
@@ -205,8 +205,8 @@ def _solve_dense(
     return solution[:nodes], torque
 
 
-_EDGE = 1e-10  # a resonance counts as in the range if it lies beyond an end by less than this share
-_AT_A_TIME = 1 << 18  # angles and torques computed at once, which bounds the memory
+_EDGE = 1e-10  # a resonance beyond an end by less than this share counts as in the range
+_AT_A_TIME = 1 << 18  # number of angles and torques computed at once, which bounds the memory
 
 
 def _move(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
@@ -261,7 +261,7 @@ def compute_curves(system: TorsionalSystem, rpm: Real) -> tuple[Complex, Real]:
         and the angles of pendulums (rad). Heat (speeds, dampers), W: viscous rings, then rubber.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     curves, heat = zip(*compute_in_parts(system, rpm), strict=True)
     return np.concatenate(curves, axis=1), np.concatenate(heat)
@@ -272,7 +272,7 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     """Check that the vibration over a range of speeds (rpm) is bounded and fits into memory.
 
     Raises:
-        BalcliError: there are too many torques by order, shaft and speed, or an undamped mode is
+        BalcliError: There are too many torques by order, shaft and speed, or an undamped mode is
             driven at its own frequency.
     """
     excitation = system.require_excitation()

@@ -1,5 +1,5 @@
-"""Pictures of torsional vibration: shapes of modes, Campbell diagram, torque over speed, and its
-orders one behind the other (waterfall).
+"""Draw torsional vibration: shapes of modes, Campbell diagram, torque over speed, and the orders of
+the torque one behind the other (waterfall).
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_MOST_MODES = 4  # number of drawn shapes; more would hide each other
-_MOST_SHAFTS = 8  # number of shafts whose torque is drawn, the largest
-_WIDEST = 0.9  # width of a waterfall's orders over their gap: none overlap
-_MOST_ORDERS = 15  # number of orders in a Campbell diagram or waterfall, the largest
-_LEAST_ORDER = 0.01  # of the largest order: smaller ones are left out
+_MOST_MODES = 4  # largest number of drawn shapes; more would hide each other
+_MOST_SHAFTS = 8  # largest number of shafts whose torque is drawn
+_WIDEST = 0.9  # largest width of an order in a waterfall, as a share of the gap between orders
+_MOST_ORDERS = 15  # largest number of orders in a Campbell diagram or waterfall
+_LEAST_ORDER = 0.01  # orders below this share of the largest are left out
 _WORTH = 1e-3  # smallest share of work of a drawn critical
 
 
@@ -102,7 +102,7 @@ def make_torsion(
     """Return a page of pictures; `what` is "all" or one of `OF_TORSION`.
 
     Raises:
-        BalcliError: a waterfall needs a shaft, and there is none.
+        BalcliError: A waterfall needs a shaft, and there is none.
     """
     if what == "waterfall" and not result.shafts:
         raise BalcliError("--what waterfall: there is no shaft whose torque could be drawn")
@@ -214,7 +214,7 @@ def _shade_barred(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _draw_torque(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: System) -> None:
-    """Draw half of peak to peak of the largest torques of shafts; of stresses instead if the file
+    """Draw half of peak to peak of the largest torques of shafts, or of their stresses if the file
     limits the stress and a shaft has a diameter.
     """
     limit, stress = result.system.limit_pa, result.system.stress_by_torque

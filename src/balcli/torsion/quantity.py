@@ -21,7 +21,7 @@ from .modes import find_chain_modes
 from .response import find_largest
 from .system import Excitation, TorsionalSystem
 
-SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # ends relative to the file's speed, and count
+SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # ends relative to the file's speed; number of speeds
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
@@ -38,7 +38,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     """Check that the file has the mode or shaft of each quantity, and that a stress has a diameter.
 
     Raises:
-        BalcliError: The quantity does not exist; the error says which do.
+        BalcliError: The quantity does not exist; the error lists those that do.
         InputError: [torsion] contradicts itself.
     """
     require_torsion(model, quantities[0].name)
@@ -54,7 +54,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
 
 
 class Variants:
-    """Evaluates quantities for one variant of a file after another; constant parts are computed
+    """Evaluator of quantities, one variant of a file after the other; constant parts are computed
     once.
 
     Args:
@@ -71,7 +71,7 @@ class Variants:
         path.
 
         Raises:
-            InputError, BalcliError: the variant is impossible.
+            InputError, BalcliError: The variant is impossible.
         """
         own = {path: value for path, value in values.items() if not path.startswith("torsion.")}
         engine = self._engines.build(own)

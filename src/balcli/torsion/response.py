@@ -1,5 +1,5 @@
-"""Forced torsional vibration over speeds: torque and stress of every shaft, with all orders added
-up in time, swings and heat; and their largest values over a range of speeds.
+"""Compute forced torsional vibration over speeds: torque and stress of every shaft, with all orders
+added up in time; swings; heat; and the largest values over a range of speeds.
 
 The largest values may lie between the given speeds. Therefore the speeds at which an order meets a
 damped resonance are added, with the half-power speeds on both sides. Every peak that may be the
@@ -24,8 +24,10 @@ from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
 _ABOUT = np.array([[-0.5], [0], [0.5]])  # added speeds about a resonance, in units of its width
-_WIDE = 3.0  # in steps of the speeds; the given speeds show at least 95 % of a wider resonance
-_NEAR = 0.9  # of the largest value at these speeds: a higher point may lie between two of them
+# Width in steps of the speeds. Of a wider resonance, the given speeds show at least 95 %.
+_WIDE = 3.0
+# Next to a speed with this share of the largest value, a higher value may lie between two speeds.
+_NEAR = 0.9
 
 
 def find_largest(
@@ -45,7 +47,7 @@ def find_largest(
         together: Whether only the highest of all columns is needed, which takes less time.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, rpm)
     orders, speeds = system.require_excitation().orders, _add_resonances(system, rpm)
@@ -114,7 +116,7 @@ class WorstTorque:
 
     Attributes:
         speed_rpm: Speed at which it occurs.
-        half_peak_to_peak_Nm: Half of peak to peak.
+        half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added up in time.
         stress_Pa: Stress at that speed; left out without a diameter.
         orders: Torque by order at that speed.
     """
@@ -131,9 +133,9 @@ class ShaftResponse:
 
     Attributes:
         name: Name of the shaft.
-        half_peak_to_peak_Nm: Half of peak to peak, by speed.
+        half_peak_to_peak_Nm: Half of the peak-to-peak torque, by speed.
         sum_of_amplitudes_Nm: Sum of the amplitudes of all orders, by speed.
-        stress_Pa: Stress for half of peak to peak, by speed; left out without a diameter.
+        stress_Pa: Stress under `half_peak_to_peak_Nm`, by speed; left out without a diameter.
         worst: Largest torque over the range of speeds.
     """
 
@@ -148,8 +150,8 @@ class WorstSwing(NamedTuple):
     """Largest swing over the range of speeds; it may lie between given speeds.
 
     Attributes:
-        speed_rpm: Speed at which it occurs.
-        half_swing_deg: Half of peak to peak.
+        speed_rpm: Speed at which the largest swing occurs.
+        half_swing_deg: Half of the peak-to-peak swing.
     """
 
     speed_rpm: float
@@ -157,12 +159,12 @@ class WorstSwing(NamedTuple):
 
 
 class WorstPendulum(NamedTuple):
-    """Largest swing of pendulums over the range of speeds, between the speeds as well.
+    """Largest swing of pendulums over the range of speeds; it may lie between given speeds.
 
     Attributes:
-        speed_rpm: Speed at which it occurs.
-        half_swing_deg: Half of peak to peak.
-        order: Order with the largest amplitude there.
+        speed_rpm: Speed at which the largest swing occurs.
+        half_swing_deg: Half of the peak-to-peak swing.
+        order: Order with the largest amplitude at this speed.
     """
 
     speed_rpm: float
@@ -174,8 +176,8 @@ class WorstHeat(NamedTuple):
     """Largest power that a damper dissipates over the range of speeds.
 
     Attributes:
-        speed_rpm: Speed at which it occurs.
-        heat_W: Power.
+        speed_rpm: Speed at which the largest power occurs.
+        heat_W: Largest power.
     """
 
     speed_rpm: float
@@ -201,7 +203,7 @@ class PendulumSwing(NamedTuple):
 
     Attributes:
         node: Name of the node that carries them.
-        half_swing_deg: Half of peak to peak, by speed.
+        half_swing_deg: Half of the peak-to-peak swing, by speed.
         worst: Largest swing over the range of speeds.
     """
 
@@ -216,9 +218,10 @@ class TorsionResponse:
 
     Attributes:
         speeds_rpm: Speeds.
-        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all.
+        imep_Pa: Indicated mean effective pressure, by speed; left out if it is the same at all
+            speeds.
         shafts: Torque of each shaft.
-        free_end_deg: Half of the swing of the free end, by speed.
+        free_end_deg: Half of the peak-to-peak swing of the free end, by speed.
         free_end_worst: Largest swing of the free end.
         dampers: Heat of dampers, viscous rings first; left out if there are none.
         pendulums: Swing of pendulums; left out if there are none.
@@ -244,7 +247,7 @@ def find_response(
         tell: Called with the share of the speeds computed so far.
 
     Raises:
-        BalcliError: nothing excites the system, or an undamped mode is driven at its own frequency.
+        BalcliError: Nothing excites the system, or an undamped mode is driven at its own frequency.
     """
     refuse_unbounded(system, speeds_rpm)
     excitation, end, found = system.require_excitation(), len(system.shafts), []
@@ -295,9 +298,9 @@ def find_response(
 
 
 # ------------------------------------------------------------------ barred speeds
-_FINE = 0.003  # relative steps in which a range is searched for barred speeds
-_CLOSE = 0.9  # share of a limit: a peak or valley this near may pass it between the steps
-_HALVINGS = 24  # bisections of an interval of speeds in which a limit is passed
+_FINE = 0.003  # relative step with which a range is searched for barred speeds
+_CLOSE = 0.9  # a peak or valley above this share of a limit may pass it between the steps
+_HALVINGS = 24  # number of bisections of an interval of speeds in which a limit is passed
 
 
 def find_barred(system: TorsionalSystem, rpm: Real) -> tuple[tuple[float, float], ...] | None:

@@ -31,10 +31,10 @@ from .dampers import DAMPER_KEYS, FIGURES, SizedDamper
 from .response import ShaftResponse, TorsionResponse
 from .system import TorsionalSystem
 
-_MOST_MODES = 5  # with shapes; more do not fit into a terminal
-_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # most work first, and smallest share
-_MOST_LISTED = 8  # orders of the excitation or shafts without a diameter, in one sentence
-_MOST_ORDERS = 3  # listed for a shaft's torque
+_MOST_MODES = 5  # largest number of shapes in a table; more do not fit into a terminal
+_MOST_CRITICALS, _LEAST_SHARE = 24, 0.01  # largest number of listed criticals; least share of work
+_MOST_LISTED = 8  # largest number of orders, or shafts without a diameter, in one sentence
+_MOST_ORDERS = 3  # number of orders that are listed for a shaft's torque
 
 
 # ------------------------------------------------------------------ for programs
@@ -190,9 +190,9 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
             alone = number(shown.of(sized.start / size))
             text += f" (best for mode {sized.mode} alone: {alone})"
         pairs.append((label, text))
-    for when, size in (("none there", sized.before), ("it", sized.after)):
+    for when, size in (("without the damper", sized.before), ("with it", sized.after)):
         text = f"±{number(unit.of(size))} {unit.name}" if math.isfinite(size) else "without bound"
-        pairs.append((f"largest {sized.measure} with {when}", text))
+        pairs.append((f"largest {sized.measure} {when}", text))
     if sized.heat_W:
         heat = size_text(sized.heat_W, system.heat)
         pairs.append(("heat", f"up to {heat}, at {number(sized.heat_rpm)} rpm"))
@@ -201,7 +201,7 @@ def _show_damper(sized: SizedDamper, system: System) -> Facts:
 
 def _show_modes(result: TorsionAnalysis) -> Grid | Text:
     if not result.modes:
-        return Text("Natural modes", ("None: nothing has inertia that could swing on a shaft.",))
+        return Text("Natural modes", ("None: no inertia can swing on a shaft.",))
     modes = result.modes
     places = ([*mode.node_in, *(f"at {name}" for name in mode.node_at)] for mode in modes)
     columns = [
@@ -211,7 +211,7 @@ def _show_modes(result: TorsionAnalysis) -> Grid | Text:
         ("nodes", [str(mode.nodes) for mode in modes]),
         ("node in", [", ".join(each) or UNKNOWN for each in places]),
     ]
-    note = "Node in: the shafts whose ends turn against each other."
+    note = "Node in: shafts whose ends turn against each other."
     note += _name_left_out(result.system, ".")
     return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 4))
 
@@ -226,9 +226,9 @@ def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
         inertia = system.inertia.of(node.inertia_kg_m2)
         cells = [node.name, number(inertia) if inertia else "–", *[number(node.gear)] * geared]
         rows.append((*cells, *(f"{round(float(mode.shape[k]), 4) + 0.0:.4f}" for mode in shown)))
-    note = "Angle of each node by itself, the largest 1."
+    note = "Angle of each inertia at its own speed; the largest is 1."
     if left := len(result.modes) - len(shown):
-        note += f" JSON has {left} mode{'s' * (left > 1)} more."
+        note += f" JSON has {left} more mode{'s' * (left > 1)}."
     return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
 
 
@@ -248,7 +248,7 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
     ]
     note = f"Sorted by work. Share: part of all work done on that mode. {scope}"
     if left := len(criticals) - len(shown):
-        note += f" JSON has {left} more."
+        note += f" JSON has {left} more critical speed{'s' * (left > 1)}."
     return Grid.of_columns(title, columns, note)
 
 
@@ -258,7 +258,7 @@ def _name_scope(result: TorsionAnalysis) -> str:
     note += _name_left_out(result.system, ", which shift them.")
     if result.response is not None:
         return note
-    note += f" To {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
+    note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
     return note + _name_gas(result)
 
 
@@ -331,8 +331,9 @@ def _show_response(
     heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
     heads += [*[stress.name] * stressed, "largest orders"]
     note = (
-        "Largest half of peak to peak, orders added up in time; sum: of their amplitudes, which "
-        f"do not peak together. {worst}{_name_gas(result, ' Gas as in the file at every speed.')}"
+        "±: half of peak to peak at the worst speed, all orders added up in time. sum: sum of "
+        f"their amplitudes, too large because orders do not peak together. {worst}"
+        f"{_name_gas(result, ' Gas as in the file at every speed.')}"
     )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
@@ -397,7 +398,7 @@ def _judge_limits(result: TorsionAnalysis, units: System) -> Iterator[tuple[str,
         yield "barred speeds", spans or "none in this range"
     if bare:
         named = ", ".join(bare[:_MOST_LISTED]) + ", ..." * (len(bare) > _MOST_LISTED)
-        yield "not checked", f"{named}: no diameter, so the stress is not known"
+        yield "not checked", f"{named}: stress unknown without a diameter"
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

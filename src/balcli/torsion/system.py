@@ -1,5 +1,5 @@
-"""A torsional system in SI units: nodes and shafts with names, damping and excitation. Speeds and
-orders refer to a reference node, the crankshaft or the first node of a chain.
+"""Define a torsional system in SI units: nodes and shafts with names, damping and excitation.
+Speeds and orders refer to a reference node, the crankshaft or the first node of a chain.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class ViscousRing(NamedTuple):
 
 
 class Pendulums(NamedTuple):
-    """Pendulums on a node: total mass (kg), radius of suspension (m) and length of an arm (m)."""
+    """Pendulums on a node: total mass (kg), radius of the pivots (m) and length of an arm (m)."""
 
     node: int
     mass: float
@@ -36,14 +36,17 @@ class Pendulums(NamedTuple):
 
 
 class Excitation(NamedTuple):
-    """Torques by order, complex, their values `Re(c e^{i n t})`, t the angle of the reference.
+    """Complex torques c by order; the value of one is `Re(c e^{i n t})`, where t is the angle of
+    the reference.
 
     Attributes:
-        orders: (orders,) rising, above 0.
+        orders: (orders,) orders, rising, above 0.
         nodes: (sources,) node on which each source (a cylinder, a torque of a chain) acts.
-        steady: (orders, sources) N m, at the engine's own speed if the gas depends on the speed.
-        growing: (orders, sources) kg m2, the part that grows with the square of the speed.
-        gas: Gas that depends on the speed, by cylinder, in place of `steady`; None: it does not.
+        steady: (orders, sources) part that does not depend on the speed, N m; if the gas depends on
+            the speed, its part at the engine's own speed.
+        growing: (orders, sources) part that is proportional to the square of the speed, kg m2.
+        gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: it
+            does not depend on the speed.
     """
 
     orders: Real
@@ -76,7 +79,8 @@ class TorsionalSystem:
         chain: Inertias and shafts, including rubber rings.
         damping: Losses of shafts and nodes.
         stress_by_torque: (shafts,) shear stress at the surface for 1 N m, Pa; 0 without a diameter.
-        rings, pendulums: Dampers that are not nodes of the chain.
+        rings: Viscous dampers, which are not nodes of the chain.
+        pendulums: Pendulums, which are not nodes of the chain.
         excitation: Torques by order; None: no excitation.
         limit_pa: Stress above which a speed is barred.
         angle_limit: Half swing of the free end, rad, above which a speed is barred.
@@ -121,9 +125,9 @@ class TorsionalSystem:
             BalcliError: Nothing excites the system, or nothing at the requested orders.
         """
         if self.excitation is None:
-            raise self.refusal("nothing excites it; give an [[excitation]]: node, order, cos")
+            raise self.refusal("has no excitation; give an [[excitation]] with node, order and cos")
         if not len(self.excitation.orders):
-            raise self.refusal("nothing excites it at the orders asked for")
+            raise self.refusal("has no excitation at the requested orders")
         return self.excitation
 
     @property

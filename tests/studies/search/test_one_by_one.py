@@ -309,4 +309,4 @@ def test_a_line_of_equally_good_points_is_one_result():
     other = found.results[0].line
     assert other != found.results[0].design
     assert other["cylinder.1.piston_mass"] == pytest.approx(other["cylinder.2.piston_mass"], abs=1e-6)
-    assert "Row 1 stands for a straight line of equally good points" in " ".join(found._repr_html_().split())
+    assert "Row 1: all points on a straight line" in " ".join(found._repr_html_().split())

@@ -1,7 +1,7 @@
-"""Fourier coefficients of slider-cranks: from a closed form if they are centred, else by the FFT of
-samples over one revolution.
+"""Compute Fourier coefficients of slider-cranks: from a closed form if they are centred, else by
+the FFT of samples over one revolution.
 
-The closed form has a relative error of about 1e-14 in every order, samples an absolute error of
+The closed form has a relative error of about 1e-14 in every order, the FFT an absolute error of
 about 1e-16. Equal mechanisms are computed once.
 
 Accelerations are sampled directly, not differentiated, so that the error does not grow with the
@@ -21,7 +21,7 @@ from . import closed_form
 from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
 
-HARDEST = 1 << 16  # samples of a revolution for a mechanism at 1 - 1e-6 of locking
+HARDEST = 1 << 16  # number of samples of a revolution for a mechanism at 1 - 1e-6 of locking
 CLOSED_FORM = 4096  # highest order of closed forms; higher ones occur only close to locking
 
 
@@ -160,7 +160,7 @@ def sample_harmonics(
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square
 MOST_SAMPLES = 1 << 18
-_AT_ONCE = 1 << 16  # samples computed together, which fit into the processor's cache
+_AT_ONCE = 1 << 16  # number of samples computed together, which fit into the processor's cache
 _LIMIT = SAMPLING / 16  # limit of the aliases of a wanted order
 
 _SAMPLED: dict[str, Callable[[Motion], Array]] = {

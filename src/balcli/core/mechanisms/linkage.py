@@ -1,4 +1,4 @@
-"""Mechanisms with masses on planar curves: articulated rods and rotary engines.
+"""Compute mechanisms with masses on planar curves: articulated rods and rotary engines.
 
 In a plain slider-crank, the reciprocating mass moves along the cylinder's axis. Here a mass moves
 on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the curve of the
@@ -37,15 +37,15 @@ from .harmonics import count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
 from .slidercrank import SliderCrank, on_circle
 
-STEPS = 1440  # samples of a revolution that do not miss a locking position
+STEPS = 1440  # number of samples of a revolution that does not miss a locking position
 _FEWEST_SAMPLES = 32
-_AT_ONCE = 1 << 16  # cylinders x angles that are computed at once
+_AT_ONCE = 1 << 16  # largest number of cylinders x angles that are computed at once
 _SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay slowest
 
 
 @dataclass(frozen=True)
 class Linkage(ABC):
-    """The mechanism of an engine whose cylinders are no plain slider-cranks.
+    """The mechanism of an engine whose cylinders are not plain slider-cranks.
 
     Attributes:
         mass: Mass on each cylinder's curve, kg, shape (cylinders or 1, *trailing).

@@ -1,5 +1,5 @@
-"""Motion of mechanisms: a rod with its piston, whose lower end is on a moving pin. Each figure is
-computed when it is first used.
+"""Compute the motion of a rod and its piston. The lower end of the rod is on a moving pin. Each
+figure is computed when it is first used.
 
 All figures have the shape (*mechanisms, samples). Lengths are in crank radii; rates are derivatives
 by the crank angle. If the rod's lower end is at z (complex, x along the cylinder's axis), `sin beta
@@ -31,7 +31,9 @@ class PointMass(NamedTuple):
     """A mass on a closed curve (complex, x along the cylinder's axis).
 
     Attributes:
-        z, z1, z2: Curve and its first two derivatives by the crank angle.
+        z: Curve over the crank angle.
+        z1: First derivative of the curve by the crank angle.
+        z2: Second derivative of the curve by the crank angle.
         share: Share of the linkage's mass that moves on this curve.
     """
 
@@ -48,9 +50,10 @@ class Motion:
         pin: Lower ends of the rods.
         lam: Crank radius over rod length.
         lean: Sine of the rods' angle beta to the cylinders' axes.
-        cosine: Cosine of this angle.
+        cosine: Cosine of the rods' angle beta.
         points: Masses on curves; empty for plain slider-cranks.
-        condition: Relative error of piston and rod in roundings; it is large close to locking.
+        condition: Relative error of the motion of piston and rod, as a multiple of one rounding; it
+            is large close to locking.
     """
 
     def __init__(

@@ -1,9 +1,9 @@
-"""Power series in lambda of the centred slider-crank, for every order to any power, in exact
-fractions.
+"""Compute power series in lambda of the centred slider-crank, for every order to any power, in
+exact fractions.
 
-They are generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from that of
-beta = arcsin(lam sin psi); powers of the sine are finite Fourier sums. A series is a dictionary
-from the power of lambda to its coefficient; powers with the coefficient 0 are omitted.
+The series are generated from the binomial series of cos beta = sqrt(1 - lam^2 sin^2 psi) and from
+that of beta = arcsin(lam sin psi); powers of the sine are finite Fourier sums. A series is a
+dictionary from the power of lambda to its coefficient; powers with the coefficient 0 are omitted.
 """
 
 from __future__ import annotations

@@ -45,11 +45,11 @@ from .throws import search_throws
 
 ARRANGED = ("throws", "firing_order")
 _ARRANGED = {"crank.throws", "layout.firing_intervals"}  # varied by a search over these
-ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # deg
-NEAR_AN_END = 1e-4  # share of a range
-_ROUNDING = 1e-13  # relative difference of equal objectives
-_GRID, _SPREAD = 720, 2048  # candidates for one number, for several
-_SLOW = 32  # candidates for each number, if computed one by one
+ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # searched ranges, deg
+NEAR_AN_END = 1e-4  # values within this share of a range from its end count as the end
+_ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
+_GRID, _SPREAD = 720, 2048  # number of candidates for one number, and for several
+_SLOW = 32  # number of candidates for each number if they are computed one by one
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -108,7 +108,7 @@ class Search(Result):
         that no longer fits the throws is removed.
 
         Raises:
-            IndexError: there are fewer arrangements.
+            IndexError: There are fewer arrangements.
             TypeError: The rank is not a whole number.
         """
         check_type("rank", rank, (int, np.integer), "give a whole number from 1")
@@ -138,7 +138,7 @@ def search_arrangements(
             throws or firing orders stops.
 
     Raises:
-        BalcliError: the engine has nothing to arrange, no arrangement satisfies the limits, or a
+        BalcliError: The engine has nothing to arrange, no arrangement satisfies the limits, or a
             moment is requested and the file does not give the positions of the throws.
     """
     refuse_geared(model)
@@ -178,7 +178,7 @@ def read_ranges(model: EngineFile, over: Sequence[str]) -> dict[str, Parameter]:
     empty for throws and firing orders.
 
     Raises:
-        BalcliError: a name is unknown or a range wrong, keys cannot be combined, or a number is
+        BalcliError: A name is unknown or a range wrong, keys cannot be combined, or a number is
             given twice.
     """
     arranged = [text for text in over if text in ARRANGED]
@@ -227,7 +227,7 @@ def _check_angle(model: EngineFile, key: str) -> None:
     one_bank = plan_cylinders(model).banks < 2
     if one_bank or (key == "bank_angle" and model.layout.bank_angle is None):
         raise BalcliError(
-            f"there is no {name} to look for: the engine is no vee (give layout.bank_angle)"
+            f"there is no {name} to search: the engine is not a vee (give layout.bank_angle)"
         )
     if model.crank.throws is None and model.layout.firing_order is not None:
         raise BalcliError(
@@ -247,7 +247,7 @@ def _search_numbers(
     and a message on values that make no engine.
 
     Raises:
-        InputError: no values make an engine.
+        InputError: No values make an engine.
     """
     if model.gas is None and model.crank.throws is not None:
         model = drop_firing_order(model)
@@ -310,9 +310,9 @@ def search(
             "firing_order", its "bank_angle" or the "splay" of its split pins; or a number of the
             file with a range ("mount.left.loss=0.05:0.3"). Angles and numbers in a list are
             searched together.
-        minimise: Quantity to minimize (`moment.1.major`), several quantities, which are added up,
+        minimise: Quantity to minimise (`moment.1.major`), several quantities, which are added up,
             or a dict of weights by quantity.
-        maximise: Quantities to maximize, in the same form; exactly one of the two arguments is
+        maximise: Quantities to maximise, in the same form; exactly one of the two arguments is
             given.
         limits: Upper limits by quantity, in SI units.
         top: Largest number of results, at most 1000.

@@ -1,4 +1,4 @@
-"""The command `balcli search`: its options, and its tables and CSV."""
+"""The command `balcli search`: its options, tables and CSV."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from .answer import Search
 
 
-_EQUAL = 1e-9  # relative difference of equal objectives
+_EQUAL = 1e-9  # objectives that differ by less than this ratio are equally good
 
 
 def columns(result: Search) -> Columns:
@@ -74,7 +74,7 @@ def sheet(result: Search, _system: System) -> Sheet:
 
 
 def _title(result: Search) -> str:
-    """Return the title of the table, which tells whether the rows are equally good."""
+    """Return the title of the table, which states whether the rows are equally good."""
     costs = [one.objective for one in result.results]
     equal = len(costs) > 1 and max(costs) - min(costs) <= _EQUAL * max(map(abs, costs))
     word = "No best" if result.constant else "Equally good" if equal else "Best"
@@ -98,11 +98,11 @@ def _notes(result: Search) -> Iterator[str]:
         yield f"Some of these values make no engine, such as {result.refused}."
     if result.constant:
         same = " and ".join(q.name for q in result.objective.weights)
-        yield f"No effect on {same}: the same at every value searched."
+        yield f"No effect on {same}, which is the same at every searched value."
     for row, one in enumerate(() if result.constant else result.results, 1):
         if one.line and one.line != one.design:
             point = ", ".join(map(_setting, one.line.values()))
-            yield f"Row {row} stands for a straight line of equally good points through ({point})."
+            yield f"Row {row}: all points on a straight line through ({point}) are equally good."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
     names = (q.name for q in result.objective.quantities)
@@ -130,14 +130,14 @@ OVER = (
     "Several numbers and angles are searched together."
 )
 MINIMISE = (
-    "Minimize this sum of quantities, such as moment.1.major=1,force.2.major=0.5 (different units "
+    "Minimise this sum of quantities, such as moment.1.major=1,force.2.major=0.5 (different units "
     "need weights)."
 )
 LIMIT = (
     "Upper limit of a quantity, SI or with its unit, such as 'moment.2.major<100' or "
     "'shaft.flywheel.stress<60 N/mm^2'."
 )
-MAXIMISE = "Maximize this sum instead."
+MAXIMISE = "Maximise this sum instead."
 REQUIRE = "Allow only arrangements with even firing intervals."
 WRITE = "Write the engine file with the best result."
 goal = partial(optional, "WHAT[=WEIGHT],...")

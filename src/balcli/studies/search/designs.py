@@ -1,8 +1,8 @@
-"""Arrangements (designs) of a search, engine files with a design, and the objective: a weighted sum
-of quantities to minimise or maximise, and limits.
+"""Define the arrangements (designs) of a search and its objective, a weighted sum of quantities
+with limits; compute quantities and costs of candidates; write engine files with a design.
 
-The module also computes quantities and costs of candidates. If the quantities are sums over the
-cylinders, candidates are computed as arrays, otherwise one by one.
+If the quantities are sums over the cylinders, candidates are computed as arrays, otherwise one by
+one.
 """
 
 from __future__ import annotations
@@ -50,12 +50,12 @@ PATHS = {
     "splay": "crank.splay",
 }
 NOTE = "found by balcli"
-SAME = 1e-9  # relative difference of the objectives of mirror images
+SAME = 1e-9  # largest relative difference of the objectives of mirror images
 
 
 @dataclass(frozen=True)
 class Found:
-    """One arrangement.
+    """One arrangement that a search found.
 
     Attributes:
         design: Values by searched key, such as `throws`, `firing_order`, `bank_angle` or the dotted
@@ -104,8 +104,8 @@ def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple
 
     Args:
         design: Arrangement.
-        other_end: Cylinder in the place of each, seen from the other end; empty where strokes or
-            masses of the throws differ from there.
+        other_end: Cylinder that has the position of each one if the crank is seen from the other
+            end; empty if strokes or masses of the throws differ when seen from there.
     """
     if (order := design.get("firing_order")) is not None:
         for row in (order, [other_end.get(number, number) for number in order]):
@@ -153,8 +153,8 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     return new
 
 
-BROKEN = 1e200  # above all costs of candidates that satisfy the limits
-_SIGNED = ("mean", "min")  # parts of quantities of chapters
+BROKEN = 1e200  # cost above those of all candidates that satisfy the limits
+_SIGNED = ("mean", "min")  # endings of quantities that may be negative
 
 
 @dataclass(frozen=True)
@@ -205,9 +205,9 @@ def parse_objective(
     such as `moment.2.major<100`.
 
     Args:
-        minimise: Weighted sum to minimize.
+        minimise: Weighted sum to minimise.
         limits: Upper limits of quantities.
-        maximise: Weighted sum to maximize; exactly one of the two sums is given.
+        maximise: Weighted sum to maximise; exactly one of the two sums is given.
         with_gas: Whether the engine has gas.
 
     Raises:
@@ -280,24 +280,24 @@ def _parse_positive(text: str, whole: str, unit: str = "") -> float:
             number = read(text)
             break
     if not 0 < number < math.inf:
-        raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is no positive number')
+        raise BalcliError(f'"{whole}": {text.strip() or "nothing"} is not a positive number')
     return number
 
 
-AT_ONCE = 256  # candidates built as one engine
-_EVEN_DEG = 1e-9  # less uneven firings count as even
+AT_ONCE = 256  # largest number of candidates that are built as one engine
+_EVEN_DEG = 1e-9  # firings with a smaller deviation count as even
 
 
 @dataclass
 class NumbersJudge:
-    """Function that computes the costs of values of some numbers of an engine file.
+    """Function that computes the cost of an engine file with given values of some numbers.
 
     Attributes:
         model: Engine file.
         paths: Dotted names of the numbers.
         objective: Objective of the search.
         even_firing: Whether the cylinders have to fire evenly.
-        tell: Called with the number of candidates so far.
+        tell: Called with the number of candidates computed so far.
         refused: Error of the first candidate that makes no engine, with its numbers as `file`; None
             if there is no such candidate.
     """

@@ -30,14 +30,13 @@ from .throws import count_from
 
 @dataclass(frozen=True)
 class Slots:
-    """The firings of one cycle; BalcliError for too many cylinders to look for their orders.
+    """The firings of one cycle. The constructor raises BalcliError for too many cylinders.
 
     Attributes:
-        cells: the cylinders that fire.
-        top: angle of each cylinder's pin at its top dead centre, less its lead over its throw, deg,
-        by number.
-        cycle: length of a cycle, deg.
-        sense: -1 where the cylinders turn and the pins stand still.
+        cells: Cylinders that fire.
+    top: Angle of each cylinder's throw at its top dead centre, deg, by cylinder number.
+    cycle: Length of a cycle, deg.
+    sense: 1, or -1 if the cylinders turn about a crank at rest.
     """
 
     cells: tuple[Cell, ...]
@@ -62,7 +61,7 @@ class Slots:
         throw is at 0.
 
         Raises:
-            BalcliError: there are more than MOST_EVEN_CRANKS cranks.
+            BalcliError: There are more than MOST_EVEN_CRANKS cranks.
         """
         first = next(c.throw for c in self.cells if c.number == self.first)
         throws = [first, *({c.throw for c in self.cells} - {first})]
@@ -135,14 +134,14 @@ def find_slots(model: EngineFile) -> tuple[Slots, Array]:
     cranks with even firing orders; cylinder 1's throw is at 0.
 
     Raises:
-        BalcliError: a cylinder has its own throw angle, or there is no even firing order.
+        BalcliError: A cylinder has its own throw angle, or there is no even firing order.
     """
     layout = plan_cylinders(model)
     top_deg = assemble(model).pins.tops_deg
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
-            "cylinders with throws of their own leave no firing order to look for: give "
-            "crank.throws and splay alone"
+            "cylinders with throw angles of their own have no firing order to search: give only "
+            "crank.throws and splay"
         )
     at_throw = {
         cell.number: float(top_deg[cell.number]) - cell.bank * model.crank.splay

@@ -1,4 +1,4 @@
-"""Local optima of a function of one or several numbers in a box.
+"""Find local optima of a function of one or several numbers in a box.
 
 Candidates are spread over the box: on a grid for one number, in a quasi-random sequence for
 several. A local search starts from each candidate that is better than its neighbours. For one
@@ -22,15 +22,16 @@ from ...core.phasors import Array
 from ...engine.figures import ranked
 from .designs import BROKEN
 
-Judge = Callable[[Array], Array]  # returns costs of points (points, numbers)
+Judge = Callable[[Array], Array]  # function that returns the costs of points (points, numbers)
 _DIGITS = 12  # largest number of decimals of rounded numbers
-_LEVEL, _ROUNDING = 1e-9, 1e-12  # differences of equal costs: relative; share of the largest
+# Costs are equal if they differ by less than this ratio, or by less than this share of the largest.
+_LEVEL, _ROUNDING = 1e-9, 1e-12
 
 
 @dataclass(frozen=True)
 class Box:
-    """Ranges of some numbers, shape (numbers,) each. `ring` marks periodic numbers, which continue
-    at `low` beyond `high`.
+    """Ranges of some numbers, shape (numbers,) each. `ring` marks periodic numbers, for which
+    `high` is the same as `low`.
     """
 
     low: Array
@@ -39,7 +40,7 @@ class Box:
 
     @property
     def size(self) -> int:
-        """How many numbers the box has."""
+        """Number of dimensions of the box."""
         return len(self.low)
 
     @property
@@ -65,7 +66,7 @@ class Box:
             grid = np.linspace(self.low, self.high, count + 1 if self.high > self.low else 1)
             return grid[1:] if self.ring[0] else grid
         base = 2.0
-        for _ in range(50):  # the root of x**(numbers + 1) = x + 1
+        for _ in range(50):  # converges to the root of x**(numbers + 1) = x + 1
             base = (1 + base) ** (1 / (self.size + 1))
         steps = base ** -np.arange(1.0, self.size + 1)
         return self.low + self.span * ((0.5 + np.arange(count)[:, None] * steps) % 1)

@@ -44,10 +44,10 @@ from .designs import (
 
 Left: TypeAlias = tuple[int, ...]  # how often each angle remains to be assigned
 Allowed = Callable[[Array], NDArray[np.bool_]]
-IMAGES = 8  # candidates kept for each requested result: many are mirror images
-BLOCK = 7  # throws whose arrangements are all tried at once (7! = 5040)
+IMAGES = 8  # number of candidates kept for each requested result, since many are mirror images
+BLOCK = 7  # number of throws whose arrangements are all tried at once (7! = 5040)
 _DECIMALS = 9  # decimals (deg) to which equal angles agree
-_NEAR = 1e-11  # deg; distance from a short decimal that is rounding
+_NEAR = 1e-11  # deg; a smaller distance from a short decimal is rounding
 ROUNDING = 1e-12  # sums below this share of their parts' magnitudes are 0
 
 
@@ -109,8 +109,8 @@ def give_throws(model: EngineFile) -> EngineFile:
     """
     if any(own.throw is not None for own in model.cylinder.values()):
         raise BalcliError(
-            "cylinders with throws of their own take no part in an arrangement of crank.throws: "
-            "give crank.throws and splay alone"
+            "cylinders with throw angles of their own are not arranged by crank.throws: "
+            "give only crank.throws and splay"
         )
     if model.crank.throws is None:
         found = assemble(model).pins.throws_deg
@@ -118,7 +118,7 @@ def give_throws(model: EngineFile) -> EngineFile:
     if len(model.crank.throws or ()) < 2:
         raise BalcliError(
             "there is nothing to permute: the crank has one throw; give crank.throws, or a "
-            "layout.firing_order they follow from"
+            "layout.firing_order from which the throws follow"
         )
     return model
 
@@ -269,8 +269,8 @@ def find_best_throws(
         count: Largest number of arrangements.
         allowed: Function that returns which arrangements (candidates, throws) are allowed; None:
             all.
-        tell: Called with the share of all arrangements that are decided; it returns whether to stop
-            with the best of them.
+        tell: Called with the share of all arrangements that are decided; it returns whether to
+            stop with the best one so far.
 
     Raises:
         BalcliError: There are more than MOST_ARRANGEMENTS.
@@ -290,7 +290,7 @@ class _BranchAndBound:
     throw is fixed and not counted.
 
     Attributes:
-        best: Angles of all throws of the best so far, deg, shape (at most count, throws).
+        best: Throw angles of the best arrangements so far, deg, shape (at most count, throws).
     """
 
     def __init__(
