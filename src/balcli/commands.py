@@ -91,18 +91,10 @@ def engines(
         str,
         typer.Option(
             metavar="WORDS",
-            help="List those whose name, title, source, lesson or tables (gas, torsion) have the "
-            "words.",
+            help="List those whose name, class (aero, car, marine), title, source, lesson or "
+            "tables (gas, torsion) have the words.",
         ),
     ] = "",
-    group: Annotated[
-        str | None,
-        typer.Option(
-            "--class",
-            metavar="CLASS",
-            help="List one class: layout, aero, car, historic, marine or motorcycle.",
-        ),
-    ] = None,
     force: Force = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it.
@@ -113,10 +105,10 @@ def engines(
       balcli engines i4 my_engine.toml
     """
     if name is None:
-        emit(_list(examples.find(find, group)))
+        emit(_list(examples.find(find)))
         return
-    if find or group:
-        raise BalcliError("--find and --class list engines; NAME prints one: give one of the two")
+    if find:
+        raise BalcliError("--find lists engines; NAME prints one: give one of the two")
     text = examples.text(name)
     require_ending(path, ".toml", "FILE")
     refuse_existing(path, force)
