@@ -36,7 +36,6 @@ SPEED = 9.0  # rpm, least; the largest ship engines idle at 15, and 1 rad/s is 9
 # Engines with a stroke over 1 m, or so slow with a stroke over two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
-NO_DISTANCE = 1e-6  # mm: smaller distances from the axis are rounding
 OFFSET = 0.2  # share of the stroke; pin offsets are up to 0.05, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # bar; engines have 50 to 250
 # Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
