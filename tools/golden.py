@@ -67,7 +67,7 @@ balance --schemes
 engines
 engines i4
 engines --find v8
-engines --class marine
+engines --find marine
 engines i3 mine.toml
 engines nosuch
 new inline x.toml

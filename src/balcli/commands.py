@@ -97,18 +97,10 @@ def engines(
         str,
         typer.Option(
             metavar="WORDS",
-            help="List those whose name, title, source, lesson or tables (gas, torsion) have the "
-            "words.",
+            help="List those whose name, class (aero, car, marine), title, source, lesson or "
+            "tables (gas, torsion) have the words.",
         ),
     ] = "",
-    group: Annotated[
-        str | None,
-        typer.Option(
-            "--class",
-            metavar="CLASS",
-            help="List one class: layout, aero, car, geared, historic, marine or motorcycle.",
-        ),
-    ] = None,
     force: Force = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it, with the files of its
@@ -120,10 +112,10 @@ def engines(
       balcli engines i4 my_engine.toml
     """
     if name is None:
-        emit(_list(examples.find(find, group)))
+        emit(_list(examples.find(find)))
         return
-    if find or group:
-        raise BalcliError("--find and --class list engines; NAME prints one: give one of the two")
+    if find:
+        raise BalcliError("--find lists engines; NAME prints one: give one of the two")
     text = examples.text(name)
     require_ending(path, ".toml", "FILE")
     beside = {} if path is None else examples.list_engine_files(name)

@@ -35,7 +35,6 @@ SPEED = 9.0  # lowest speed, rpm; the largest ship engines idle at 15, and 1 rad
 # Engines with a stroke above 1 m, and slow engines with a stroke above two bores, are two-strokes.
 CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
-NO_DISTANCE = 1e-6  # mm; smaller distances from the axis are rounding
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
 # Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa

@@ -48,20 +48,16 @@ class Example(NamedTuple):
         return all(word in searched for word in words.lower().split())
 
 
-def find(words: str = "", group: str | None = None) -> list[Example]:
+def find(words: str = "") -> list[Example]:
     """Return the examples that mention all the words; layouts first, then by class and name.
 
     Args:
         words: Words with spaces between them.
-        group: Class of the examples; None: all.
 
     Raises:
-        BalcliError: There is no such class, or no example mentions the words.
+        BalcliError: No example mentions the words.
     """
-    if group is not None and group not in groups():
-        raise BalcliError(f'there is no class "{group[:60]}" of engines: {", ".join(groups())}')
-    known = [_read(path) for path in _find_paths().values() if group in (None, _group(path))]
-    found = [example for example in known if example.mentions(words)]
+    found = [example for example in map(_read, _find_paths().values()) if example.mentions(words)]
     if not found:
         raise BalcliError(f'no example mentions "{words[:60]}": balcli engines lists them all')
     return found
@@ -70,11 +66,6 @@ def find(words: str = "", group: str | None = None) -> list[Example]:
 def names() -> list[str]:
     """Return the short names of all examples, layouts first, then by class."""
     return list(_find_paths())
-
-
-def groups() -> list[str]:
-    """Return the classes of examples, layouts first."""
-    return list(dict.fromkeys(map(_group, _find_paths().values())))
 
 
 def is_example(name: str) -> bool:

@@ -83,24 +83,18 @@ Orders = Annotated[
         "--orders",
     ),
 ]
-Only = Annotated[
-    str | None,
-    optional(
-        "WHAT,...",
-        f"Compute only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; or inner "
-        "(shear, bending, bearing loads along crankshaft and block) and guide (H- and X-type).",
-        "--only",
-    ),
-]
+_ONLY = (
+    f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, bearing "
+    "loads along crankshaft and block), guide (H- and X-type)"
+)
+Only = Annotated[str | None, optional("WHAT,...", f"{_ONLY}.", "--only")]
 OnlyParts = Annotated[
     str | None,
     optional(
         "WHAT,...",
-        f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, "
-        "bearing loads along crankshaft and block), guide (H- and X-type), "
-        "journals (torque along the crankshaft), masses, parts (balancer shafts in their "
-        "bearings, counterweights as sectors), pru (power related unbalance); or xy, "
-        "textbook, verdict.",
+        f"{_ONLY}, journals (torque along the crankshaft), masses, parts (balancer shafts in their "
+        "bearings, counterweights as sectors), pru (power related unbalance); or xy, textbook, "
+        "verdict.",
         "--only",
     ),
 ]

@@ -44,7 +44,6 @@ WEIGHTS = "counterweights"
 WEIGHTS_AT_THROWS = "counterweights at every throw"
 SHAFT = "shaft at -1"
 SHAFTS = "shafts at +2 and -2"
-STEPS = (AS_DRAWN, WEIGHTS, WEIGHTS_AT_THROWS, SHAFT, SHAFTS)
 
 _AT_THROWS = (
     "At every throw, against the part of order 1 that turns with the crank, so that main bearings "

@@ -188,11 +188,7 @@ def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dic
         raise BalcliError("--position takes one z or two")
     first, other = places[0], places[1] if len(places) > 1 else z_ref
     if first == other:
-        raise BalcliError(
-            f"--position {1e3 * first:g}: no lever to the reference at z = {1e3 * z_ref:g}"
-            if len(places) == 1
-            else f"--position {1e3 * first:g},{1e3 * other:g}: no lever between the two places"
-        )
+        raise BalcliError(f"--position {1e3 * first:g}: no lever to z = {1e3 * other:g}")
     force = moment / (first - other)
     return {first: force} if len(places) == 1 else {first: force, other: -force}
 
