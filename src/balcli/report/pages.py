@@ -95,6 +95,28 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
     put_legend_above(ax, 3)
 
 
+def draw_radius_roses(ax: Any, banks: Banks) -> None:
+    """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks over a
+    whole turn: a circle, a rose, and for a flat-plane V8 the four-leaved rose of Liu (figure 8),
+    thick in the range of real bank angles.
+    """
+    half = np.radians(banks.angles_deg) / 2
+    ax.set_theta_zero_location("N")
+    ax.set_theta_direction(-1)
+    ratio = np.abs(banks.find_radii()[2])
+    drawn = ratio < _LARGEST_RATIO
+    for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
+        width = 1.0 if start else 2.4
+        ax.plot(start + sense * half[drawn], ratio[drawn], color=GREEN, linewidth=width)
+    both = np.concatenate([-half[::-1], half])
+    for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
+        ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
+    marks = np.arange(0, 360, 30)
+    angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
+    ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
+    ax.set_title("The same in the directions of the banks", pad=6)
+
+
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
     """Draw the magnitudes of both rotating vectors over the bank angle in polar coordinates: the
     radius is the magnitude, and the directions are those of the two banks.
@@ -332,7 +354,8 @@ def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
         size = size_text(largest, unit, 2)
         return f"Force of order {banks.order:g}: negligible ({size}), whatever the bank angle"
     if subject.study.pair:
-        draw_radii(fig.subplots(), banks)
+        draw_radii(fig.add_subplot(1, 2, 1), banks)
+        draw_radius_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks)
         return ""
     draw_end_curves(fig.add_subplot(1, 2, 1), banks, unit)
     draw_roses(fig.add_subplot(1, 2, 2, projection="polar"), banks, unit)

@@ -258,5 +258,6 @@ def tell_small(largest: Residual, sought: Sequence[ResidualPart], scales: Scales
     size = f"{largest.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
     return (
         f"the largest {part.kind} {turning} the crank is {size} (order {largest.order}), small "
-        f"compared with one cylinder's; --order {largest.order} fits it"
+        f"compared with one cylinder's; --order {largest.order} fits it, and balance without "
+        "--scheme lists the measures that are worth it"
     )
