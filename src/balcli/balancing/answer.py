@@ -410,7 +410,13 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         raise BalcliError(f"scheme {remedy.scheme}: no engine file can describe its devices")
     if remedy.scheme == FIT:
         return _fill_in(old, remedy, file)
-    base = remedy.start or build(parse(text, file))
+    model = parse(text, file)
+    if sum(axle.has_cranks for axle in model.axle) > 1:
+        raise BalcliError(
+            f"{file}: several axles have cranks, and the scheme does not divide its weights between "
+            "them; balcli locomotive --write does"
+        )
+    base = remedy.start or build(model)
     if remedy.start is not None and remedy.start.model is not None:
         weights = remedy.start.model.counterweight
         first = Remedy(remedy.scheme).add_devices(weights, "what the measured mass stands for")

@@ -155,16 +155,16 @@ SEARCHED = tuple(
     f"half_cycle_{what}" for what in ("Pmax_min", "k0", "alpha0_deg", "phi0_deg", "theta0_deg")
 )
 SEARCH = "half-cycle search, theta to 180 deg only: larger forces follow"
-_MOST_RATIOS = 1000  # each takes a search of 40,000 forces
+_MOST_RATIOS = 1000  # limit, because each ratio takes a search of 40,000 forces
 FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
-    """Return the true optimum, the printed search, and the force that the printed choice leaves
-    over the whole revolution.
+    """Return the true optimum, the result of the printed search, and the largest force over the
+    whole revolution with the printed counterweight.
 
     Raises:
-        BalcliError: there are too many crank ratios.
+        BalcliError: There are too many crank ratios.
     """
     columns = (*printed.columns, *SEARCHED, *FOLLOWED)
     stub = ranges.lam or printed.column("lambda")
@@ -191,7 +191,7 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
 
 def _true(lam: float) -> Row:
     """Return the smallest peak, its k and alpha, and the direction and crank angle of one of its
-    three equal maxima: 0, along the cylinder.
+    three equal maxima, which is along the cylinder: both angles are 0.
 
     At theta = 0, P = 1 + lam - k falls with k. The two other maxima, symmetric to the cylinder,
     rise with k. The best k makes all three equal.

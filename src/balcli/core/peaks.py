@@ -246,15 +246,15 @@ def _climb(
 
 
 # ------------------------------------------------------------------ functions of one variable
-_PARTS = 8  # of an interval; the two parts next to a peak are the next interval
+_PARTS = 8  # parts into which an interval is cut; the two next to a peak are the next interval
 _CUTS = 4
 
 
 def find_highest(
     judge: Callable[[Real, Indices], Real], places: Real, heights: Real, level: Real, near: float
 ) -> tuple[Real, Real]:
-    """Return place and height of the maximum of each function, shape (functions,), between the
-    given places as well.
+    """Return place and height of the maximum of each function, shape (functions,). A maximum may
+    lie between the given places.
 
     An interval between neighbouring places is searched if it may contain the maximum: its higher
     end is at least `near * level`, and no farther below the level than the function changes from
@@ -291,9 +291,10 @@ def find_peaks_between(
     A peak that is narrower than an eighth may be missed.
 
     Args:
-        judge: Returns the values of some functions. Its arguments are places, shape (places, some),
-            and the index of the function of each column, shape (some,).
-        low, high: Ends of the intervals, shape (intervals,).
+        judge: Function that returns the values of some functions. Its arguments are places, shape
+            (places, some), and the index of the function of each column, shape (some,).
+        low: Lower ends of the intervals, shape (intervals,).
+        high: Upper ends of the intervals, shape (intervals,).
         which: Index of the function of each interval, shape (intervals,).
     """
     shares = np.arange(1, _PARTS)[:, None] / _PARTS
@@ -333,7 +334,7 @@ def _raise(best: Real, highest: Real, going: Indices, place: Real, height: Real)
 
 
 Judged = TypeVar("Judged", float, tuple[float, float])
-ROUNDS = 20  # of golden section: they narrow an interval to 1e-4 of its width
+ROUNDS = 20  # steps of golden section, which narrow an interval to 1e-4 of its width
 _GOLDEN = (math.sqrt(5) - 1) / 2
 
 
@@ -345,8 +346,9 @@ def find_least(
 
     Args:
         judge: The function; tuples are compared by their first value, then by the next.
-        low, high: The two places.
-        rounds: Steps, each of which narrows the interval to 0.618 of its width.
+        low: Lower end of the interval.
+        high: Upper end of the interval.
+        rounds: Number of steps, each of which narrows the interval to 0.618 of its width.
     """
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_left, at_right = judge(left), judge(right)

@@ -323,7 +323,7 @@ def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) ->
 
 # ------------------------------------------------------------------ forces in a plane
 _TURN_ON_PANEL = 4.0  # rad; if e^{in angle} turns no farther on a panel, these terms suffice
-_AT_ONCE = 1 << 20  # orders x angles, which bounds the memory
+_AT_ONCE = 1 << 20  # largest number of orders x angles, which bounds the memory
 
 
 @dataclass(frozen=True, eq=False)
@@ -360,7 +360,7 @@ class Panels:
             forward.append(turned @ weighed)
             backward.append(np.conj(turned) @ weighed)
         ahead, against = np.concatenate(forward), np.concatenate(backward)
-        against[orders == 0] = 0.0  # a mean is kept in one of both
+        against[orders == 0] = 0.0  # only the other vector holds the mean
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
         there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has
         ahead[~there] = against[~there] = 0.0
@@ -394,7 +394,7 @@ def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
     """Return panels for forces that are smooth between breakpoints, fine enough for these orders.
 
     Args:
-        forces: Returns the values of all forces at angles (rad).
+        forces: Function that returns the values of all forces at angles (rad).
         breaks: Rising breakpoints, rad; the last is one period after the first.
         highest_order: Highest order that is wanted.
     """

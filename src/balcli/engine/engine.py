@@ -42,8 +42,7 @@ class Bearings(NamedTuple):
     Attributes:
         pin_m2: Projected area (diameter times width) of each crank pin's bearing.
         main_m2: Projected area of each main bearing.
-        pin_m: Outer and inner diameter of each crank pin.
-        main_m: Outer and inner diameter of each main journal.
+        pin_m, main_m: Outer and inner diameter of each crank pin and of each main journal.
     """
 
     pin_m2: float | None = None
@@ -63,8 +62,7 @@ class TurningInertia(NamedTuple):
     """Constant inertia of turning parts, referred to the crank speed, kg m2.
 
     Attributes:
-        momentum: Angular momentum at crank speed 1: `J + sum k J_s`, with the ratio k and the
-            inertia J_s of each shaft.
+        momentum: Angular momentum at crank speed 1: `J + sum k J_s` (ratio k, inertia J_s).
         energy: Twice the kinetic energy at crank speed 1: `J + sum k^2 J_s`.
     """
 
@@ -416,8 +414,7 @@ class Engine:
 
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
-        """Return the crank radius of the throw nearest to a plane, m; if several are equally near,
-        that of the first.
+        """Return the crank radius of the throw nearest to a plane, m; of equal ones the first.
 
         Args:
             z_m: Position of the plane along the crank, m.

@@ -262,7 +262,8 @@ _NEEDED = {
     "run": "write [[run]] for every run, the rotor as found first",
 }
 RUNS_FILE = (
-    "no file of runs; that is TOML text with tables such as [[run]]: `balcli new field` writes one"
+    "not a file of runs, which is TOML text with tables such as [[run]]: `balcli new field` writes "
+    "one"
 )
 
 
@@ -367,4 +368,4 @@ def _check_run(file: RunsFile, k: int, run: Run, sensors: int) -> Iterator[Probl
         yield Problem.of_missing(f"run.{k}.speed", hint)
     for name in [name for name in run.weights if name not in file.planes]:
         hint = suggest_nearest(name, file.planes, f"there are {', '.join(file.planes)}")
-        yield Problem(f"run.{k}.weights.{printable(name)}", f"is no plane; {hint[:200]}")
+        yield Problem(f"run.{k}.weights.{printable(name)}", f"is not a plane; {hint[:200]}")

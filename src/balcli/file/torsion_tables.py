@@ -171,8 +171,10 @@ class Damper(FileTable):
                 yield "has length and order; leave one of them out"
         if missing:
             yield f"is {self.kind} and lacks {' and '.join(missing)}"
-        if strange := sorted(given - set(wanted)):
-            yield f"is {self.kind}, which has no {' and no '.join(strange)}"
+        owners = _KEYS_OF_KIND | {"pendulum": (*_KEYS_OF_KIND["pendulum"], *_TUNINGS)}
+        for key in sorted(given.difference(wanted)):
+            kinds = " or ".join(kind for kind, keys in owners.items() if key in keys)
+            yield f"is {self.kind}; {key} is a key of kind = '{kinds}'"
 
 
 class NodeKeys(FileTable):

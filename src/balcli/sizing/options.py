@@ -13,18 +13,18 @@ from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 
-DESIGNS = ("a", "b")  # pin on the shaft, slot in the disc; pin on the disc, slot on the shaft
-CRITERIA = ("largest", "mean")  # remaining force of shafts that turn unevenly
+DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
+CRITERIA = ("largest", "mean")  # force that shafts of uneven speed leave, to be minimised
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 
 # Name, options and meaning of each scheme.
 _SCHEMES = """
-auto | | orders 1 and 2: counterweights, then shafts as far as they are worth one
+auto | | orders 1 and 2: counterweights, then shafts where they cancel enough
 complete | | all of orders 1 and 2, however small: counterweights, then shafts
 step | step | a step of the ladder that balance prints, by its name or number
-counterweights | order planes | rotating masses, and the part of order 1 that turns with the crank
+counterweights | order planes | against rotating masses and what turns with the crank in order 1
 factor | factor measured planes | the shop's balance factor, with the bobweight card
 minimax | planes position orders | the counterweight that leaves the smallest peak force
 ellipse | direction ratio planes position | the counterweight that leaves order 1 a wanted \

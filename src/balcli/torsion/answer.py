@@ -314,11 +314,11 @@ def parse_half_orders(text: str | None) -> Real | None:
     """Return the orders in a text: `0.5-8` in steps of a half, `1-8` in whole steps, or `1,2.5,4`.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if text is None:
         return None
-    right = "give multiples of 0.5 such as 0.5-8 (halves too), 1-8 (whole ones) or 1,2.5,4"
+    right = "give multiples of 0.5 such as 0.5-8 (with halves), 1-8 (whole ones) or 1,2.5,4"
     bounds = f"must rise, from above 0 to {HIGHEST_TORSION_ORDER} at most"
     found = read_orders(text, right, bounds, 0.5, HIGHEST_TORSION_ORDER)
     return np.array(sorted(set(found)), float)
@@ -328,7 +328,7 @@ def _parse_trial(text: str) -> HolzerAsked:
     """Return the number of a mode, or a trial frequency such as `20 rad/s`, `12 Hz` or `900 rpm`.
 
     Raises:
-        BalcliError: the text has another form.
+        BalcliError: The text has another form.
     """
     if re.fullmatch(r"[1-9]\d{0,5}", text.strip()):
         return HolzerAsked(int(text))
@@ -353,7 +353,7 @@ def parse_question(
     """Return the request in these options.
 
     Raises:
-        BalcliError: one of them cannot be read.
+        BalcliError: An option cannot be read.
     """
     heavy = damper_inertia
     inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
@@ -366,7 +366,7 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
     """Check that a picture over speed has a range of speeds.
 
     Raises:
-        BalcliError: no range was given.
+        BalcliError: No range was given.
     """
     if asked.speeds_rpm is None and what in ("response", "waterfall"):
         raise BalcliError(f"--what {what}: give the range, such as --speeds 1000:2500")

@@ -97,7 +97,7 @@ LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)
 KEYS = ("node", "shaft", "gear", "excitation")
 
 
-# the keys in each kind of table that name nodes
+# Keys that name nodes, in each kind of table.
 _ENDS = {"shaft": ("from", "to"), "gear": ("from", "to"), "excitation": ("node",)}
 
 
@@ -140,7 +140,7 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
     for k, node in nodes:
         name = node.get("name")
         if isinstance(name, str) and name in names[: k - 1]:
-            yield Problem(f"node.{k}.name", f"{shorten(name)} is there twice; give each its own")
+            yield Problem(f"node.{k}.name", f"{shorten(name)} is given twice; rename one of them")
     fixed = data.get("fixed", ())
     named = [("fixed", name) for name in (fixed if isinstance(fixed, list) else ())]
     for key, ends in _ENDS.items():
@@ -163,7 +163,7 @@ def refuse_node(name: str, known: Sequence[str]) -> str:
         known: Names of the nodes.
     """
     listed = ", ".join(printable(each) for each in dict.fromkeys(known[:8])) or "none"
-    return f"{shorten(name)} is no node; {suggest_nearest(name, known, f'there are {listed}')}"
+    return f"{shorten(name)} is not a node; {suggest_nearest(name, known, f'there are {listed}')}"
 
 
 def _tables(data: Mapping[str, object], key: str) -> list[tuple[int, Mapping[str, object]]]:
