@@ -77,7 +77,7 @@ def test_two_planes_take_a_moment_alone_too():
     assert left(I3, "single-shaft", SchemeOptions(planes="ends"), 1).moment.balanced.all()
     without = run_here("balance", I3, "--scheme", "single-shaft")
     assert without.status == 2
-    assert "small compared with one cylinder's; --order 6 fits it" in without.err
+    assert "couple-shaft cancels the moment of 464.4 N·m at -1" in without.err
 
 
 @cases("sizing/shafts", "refusals")

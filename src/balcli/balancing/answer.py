@@ -413,8 +413,8 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     model = parse(text, file)
     if sum(axle.has_cranks for axle in model.axle) > 1:
         raise BalcliError(
-            f"{file}: several axles have cranks, and the scheme does not divide its weights between "
-            "them; balcli locomotive --write does"
+            f"{file}: several axles have cranks, and no scheme divides its weights between them; "
+            "balcli locomotive --write does"
         )
     base = remedy.start or build(model)
     if remedy.start is not None and remedy.start.model is not None:

@@ -49,7 +49,7 @@ from ..show.sheet import (
 )
 from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
-from ..sizing.ladder import Ladder
+from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
 from ..sizing.planes import find_unbalance, name_kind
 from ..sizing.workshop import Practical
 from .answer import Balance, PermittedUnbalance
@@ -103,6 +103,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         remedy.note and sentence(remedy.note),
         _tell_left(result, system) if remedy.step else "",
         _tell_couple(result, system),
+        _tell_bearings(result, system),
         tell_best_factors(result, system),
         _TURNING_WEIGHTS if engine.rotary and remedy.counterweights else "",
         *tell_growing_rolls(result, system),
@@ -142,6 +143,22 @@ def _tell_couple(result: Balance, system: System) -> str:
     """
     before, after = (tell_couple(one, system) for one in (result.before, result.after))
     return f"{after} No scheme changes the couple." if after and after == before else ""
+
+
+def _tell_bearings(result: Balance, system: System) -> str:
+    """Return in words the effect of weights at every throw on the main bearings, if counterweights
+    have no other use.
+    """
+    remedy, steps = result.remedy, () if result.ladder is None else result.ladder.steps
+    loads = {step.step: step.main_bearing_N for step in steps}
+    before, after = loads.get(AS_DRAWN), loads.get(WEIGHTS_AT_THROWS)
+    if remedy.scheme != "counterweights" or remedy.devices or not (before and after):
+        return ""
+    unit = system.unit(FORCE).fit(before)
+    return (
+        "At every throw (--planes throws) they lower the largest main bearing load from "
+        f"{number(unit.of(before))} to {number(unit.of(after))} {unit.name}."
+    )
 
 
 def _permitted(result: Balance, system: System) -> Iterator[Grid]:

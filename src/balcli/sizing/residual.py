@@ -212,9 +212,10 @@ def choose_residual(
     residual = find_residual(engine, options.order)
     if any(residual.has(kind, senses) for kind in kinds):
         return residual
+    rest = _tell_rest(residual, kinds, senses)
     with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: nothing to balance",
+        f"order {options.order} has no free {what}: {'; '.join(['nothing to balance', *rest])}",
         **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
@@ -238,26 +239,74 @@ def _find_lowest(
         found.append((share, residual))
     share, largest = max(found, key=lambda one: one[0])
     if share:
-        raise OnlySmallError(tell_small(largest, sought, scales))
+        residuals = [residual for _, residual in found]
+        raise OnlySmallError(tell_small(largest, sought, residuals, scales, least))
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
         "--order names a higher one"
     )
 
 
-def tell_small(largest: Residual, sought: Sequence[ResidualPart], scales: Scales) -> str:
-    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel.
+def tell_small(
+    largest: Residual,
+    sought: Sequence[ResidualPart],
+    found: Sequence[Residual],
+    scales: Scales,
+    least: float,
+) -> str:
+    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
+    which scheme cancels the largest part of all.
 
     Args:
-        largest: Residual with that part.
-        sought: Parts that the scheme could cancel.
-        scales: Values of one cylinder.
+        largest: Residual of the order with the largest part that the scheme cancels.
+        sought: Parts that the scheme cancels.
+        found: Residuals of all orders.
+        scales: Force, moment and roll of one cylinder.
+        least: Share of one cylinder below which a part is small.
     """
     part = max(sought, key=lambda one: find_share(largest, one, scales))
-    turning = "with" if part.sense > 0 else "against"
-    size = f"{largest.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
-    return (
-        f"the largest {part.kind} {turning} the crank is {size} (order {largest.order}), small "
-        f"compared with one cylinder's; --order {largest.order} fits it, and balance without "
-        "--scheme lists the measures that are worth it"
+    told = (
+        f"the largest {part.kind} {_turning(part)} is {_tell_size(largest, part)} "
+        f"(order {largest.order}), small compared with one cylinder's; "
+        f"--order {largest.order} fits it"
     )
+    every = [
+        (find_share(one, part, scales), one, part)
+        for one in found
+        for part in (*FORWARD, *BACKWARD)
+        if not is_small(find_share(one, part, scales), least)
+    ]
+    if not every:
+        return told
+    senses = {part.sense for part in sought}
+    alike = [each for each in every if each[2].sense in senses]
+    _, one, part = max(alike or every, key=lambda each: each[0])
+    ratio = part.sense * one.order
+    takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
+    takes = "single-shaft" if part == BACKWARD_FORCE else takes
+    takes = "counterweights" if ratio == 1 else takes
+    return f"{told}. {takes} cancels the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
+
+
+def _turning(part: ResidualPart) -> str:
+    return "with the crank" if part.sense > 0 else "against the crank"
+
+
+def _tell_size(residual: Residual, part: ResidualPart) -> str:
+    return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
+
+
+def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
+    """Return the other parts of an order, and the schemes that cancel them."""
+    if 1 in senses:
+        far = "couple-shaft, or compensator with --order and --position far from the engine"
+        takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
+        others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
+        return [f"it has a free {kind}: {takes[kind]}" for kind in others]
+    rest = []
+    if forward := [part.kind for part in FORWARD if residual.parts[part]]:
+        cure = "the scheme counterweights" if residual.order == 1 else "two-shaft, couple-shaft"
+        rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
+    if "moment" not in kinds and residual.has("moment", senses):
+        rest.append("its moment turning against the crank: eccentrics in two planes")
+    return rest

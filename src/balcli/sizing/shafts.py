@@ -202,7 +202,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
     if not forces and any(sizes):
         largest = residuals[sizes.index(max(sizes))]
-        raise OnlySmallError(tell_small(largest, FORCE, scales))
+        raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:
