@@ -2,6 +2,7 @@
 
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -302,3 +303,10 @@ def test_examples_of_books():
     """The blows of their answers; sources are in the files."""
     found = analyze_locomotive(load(ENGINES / "historic" / "locomotive2.toml"))
     assert found.wheels[0].hammer_blow_N == pytest.approx(22_565, abs=0.5)
+
+
+def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
+    done = run_here("balance", ENGINES / "locomotive4.toml", "--write", tmp_path / "out.toml")
+    assert done.status == 2
+    assert "several axles have cranks" in done.err
+    assert "balcli locomotive --write" in done.err
