@@ -306,7 +306,7 @@ def test_examples_of_books():
 
 
 def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
-    done = run_here("balance", ENGINES / "locomotive4.toml", "--write", tmp_path / "out.toml")
+    done = run_here("balance", ENGINES / "historic/locomotive4.toml", "--write", tmp_path / "out.toml")
     assert done.status == 2
     assert "several axles have cranks" in done.err
     assert "balcli locomotive --write" in done.err

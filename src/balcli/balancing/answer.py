@@ -411,7 +411,8 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     if remedy.scheme == FIT:
         return _fill_in(old, remedy, file)
     model = parse(text, file)
-    if sum(axle.has_cranks for axle in model.axle) > 1:
+    cranked = sum(axle.has_cranks for axle in model.axle)
+    if cranked > 1 and any(weight.axle is None for weight in remedy.counterweights):
         raise BalcliError(
             f"{file}: several axles have cranks, and no scheme divides its weights between them; "
             "balcli locomotive --write does"
