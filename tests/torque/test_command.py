@@ -329,3 +329,13 @@ def test_one_curve_in_other_words(tmp_path, text):
 def test_quantities_that_are_none(four, text, message):
     err = run_here("sweep", four, "--vary", "gas.imep=6,9", "--quantity", text).err
     assert err == f"balcli: {text} is not a quantity: {message}\n"
+
+
+def test_a_dummy_first_cylinder_does_not_stand_for_all(tmp_path: Path) -> None:
+    file = tmp_path / "opposed.toml"
+    gas = '[gas]\ncycle = "diesel"\ncompression_ratio = 12\nimep = 6\n'
+    file.write_text((ENGINES / "historic/doxford_1913.toml").read_text(encoding="utf-8") + "\n" + gas, encoding="utf-8")
+    out = run_here("torque", file).out
+    assert "of cylinder 2 only" in out
+    first = ask_json("torque", file)["orders"][0]
+    assert first["one_cylinder"]["gas_torque_Nm"]["amplitude"] == pytest.approx(first["gas_torque_Nm"]["amplitude"])

@@ -41,6 +41,7 @@ from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
 from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
+from ..torque.answer import choose_cylinder
 from ..torsion import plot as twisting, show as torsion
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
@@ -446,12 +447,13 @@ def running(engine: Engine, system: System) -> Node:
             "mean": float(f"{curves.total.mean / unit.size:.5g}"),
         }
     ]
-    first = gas.cylinders[engine.numbers.index(1)]
+    number = choose_cylinder(engine)
+    first = gas.cylinders[engine.numbers.index(number)]
     if first.torque.pressure is not None:
         own = first.find_pressure(at - first.fires)
         unit = system.pressure.fit(float(own.max()))
         shown.append({"id": "pressure", "unit": unit.name, "total": _rounded(own / unit.size)})
-    return {"cycle": gas.cycle_deg, "step": _STEP, "curves": shown}
+    return {"cycle": gas.cycle_deg, "step": _STEP, "cylinder": number, "curves": shown}
 
 
 def _rounded(values: Array) -> list[float]:

@@ -32,11 +32,20 @@ from .records import (
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
+def choose_cylinder(engine: Engine) -> CylinderNumber:
+    """Return the cylinder whose gas is shown: 1, or the first to fire if 1 is a dummy; of engines
+    geared together the first.
+    """
+    if engine.placed:
+        return engine.numbers[0]
+    return 1 if 1 in (engine.fires_deg or {1}) else next(iter(engine.fires_deg))
+
+
 def analyze_torque_of_engine(
     engine: Engine,
     orders: Iterable[float] | None = None,
     *,
-    cylinder: CylinderNumber = 1,
+    cylinder: CylinderNumber | None = None,
     fluctuation: float | None = None,
     loads: str | Iterable[str] = (),
 ) -> TorqueAnalysis:
@@ -46,7 +55,8 @@ def analyze_torque_of_engine(
         engine: Single engine with gas (no trailing axes). An uneven speed in its file is ignored.
         orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
             with many cylinders also the firing order and its double.
-        cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's.
+        cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's;
+            default: `choose_cylinder`.
         fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
         loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
 
@@ -59,6 +69,8 @@ def analyze_torque_of_engine(
         >>> analyze_torque(load("i4_wiebe.toml"), fluctuation=1 / 200).flywheel.needed_kg_m2
     """
     gas = take_gas(check_engine("analyze_torque", engine))
+    if cylinder is None:
+        cylinder = choose_cylinder(engine)
     kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
     check_type("cylinder", cylinder, kinds, "give a whole number from 1")
     if fluctuation is not None:
@@ -71,8 +83,6 @@ def analyze_torque_of_engine(
         refuse_too_many_forces(engine)
     steady = replace(engine, ripple=())
     shown = list_gas_orders(engine) if orders is None else check_orders(orders)
-    if engine.placed and cylinder == 1:
-        cylinder = engine.numbers[0]
     row = find_row(engine, cylinder)
     curves = find_torque_curves(steady)
     above, omega = surplus(curves.total), float(engine.omega)

@@ -52,7 +52,8 @@ Fluctuation = Annotated[
     str | None, optional("1/200", "Also compute the inertia for this speed fluctuation; or 0.5%.")
 ]
 Cylinder = Annotated[
-    str, typer.Option(metavar="N|NAME.N", help="Also show the torque of this cylinder.")
+    str | None,
+    optional("N|NAME.N", "Show the gas torque of this cylinder; default: 1, or the first to fire."),
 ]
 LoadsOption = Annotated[
     str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
@@ -74,7 +75,7 @@ Write = Annotated[
 def torque(
     path: EngineFile = None,
     fluctuation: Fluctuation = None,
-    cylinder: Cylinder = "1",
+    cylinder: Cylinder = None,
     misfire: Misfire = None,
     loads: LoadsOption = None,
     curve: Curve = None,
@@ -111,7 +112,7 @@ def torque(
     needed = "--curve; an engine file gives the inertia itself: [crank] inertia, [flywheel]"
     if curve is not None:
         misplaced = {"--misfire": misfire, "--write": write, "--loads": loads}
-        misplaced["--cylinder"], needed = cylinder != "1", "an engine file"
+        misplaced["--cylinder"], needed = cylinder, "an engine file"
     for option, value in misplaced.items():
         if value:
             raise BalcliError(f"{option} needs {needed}")
@@ -134,7 +135,7 @@ def torque(
         found = answer.analyze_torque_of_engine(
             engine,
             asked,
-            cylinder=parse_cylinder(cylinder),
+            cylinder=None if cylinder is None else parse_cylinder(cylinder),
             fluctuation=allowed,
             loads=loads or (),
         )
