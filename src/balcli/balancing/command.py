@@ -96,12 +96,12 @@ Schemes = Annotated[
 Radius = Annotated[str | None, optional("MM", "Radius of the weights; default: crank radius.")]
 Thickness = Annotated[str | None, optional("MM", "Thickness of the half discs; default: 20.")]
 Disc = Annotated[str | None, optional("MM", "Radius of the half discs; instead of --thickness.")]
-Drill = Annotated[str | None, optional("MM", "List holes to drill, from --radius inwards.")]
+Drill = Annotated[str | None, optional("MM", "Diameter of holes to drill from --radius inwards.")]
 MaxDepth = Annotated[str | None, optional("MM", "Deepest hole; default: to the axis.")]
 Slug = Annotated[str | None, optional("METAL", "Slugs in holes: tungsten, lead, or g/cm3.")]
 Width = Annotated[
     str | None,
-    optional("MM", "Room for holes along z; default: that of a throw."),
+    optional("MM", "Room for holes along z; default: distance of the throws."),
 ]
 Bearings = Annotated[str | None, optional("Z1,Z2", "Bearings of the new shafts, along z in mm.")]
 SectorOption = Annotated[
@@ -112,15 +112,15 @@ Target = Annotated[
     str | None,
     optional(
         "NAME,...",
-        'What devices with unbalance = "fit" cancel: force, moment, roll, roll_total; default: '
-        "force,moment.",
+        'Cancel these with devices of the file that have unbalance = "fit": force, moment, roll, '
+        "roll_total; default: force,moment.",
     ),
 ]
-Direction = Annotated[str | None, optional("DEG", "Direction of the force to leave, from x.")]
-Ratio = Annotated[str | None, optional("SHARE", "Smallest over largest force to leave: 50%.")]
+Direction = Annotated[str | None, optional("DEG", "Ellipse: direction of the remaining force.")]
+Ratio = Annotated[str | None, optional("SHARE", "Ellipse: smallest / largest remaining force.")]
 Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
 Criterion = Annotated[str | None, optional("largest|mean", "Force to minimise; default: largest.")]
-Even = Annotated[str | None, optional("dead-centres|strokes", "What --scheme knuckles makes even.")]
+Even = Annotated[str | None, optional("dead-centres|strokes", "Knuckles: what becomes equal.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]

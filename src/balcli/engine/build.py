@@ -139,8 +139,9 @@ def build_fitted(
     figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
-    """Return a device of an engine, SI. Of geared engines a counterweight counts from the first
-    pin of the one that carries it, in that engine's sense; its z counts as that of the others.
+    """Return a device of an engine, SI. With engines geared together, the angle of a
+    counterweight counts from the first pin of the engine that carries it, in that engine's sense of
+    rotation; z counts as for all devices.
 
     Args:
         table: Table of an engine file.
@@ -269,7 +270,7 @@ def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
     for master, angles in zip(parts.find_master_places(), rows, strict=False):
         if np.any(np.asarray(angles[master - 1]) != 0):
             angle = max(np.ravel(angles[master - 1]), key=abs)
-            told = f"has {angle:g} for bank {master}, which carries the master rod: its own is 0"
+            told = f"has {angle:g} for bank {master}, which carries the master rod; give 0"
             yield Problem("articulation.knuckle_angles", told)
 
 
@@ -330,7 +331,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
-    """Check that half orders of the speed are given only with gas and four strokes, their cause."""
+    """Check that half orders of the speed are given only with gas and four strokes."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):
@@ -382,7 +383,7 @@ def check_locomotive(parts: Parts) -> Iterator[Problem]:
         rpm = model.operation.speed if model.operation.has("speed") else None
         yield from model.locomotive.find_faults(model.axle, parts.plan.numbers, weights, rpm)
     elif model.axle or any(weight.axle for weight in model.counterweight):
-        yield Problem.of_missing("locomotive", "axles belong to one; write [locomotive]")
+        yield Problem.of_missing("locomotive", "[[axle]] needs it; write [locomotive]")
 
 
 def check_gas(parts: Parts) -> Iterator[Problem]:

@@ -378,8 +378,8 @@ class Parts:
         # Sense in which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
         given = model.crank.throws is not None
-        # With given throws, a firing order would have to fit every variant. Only the gas of a
-        # single variant needs it.
+        # With given throws, a firing order would have to fit every variant; it is ignored unless
+        # there is gas, which needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
         self.tables = self.figures.cylinder_tables(model)  # tables of single cylinders, by number

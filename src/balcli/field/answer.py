@@ -2,7 +2,7 @@
 readings, the balance grade, and warnings of doubtful runs.
 
 The corrections x minimise the sum of squares, or the largest (`minimise`), of the readings `|V +
-alpha x|`, where V are the readings from which balancing goes on and alpha the influence
+alpha x|`, where V are the readings to be corrected and alpha the influence
 coefficients. Given places and largest weights constrain x.
 """
 
@@ -56,7 +56,7 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
         yield (
             f"planes {join_words([each.plane for each in alike])} have nearly the same effect as "
             f"other planes: only {min(each.own_effect for each in alike):.1%} of the effect of one "
-            f"is its own (condition {result.condition:.3g}), so reading errors grow as much; if "
+            f"is its own (condition {result.condition:.3g}), so reading errors grow much; if "
             f"their weights are large, try --without {alike[0].plane}"
         )
     if file.grade is not None or file.shares is not None:

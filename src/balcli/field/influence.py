@@ -63,7 +63,7 @@ class Influence(NamedTuple):
         found: Readings of the rotor without weights, shape (readings,).
         latest: Readings of the last correction run, shape (readings,); equal to `found` at speeds
             without such a run.
-        start: Readings from which balancing goes on, shape (readings,): readings with the weights
+        start: Readings to be corrected, shape (readings,): readings with the weights
             `weights_on`, computed from `latest` at speeds whose last run had other weights.
         factors: Factor of each reading in the sum or maximum, shape (readings,).
         trimmed: Name of the last correction run at any speed; empty if there is none.

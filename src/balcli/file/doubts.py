@@ -44,12 +44,12 @@ PRESSURES = {
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
     "max_pressure": (0.0, MAX_PRESSURE, " bar"),
 }
-# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft
-# weighs some 4 to 10 times as much for each throw, with its counterweights.
+# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft,
+# with counterweights, weighs 4 to 10 times as much as the rods and pistons.
 THROW = 6.0
 BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
-# Range of throw angles, deg. Cranks have 60 or more, or 0; lists such as [1, 3, 4, 2] and angles in
-# radians have 1 to 10.
+# Doubtful range of the largest throw angle, deg. Cranks have 60 or more, or 0; lists such as
+# [1, 3, 4, 2] and angles in radians have 1 to 10.
 THROWS = 1.0, 10.0
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
 # Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip

@@ -105,8 +105,8 @@ class CrankLoads:
     """Largest inertia loads within a crankshaft.
 
     Attributes:
-        main_N: Largest load of a main bearing; left out where all throws are in one plane.
-        main_mm: Axial position of this bearing; left out where all throws are in one plane.
+        main_N: Largest load of a main bearing; left out where all throws have the same z.
+        main_mm: Axial position of this bearing; left out where all throws have the same z.
         inner_moment_Nm: Largest bending moment.
         inner_mm: Axial position of this moment.
     """

@@ -364,7 +364,7 @@ def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float
         text: Text of the file, UTF-8.
         result: Its balance.
         file: Its name in messages.
-        rpm: Crank speed that is not the file's; None: it is.
+        rpm: Crank speed to write; None: that of the file remains.
     """
     new = set_keys(text.decode("utf-8-sig"), "locomotive", {"factor": None}, _NOTE)
     if rpm is not None:

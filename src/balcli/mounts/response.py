@@ -44,7 +44,7 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds about a resonance, in its widths
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds added around a resonance / its width
 RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
 _PART = 0.25  # a resonance is reported if it has this share of the largest order
 _AT = 1e-9  # relative difference below which speeds are equal
@@ -86,7 +86,7 @@ class RunningBody(NamedTuple):
         """Return the running body with the curves of all mounts and points.
 
         By default it has all orders that contribute. Gas orders above the usual ones are added if
-        their sum exceeds _BEYOND times the largest order in some curve at some of the speeds.
+        their sum exceeds _BEYOND times the largest order, for any curve at any examined speed.
 
         Args:
             mounted: Body on its mounts.
@@ -143,9 +143,9 @@ class RunningBody(NamedTuple):
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before
             raise BalcliError(
-                f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body is lost in "
-                "rounding errors, so far apart are stiffness and damping of the mounts: is damping "
-                "in N s/mm?"
+                f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body cannot be "
+                "computed: stiffness and damping of the mounts differ too much; is damping in "
+                "N s/mm?"
             ) from None
         return _with_rate(motion, w)
 

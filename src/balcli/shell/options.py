@@ -100,7 +100,7 @@ OnlyParts = Annotated[
 ]
 Small = Annotated[
     str | None,
-    optional("5%", "Ignore parts below this share of one cylinder's order 1."),
+    optional("5%", "Ignore orders below this share of one cylinder's first order."),
 ]
 Whole = Annotated[
     bool, typer.Option("--all", help="Show every table and every order above rounding errors.")

@@ -31,7 +31,7 @@ Scheme = Annotated[
 Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Position of a shaft, mm; of two shafts, the one at -N first."),
+    optional("X,Y", "Position of a shaft, mm; for two shafts twice, that at -N first."),
 ]
 Position = Annotated[
     str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two for compensators.")

@@ -71,7 +71,8 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
     planes; pins and weights are transferred to them by the lever rule. Default planes are those of
     the file's counterweights, or, if these are in fewer than two planes, those of the pins. If the
-    file has a counterweight, pins in the same plane are added; else each pin has its own plane.
+    file has a counterweight, the masses of pins at the same z are added; else each pin has its own
+    plane.
 
     For several factors, the peaks of each are listed, and the factor with the smallest peak force
     is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
@@ -290,7 +291,7 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
 
 def _change_measured(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit the difference between the counterweights that a measured mass implies and those of a
-    wanted factor: weights to add opposite the pin, or to remove there.
+    wanted factor: weights to add opposite the pin, or to remove from that side.
 
     Raises:
         BalcliError: Several factors are given.

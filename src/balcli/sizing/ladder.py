@@ -53,7 +53,7 @@ _AT_THROWS = (
 
 @dataclass(frozen=True, kw_only=True)
 class Scale:
-    """Force and moment of one cylinder. A part of an order is small compared with them.
+    """Force and moment of one cylinder, with which parts of orders are compared.
 
     Attributes:
         force_N: Largest first-order force of a cylinder alone.
@@ -120,7 +120,7 @@ class Ladder:
         auto: Step that is fitted by default.
         steps: Steps that are worth listing.
         left_out: Steps that would cancel something but are not listed.
-        small: Share of one cylinder below which a part is left.
+        small: Parts below this share of one cylinder's first order are not balanced.
     """
 
     scale: Scale
@@ -257,7 +257,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
 
     Args:
         engine: Engine without trailing axes.
-        small: Share of one cylinder below which a part is left.
+        small: Parts below this share of one cylinder's first order are not balanced.
 
     Raises:
         BalcliError: `small` is not a share from 0 to 50 %.
@@ -285,15 +285,15 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
 def _list_weights(
     engine: Engine, drawn: Fitting, first: Residual, scales: Scales, small: float
 ) -> tuple[list[Step], list[LeftOut], Fitting]:
-    """Return the listed steps as drawn and with counterweights, the omitted steps, and the fitting
-    of the last listed step.
+    """Return the step "as drawn" and the steps with counterweights, the omitted steps, and the
+    fitting of the last listed step.
 
     Args:
         engine: Engine as drawn.
         drawn: Fitting without devices.
         first: Residual of order 1.
         scales: Force, moment and roll of one cylinder.
-        small: Share of one cylinder below which a part is left.
+        small: Parts below this share of one cylinder's first order are not balanced.
     """
     turning = {sense: find_size(first, sense, scales) for sense in list_senses(engine)}
     fitting, steps, left_out = drawn, [_make_step(AS_DRAWN, engine, drawn)], []

@@ -399,7 +399,8 @@ def analyze_torsion(
             for an engine, orders to 32, the firing order and its double.
         damper: Kind of damper to size. It minimises the largest stress over `speeds_rpm`, which
             must be given; the results include the damper.
-        damper_at: Name of the node that carries the damper; default: the foremost part.
+        damper_at: Name of the node that carries the damper; default: the foremost part, or for
+            pendulums the throw with the largest amplitude.
         damper_inertia: Inertia of the damper's ring, or of its pendulums about the axis, kg m2;
             default: the inertia in the file, or a usual share of the mode's inertia.
 

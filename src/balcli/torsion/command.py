@@ -36,7 +36,7 @@ def torsion(
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders of excitation; default: all (chain), or to 32 and firing orders (engine).",
+            "Orders of excitation; default: all (chain); to 32, and firing orders above (engine).",
         ),
     ] = None,
     holzer: Annotated[
@@ -49,13 +49,14 @@ def torsion(
         optional("KIND", "Size a viscous, rubber or pendulum damper for the least stress."),
     ] = None,
     damper_at: Annotated[
-        str | None, optional("NAME", "Node that carries the damper; default: the foremost part.")
+        str | None,
+        optional("NAME", "Node that carries the damper; default: the front (pendulum: a throw)."),
     ] = None,
     damper_inertia: Annotated[
         str | None,
         optional("KGMM2", "Inertia of its ring or pendulums; default: the file's or a usual one."),
     ] = None,
-    write: Annotated[Path | None, optional("FILE", "Write the file with the damper here.")] = None,
+    write: Annotated[Path | None, optional("FILE", "Write the file, with the damper.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
         Literal["all", "modes", "campbell", "response", "waterfall"],

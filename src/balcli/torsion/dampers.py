@@ -259,7 +259,7 @@ def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> D
     if mass > most or least > WIDE_SWING:
         raise BalcliError(
             f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
-            f"most {WIDE_SWING:g} deg, more than {most:.3g} kg, which is half of the inertia of "
+            f"most {WIDE_SWING:g} deg; with {most:.3g} kg they already have half of the inertia of "
             "the node; choose another place (--damper-at) or give the inertia (--damper-inertia)"
         )
     return proposed
@@ -408,8 +408,8 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         )
     elif inertia > (whole if given else _HEAVY * carrier) > 0:
         yield (
-            f"the damper has {inertia:.4g} kg m2, {node}, which carries it, {carrier:.4g}, and the "
-            f"whole system {whole:.4g}: give what there is room for, such as --damper-inertia "
+            f"the damper has {inertia:.4g} kg m2, its node {node} {carrier:.4g} and the whole "
+            f"system {whole:.4g} kg m2: choose a smaller damper, such as --damper-inertia "
             f'"{float(f"{carrier or whole / _HEAVY:.2g}"):.12g} kg m^2"'
         )
     elif abs(math.log(sized / found.start)) > _END * math.log(width):

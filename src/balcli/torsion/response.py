@@ -23,8 +23,9 @@ from .modes import find_poles
 from .motion import compute_curves, compute_in_parts, refuse_unbounded
 from .system import TorsionalSystem
 
-_ABOUT = np.array([[-0.5], [0], [0.5]])  # added speeds about a resonance, in units of its width
-# Width in steps of the speeds. Of a wider resonance, the given speeds show at least 95 %.
+_ABOUT = np.array([[-0.5], [0], [0.5]])  # speeds added around a resonance / its width
+# Resonances wider than this number of steps of the speeds need no added speeds: some step has at
+# least 95 % of the peak.
 _WIDE = 3.0
 # Next to a speed with this share of the largest value, a higher value may lie between two speeds.
 _NEAR = 0.9

@@ -226,7 +226,7 @@ def _show_shapes(result: TorsionAnalysis, system: System) -> Grid:
         inertia = system.inertia.of(node.inertia_kg_m2)
         cells = [node.name, number(inertia) if inertia else "–", *[number(node.gear)] * geared]
         rows.append((*cells, *(f"{round(float(mode.shape[k]), 4) + 0.0:.4f}" for mode in shown)))
-    note = "Angle of each inertia at its own speed; the largest is 1."
+    note = "Real angle of each inertia, not reduced to the crank; the largest is 1."
     if left := len(result.modes) - len(shown):
         note += f" JSON has {left} more mode{'s' * (left > 1)}."
     return Grid("Inertias and shapes", tuple(heads), tuple(rows), note)
