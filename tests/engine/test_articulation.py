@@ -40,9 +40,7 @@ def test_the_masters_own_knuckle_angle_does_not_vary():
     file = enginefile.parse(
         RADIAL.replace("[articulation]", "[articulation]\nknuckle_angles = [0, 50, 100, 150, 200, 250, 300]")
     )
-    with pytest.raises(
-        InputError, match="knuckle_angles: has -2 for bank 1, which carries the master rod; give 0"
-    ):
+    with pytest.raises(InputError, match="knuckle_angles: has -2 for bank 1, which carries the master rod; give 0"):
         engine.build(file, {"articulation.knuckle_angles.1": np.array([0.0, -2.0])})
 
 

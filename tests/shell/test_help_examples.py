@@ -16,6 +16,7 @@ FILES = {
     "v8.toml": "v8_crossplane.toml",
     "twin.toml": "vtwin90.toml",
     "s50.toml": "marine/marine6.toml",
+    "locomotive2.toml": "historic/locomotive2.toml",
 }
 
 

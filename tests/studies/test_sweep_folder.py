@@ -42,7 +42,7 @@ refuse_sweep = partial(refusal, "sweep", "good.toml")
 
 def plan():
     sweep = read_sweep("good.toml", [VARY[1], VARY[3]], FIGURES[1])
-    return sweep, Progress("variants", sweep.variants, at_once=False, shown=False)
+    return sweep, Progress("variants", sweep.variants, shown=False)
 
 
 def test_a_folder_holds_what_one_file_does():

@@ -70,7 +70,7 @@ def test_the_file_s_own_damper_is_off_where_it_is_told_what_there_is_without_one
     stress = largest(ask_torsion(write_diesel(), *speeds), "stress_Pa") / 1e6
     assert largest(ask_torsion(fitted, *speeds), "stress_Pa") / 1e6 < 0.9 * stress
     out = run_here("torsion", "-", *speeds, "--damper", "viscous", stdin=fitted).out
-    told = re.search(r"^largest stress with none there +±([\d.]+) N/mm²$", out, re.MULTILINE)
+    told = re.search(r"^largest stress without the damper +±([\d.]+) N/mm²$", out, re.MULTILINE)
     assert float(told[1]) == pytest.approx(stress, rel=1.5e-4), "as printed"
 
 

@@ -239,11 +239,13 @@ def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> D
     searched range, with this length. The swing is about inversely proportional to the mass.
 
     Raises:
-        BalcliError: The pendulums would have more than half of the inertia of their node.
+        BalcliError: They would have more than half of the inertia of their node, and more mass than
+            the pendulums of the file.
     """
     bare = source.system({node: None})
     place, width = bare.nodes.index(node), math.log(_WIDTH["pendulum"])
-    start, mass = proposed.swinging_length, proposed.mass or 0.0
+    start, given = proposed.swinging_length, proposed.mass or 0.0
+    mass = given
     lengths = [start, *(start * np.exp(np.linspace(-width, width, _PLACES))).tolist()]
     reach = ((proposed.radius or 0.0) + start) / 1e3
     most = _MOST_PENDULUM * float(bare.chain.inertia[place]) / reach**2
@@ -256,7 +258,7 @@ def _limit_swing(source: Source, speeds: Real, node: str, proposed: Damper) -> D
         if least <= WIDE_SWING:
             break
         mass *= _HEAVIER * min(least / WIDE_SWING, _MOST_AT_ONCE)
-    if mass > most or least > WIDE_SWING:
+    if mass > max(most, given) or least > WIDE_SWING:
         raise BalcliError(
             f"--damper pendulum: at {printable(node)}, pendulums need {mass:.3g} kg to swing by at "
             f"most {WIDE_SWING:g} deg; with {most:.3g} kg they already have half of the inertia of "
