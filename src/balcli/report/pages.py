@@ -56,6 +56,7 @@ if TYPE_CHECKING:
 
 
 _LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
+_JUMP = 0.5  # a radius that changes by more between neighbouring angles changes its side
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -78,10 +79,11 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
     """
     with_crank, against, ratio = banks.find_radii()
     angles = banks.angles_deg
+    with_crank[1:][np.abs(np.diff(with_crank)) > _JUMP] = np.nan
     ax.plot(angles, with_crank, color=BLUE, label="with the crank")
     ax.plot(angles, against, color=RED, linestyle=(0, (5, 1.5)), label="against it")
-    drawn = np.abs(ratio) < _LARGEST_RATIO
-    ax.plot(angles[drawn], ratio[drawn], color=GREEN, linestyle=":", label="ratio")
+    ratio[np.abs(ratio) >= _LARGEST_RATIO] = np.nan
+    ax.plot(angles, ratio, color=GREEN, linestyle=":", label="ratio")
     ax.axhline(0, color=INK, linewidth=0.7)
     ax.set(
         xlim=(0, 180),
@@ -104,10 +106,10 @@ def draw_radius_roses(ax: Any, banks: Banks) -> None:
     ax.set_theta_zero_location("N")
     ax.set_theta_direction(-1)
     ratio = np.abs(banks.find_radii()[2])
-    drawn = ratio < _LARGEST_RATIO
+    ratio[ratio >= _LARGEST_RATIO] = np.nan
     for start, sense in ((0, 1), (0, -1), (np.pi, 1), (np.pi, -1)):
         width = 1.0 if start else 2.4
-        ax.plot(start + sense * half[drawn], ratio[drawn], color=GREEN, linewidth=width)
+        ax.plot(start + sense * half, ratio, color=GREEN, linewidth=width)
     both = np.concatenate([-half[::-1], half])
     for radii, colour, style in zip(banks.find_radii(), (BLUE, RED), ("-", "--"), strict=False):
         ax.plot(both, np.abs(np.concatenate([radii[::-1], radii])), color=colour, linestyle=style)
