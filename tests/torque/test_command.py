@@ -339,3 +339,4 @@ def test_a_dummy_first_cylinder_does_not_stand_for_all(tmp_path: Path) -> None:
     assert "of cylinder 2 only" in out
     first = ask_json("torque", file)["orders"][0]
     assert first["one_cylinder"]["gas_torque_Nm"]["amplitude"] == pytest.approx(first["gas_torque_Nm"]["amplitude"])
+    assert refusal("torque", file, "--misfire", "1") == "cylinder 1 is a dummy piston, which never fires"

@@ -295,9 +295,11 @@ def silence(engine: Engine, number: CylinderNumber) -> Engine:
         number: Number of the cylinder.
 
     Raises:
-        BalcliError: The engine has no gas, or no such cylinder.
+        BalcliError: The engine has no gas, or no such cylinder, or the cylinder is a dummy.
     """
     gas, row = take_gas(engine), find_row(engine, number)
+    if not engine.placed and number not in (engine.fires_deg or {number}):
+        raise BalcliError(f"cylinder {number} is a dummy piston, which never fires")
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
     model = engine.model
     if model is not None:
