@@ -100,8 +100,8 @@ def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
 
 
 def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
-    """Yield a warning of the reading at a speed that differs most from its prediction by the other
-    runs, if it differs much.
+    """Yield a warning of the reading (at one speed) that differs most from its prediction by the
+    other runs, if it differs much.
     """
     file = result.file
     used = [k for k, plane in enumerate(file.planes) if plane not in result.left_out]

@@ -52,8 +52,8 @@ BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines
 # [1, 3, 4, 2] and angles in radians have 1 to 10.
 THROWS = 1.0, 10.0
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
-# Crankshafts and flywheels have more than the rods and pistons would have on the crank pins; a slip
-# from kg m^2 to kg mm^2 is a factor of a million.
+# Least inertia of a crankshaft or flywheel, as a share of that of rods and pistons at the crank
+# radius; real ones have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
 LOSS = (
     1.0  # largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5; percent is 100 times that

@@ -328,8 +328,8 @@ def _write_plainly(text: str) -> str:
 
 def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
     """Return the keys of [layout] that the page must change when the reader changes throws, banks
-    or splay; None if no change is needed. A firing order that fits only the given throws is removed
-    ("none"); the numbering that it implied is written.
+    or splay; None if no change is needed. A firing order that fits only the given throws becomes
+    "none", and the numbering that follows from it is written.
     """
     layout = model.layout
     if model.crank.throws is None or layout.firing_order is None or model.gas is not None:

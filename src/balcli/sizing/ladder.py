@@ -227,8 +227,8 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
 
 
 def ignore_compensators(engine: Engine) -> Engine:
-    """Return the engine with the moments, but without the forces, of its compensators: each has an
-    opposite one at the point of reference.
+    """Return the engine with the moments, but without the forces, of its compensators: for each, an
+    opposite force is added at the point of reference.
     """
     *_, z = engine.reference_m
     opposite = [
