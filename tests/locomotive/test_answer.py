@@ -309,4 +309,10 @@ def test_no_scheme_divides_weights_between_axles(tmp_path: Path) -> None:
     done = run_here("balance", ENGINES / "historic/locomotive4.toml", "--write", tmp_path / "out.toml")
     assert done.status == 2
     assert "several axles have cranks" in done.err
-    assert "balcli locomotive --write" in done.err
+    assert "balcli locomotive does" in done.err
+
+
+def test_an_uneven_speed_is_said_to_be_ignored() -> None:
+    ripple = {"speed": 240, "speed_ripple": [{"order": 2, "amplitude": 0.02, "angle": 0}]}
+    told = analyze_locomotive(engine(**changed(operation=ripple))).doubts
+    assert told == ("operation.speed_ripple is ignored: the speed is taken as steady",)

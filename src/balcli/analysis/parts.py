@@ -135,7 +135,7 @@ def _find_direction(vector: complex) -> float | None:
 def _find_bending(
     loads: Complex, places: Array, reactions: Complex, planes: Array
 ) -> tuple[float, float | None]:
-    """Return the largest bending moment, N m, and its position z, mm; (None, None) without bending.
+    """Return the largest bending moment, N m, and its position z, mm; (0, None) without bending.
 
     Args:
         loads: Forces on the shaft, N, shape (loads,).

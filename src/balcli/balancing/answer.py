@@ -415,7 +415,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     if cranked > 1 and any(weight.axle is None for weight in remedy.counterweights):
         raise BalcliError(
             f"{file}: several axles have cranks, and no scheme divides its weights between them; "
-            "balcli locomotive --write does"
+            "balcli locomotive does"
         )
     base = remedy.start or build(model)
     if remedy.start is not None and remedy.start.model is not None:

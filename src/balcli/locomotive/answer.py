@@ -148,11 +148,14 @@ class LocomotiveBalance(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of cylinders that do not lie along the track."""
+        """Warnings of an uneven speed, and of cylinders that do not lie along the track."""
+        uneven = bool(take_model(self.engine).operation.speed_ripple)
         aside = np.abs(wrap_degrees(self.engine.cylinders.axis_of_each_deg, 180))
         each = sorted(zip(self.engine.numbers, aside.tolist(), strict=True))
         far = (f"cylinder {n} is {deg:.4g} deg from the track" for n, deg in each if deg > 45)
-        return tuple(f"{told}; in a locomotive file x points along the track" for told in far)
+        ignored = ("operation.speed_ripple is ignored: the speed is taken as steady",) * uneven
+        along = "in a locomotive file x points along the track"
+        return (*ignored, *(f"{told}; {along}" for told in far))
 
 
 # ------------------------------------------------------------------ unbalances in the wheels

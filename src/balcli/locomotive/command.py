@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from ..errors import BalcliError, naming_file, warn
 from ..file.toml import name_file
@@ -14,9 +14,6 @@ from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write
 from ..shell.scheme_options import parse_factors
 from ..shell.values import optional
 from ..show.formats import Format, Units
-
-if TYPE_CHECKING:
-    pass
 
 Factor = Annotated[
     str | None,
