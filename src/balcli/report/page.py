@@ -41,7 +41,7 @@ from ..show.plot_style import inline_svg, save_figure
 from ..show.sheet import NEGLIGIBLE, ON_A_PAGE
 from ..show.units import SI, ShownUnit, System
 from ..sizing.options import SchemeOptions
-from ..torque.answer import choose_cylinder
+from ..torque.answer import choose_firing_cylinder
 from ..torsion import plot as twisting, show as torsion
 from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
@@ -447,7 +447,7 @@ def running(engine: Engine, system: System) -> Node:
             "mean": float(f"{curves.total.mean / unit.size:.5g}"),
         }
     ]
-    number = choose_cylinder(engine)
+    number = choose_firing_cylinder(engine)
     first = gas.cylinders[engine.numbers.index(number)]
     if first.torque.pressure is not None:
         own = first.find_pressure(at - first.fires)

@@ -12,6 +12,7 @@ import numpy as np
 from ..core.cylinder_pressure import find_highest
 from ..core.speed_ripple import surplus
 from ..engine.engine import CylinderNumber, Engine, check_engine, find_row, refuse_geared
+from ..engine.layout import find_first
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..file.plain_tables import STEADY
 from ..forces.crankshaft import refuse_too_many_forces
@@ -32,13 +33,13 @@ from .records import (
 KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
-def choose_cylinder(engine: Engine) -> CylinderNumber:
+def choose_firing_cylinder(engine: Engine) -> CylinderNumber:
     """Return the cylinder whose gas is shown: 1, or the first to fire if 1 is a dummy; of engines
     geared together the first.
     """
     if engine.placed:
         return engine.numbers[0]
-    return 1 if 1 in (engine.fires_deg or {1}) else next(iter(engine.fires_deg))
+    return find_first(engine.fires_deg) if engine.fires_deg else 1
 
 
 def analyze_torque_of_engine(
@@ -56,7 +57,7 @@ def analyze_torque_of_engine(
         orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
             with many cylinders also the firing order and its double.
         cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's;
-            default: `choose_cylinder`.
+            default: `choose_firing_cylinder`.
         fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
         loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
 
@@ -70,7 +71,7 @@ def analyze_torque_of_engine(
     """
     gas = take_gas(check_engine("analyze_torque", engine))
     if cylinder is None:
-        cylinder = choose_cylinder(engine)
+        cylinder = choose_firing_cylinder(engine)
     kinds = (str, int, np.integer) if engine.placed else (int, np.integer)
     check_type("cylinder", cylinder, kinds, "give a whole number from 1")
     if fluctuation is not None:

@@ -21,7 +21,7 @@ from ..forces.spectrum import take_gas
 from ..show.plane import draw_path, set_up_plane
 from ..show.plot_style import BLUE, GREEN, INK, RED, SOFT, put_legend_above
 from ..show.units import ShownUnit, System
-from .answer import choose_cylinder
+from .answer import choose_firing_cylinder
 from .loads import find_bearing_loads
 
 if TYPE_CHECKING:
@@ -58,15 +58,15 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
 
 
 def find_pressures(engine: Engine) -> tuple[Array, Array, Array]:
-    """Return cycle angle, pressure and volume of a cylinder (`choose_cylinder`) over its cycle,
-    each of shape (angles,).
+    """Return cycle angle, pressure and volume of one cylinder (`choose_firing_cylinder`) over its
+    cycle, each of shape (angles,).
 
     Returns:
         Cycle angle (deg) from one gas-exchange dead centre to the next, 0 at firing; pressure (Pa);
         volume (m3), counted from the smallest volume if the compression ratio is not given.
     """
     gas = take_gas(engine)
-    cylinder = gas.cylinders[engine.numbers.index(choose_cylinder(engine))]
+    cylinder = gas.cylinders[engine.numbers.index(choose_firing_cylinder(engine))]
     half = gas.cycle_deg / 2
     angle = _divide(-half, half, np.degrees(cylinder.torque.breaks))
     at = np.radians(angle)
@@ -91,11 +91,11 @@ def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: boo
     if over_volume:
         base = " above the smallest" if take_gas(engine).compression_ratio is None else ""
         ax.set(xlim=(0, None), xlabel=f"volume{base}, {v.name}")
-        ax.set_title(f"Indicator diagram of cylinder {choose_cylinder(engine)}")
+        ax.set_title(f"Indicator diagram of cylinder {choose_firing_cylinder(engine)}")
     else:
         ax.axvline(0, color=SOFT, linewidth=0.7)
         set_crank_axis(ax, angle, "cycle angle from the firing dead centre, deg")
-        ax.set_title(f"Pressure in cylinder {choose_cylinder(engine)}")
+        ax.set_title(f"Pressure in cylinder {choose_firing_cylinder(engine)}")
 
 
 def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
@@ -133,7 +133,7 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     """Draw the load of the crank pin of a cylinder (or of its master rod) twice: relative to the
     crank (real outward along the throw) and relative to the rod (real towards the piston).
     """
-    first = engine.numbers.index(choose_cylinder(engine))
+    first = engine.numbers.index(choose_firing_cylinder(engine))
     on_pin = (master for master, hung in list_hung_rows(engine).items() if first in hung)
     row, angle = next(on_pin, first), _list_angles(engine)
     found = compute_rod_forces(engine, angle)
