@@ -24,6 +24,7 @@ from ..forces.spectrum import (
     list_gas_orders,
     merge_orders,
 )
+from ..forces.stars import Star, find_stars
 from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textbook
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER, SMALL
 from ..show.figures import (
@@ -101,6 +102,7 @@ class Analysis(Result):
         parts: Bearing loads of balancer shafts and shapes of counterweights.
         power_related_unbalance: Free moments divided by the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
+        stars: Vectors of the cylinders, of orders 1 and 2 or of those asked for.
         small: Share of one cylinder's first order below which a part is small.
     """
 
@@ -121,6 +123,7 @@ class Analysis(Result):
     parts: BalanceParts | None = None
     power_related_unbalance: PowerRelatedUnbalance | None = None
     why: Symmetry | None = None
+    stars: tuple[Star, ...] | None = None
     small: Annotated[float, HIDDEN] = SMALL
 
     @property
@@ -213,7 +216,7 @@ def analyze(
             journals, masses, parts, pru and gas, as a list or a text with commas; default: force
             to peak, and gas if the engine has some.
         by_cylinder: Whether to compute the phasors of each single cylinder as well.
-        reasons: Whether to find out why each order is balanced or not.
+        reasons: Whether to find out why each order is balanced or not, with phasor stars.
         guide_height_m: Distance from the crankshaft to the middle of the guides, m, for the X-type
             guide moment; default: the rods' lengths.
         beside: Further engines that are analyzed for the same orders; half orders are allowed if
@@ -270,6 +273,7 @@ def analyze(
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=_list_strokes(engine) if has_linkage else None,
         why=_explain(engine, visible.orders, shown) if reasons else None,
+        stars=_find_stars(engine, due, shown) if reasons else None,
         small=small,
         **_find_seldom(engine, wanted),
     )
@@ -374,6 +378,14 @@ def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
     """
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
     return explain_symmetry(engine, orders[orders > 0], provable)
+
+
+def _find_stars(
+    engine: Engine, orders: Iterable[float], kinds: Collection[str]
+) -> tuple[Star, ...] | None:
+    """Return the stars of force, and of moment if it is known and wanted; None without force."""
+    shown = {"force"} | ({"moment"} if engine.places_known else set()) & set(kinds)
+    return tuple(find_stars(engine, orders, shown)) if "force" in kinds else None
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:

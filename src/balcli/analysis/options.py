@@ -34,7 +34,9 @@ SpeedsOption = Annotated[
     ),
 ]
 By = Annotated[str, optional("cylinder", "cylinder: also show each cylinder's share.", "--by")]
-Why = Annotated[bool, typer.Option("--why", help="Print why each order is balanced or not.")]
+Why = Annotated[
+    bool, typer.Option("--why", help="Print why orders are balanced or not, and phasor stars.")
+]
 
 
 class Request(NamedTuple):

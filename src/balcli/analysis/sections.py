@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ..core.phasors import Array, Phasors
     from ..forces.crankshaft import AlongCrank, InnerLoads
     from ..forces.guide import GuideMoments
+    from ..forces.stars import Bank, Star
     from ..forces.symmetry import Symmetry
     from ..show.units import ShownUnit, System
     from .records import Stroke
@@ -250,10 +251,43 @@ UNITS = (
 )
 
 
+_TURNS = {"forward": "with", "backward": "against"}
+_STARS = (
+    "Directions of the cylinders' forces at crank angle 0, which turn with the crank or against "
+    "it; sums of force and moment: where the polygon closes, they are balanced. As a picture: "
+    "balcli plot --what stars."
+)
+
+
 def lay_out_symmetry(why: Symmetry) -> Text:
     """Return a paragraph for each reason and its orders, then the meaning of the units."""
     units = (UNITS,) if any(reason.unit for reason in why.reasons) else ()
     return Text("Why", (*why.sentences, *units))
+
+
+def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
+    """Return a table of the stars: a row for each bank, and one for the sum of several banks."""
+
+    def tell(one: Star | Bank) -> tuple[str, ...]:
+        force = size_text(abs(one.force), system.force) if one.force else "closes"
+        if one.moment is None:
+            return (force,)
+        return force, size_text(abs(one.moment), system.moment) if one.moment else "closes"
+
+    rows = []
+    for star in stars:
+        about = order_name(star.order), _TURNS[star.turns]
+        for bank in star.banks:
+            directions = (
+                f"{angle:.4g}: {', '.join(map(str, numbers))}"
+                for angle, numbers in bank.directions.items()
+            )
+            rows.append((*about, "; ".join(directions), *tell(bank)))
+            about = "", ""
+        if len(star.banks) > 1:
+            rows.append(("", "", "all banks", *tell(star)))
+    heads = ("order", "turns", "directions, deg: cylinders", "force", "moment")
+    return Grid("Phasor stars", heads[: len(rows[0])], tuple(rows), _STARS, words=(0, 1, 2))
 
 
 def list_symmetry(why: Symmetry) -> Iterator[FigureRow]:

@@ -116,6 +116,8 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
         yield from import_seldom("parts").lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
+    if result.stars:
+        yield sections.lay_out_stars(result.stars, system)
 
 
 def import_seldom(name: str = "crank_drive") -> ModuleType:

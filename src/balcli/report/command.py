@@ -38,10 +38,11 @@ WHAT = (
     "crank angle; all: loci, bars and curves on one page; "
     "ladder: loci with the devices of each balancing step; "
     "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
-    "two-shaft the radii of its shafts; inner: along the crankshaft; piston: travel, velocity and "
-    "acceleration, with [gas] side thrust and rod force; journals: torque in the main journals; "
-    "with [gas]: pressure, p-v, torque (with its surplus areas), pin and main (polar diagrams of "
-    "bearing loads); with [torsion]: modes, campbell, response, waterfall. Several pages form one "
+    "two-shaft the radii of its shafts; inner: along the crankshaft; stars: vectors of each "
+    "cylinder and their polygons; piston: travel, velocity and acceleration, with [gas] side "
+    "thrust and rod force; journals: torque in the main journals; with [gas]: pressure, p-v, "
+    "torque (with its surplus areas), pin and main (polar diagrams of bearing loads); with "
+    "[torsion]: modes, campbell, response, waterfall. Several pages form one "
     "PDF, or one file each (v8-pin.svg)."
 )
 

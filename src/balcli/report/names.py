@@ -8,7 +8,7 @@ from ..errors import BalcliError
 from ..file.fields import nearest
 
 OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
-OF_PARTS = ("piston", "journals")
+OF_PARTS = ("stars", "piston", "journals")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
     *("overview", "all", "polar", "orders", "spectrum", "curves"),  # pages of a Balance as well

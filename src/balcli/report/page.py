@@ -50,7 +50,7 @@ from ..version import __version__
 from .live import describe_one, explain_still, make_examples
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel, make_page
-from .study import Study, analyze_steps
+from .study import Study, analyze_steps, compute_study
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -297,7 +297,8 @@ def page(
         remedy=remedy.parts,
         scene=drawn,
         pictures=pictures[: len(alone)],
-        piston=None if cylinder is None else _draw_piston(now, cylinder),
+        stars="" if result.engine.placed else _draw_stars(result.engine, system),
+        piston=None if cylinder is None else _draw_page(now, "piston", cylinder),
         compared=pictures[len(alone) : len(alone) + len(beside)],
         loci=pictures[len(alone) + len(beside) :],
         running=running(turning, system) if turning and drawn else None,
@@ -365,10 +366,14 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     return shown
 
 
-def _draw_piston(subject: PageSubject, cylinder: int) -> str:
-    """Return the picture of a piston's motion as SVG."""
-    figure = make_page(replace(subject, cylinder=cylinder), "piston")
-    return inline_svg(save_figure(figure, "svg"), "piston")
+def _draw_stars(engine: Engine, system: System) -> str:
+    return _draw_page(PageSubject(compute_study(engine, "stars"), system), "stars")
+
+
+def _draw_page(subject: PageSubject, what: str, cylinder: int = 1) -> str:
+    """Return a page of pictures as SVG."""
+    figure = make_page(replace(subject, cylinder=cylinder), what, titled=False)
+    return inline_svg(save_figure(figure, "svg"), what)
 
 
 def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:

@@ -31,8 +31,17 @@ from ..balancing.scheme_show import percent
 from ..core.phasors import Array, Phasors
 from ..forces.crankshaft import AlongCrank
 from ..forces.kinds import EVERY_KIND, FORCE, GAS, KINDS, ROLL, ROLL_TOTAL, SCALARS, TORQUE, VECTORS
+from ..forces.stars import find_stars
 from ..show.engine_facts import tell_pivot
-from ..show.plane import FINE, draw_loci, draw_locus, draw_order, draw_paths
+from ..show.plane import (
+    FINE,
+    draw_loci,
+    draw_locus,
+    draw_order,
+    draw_paths,
+    draw_polygon,
+    draw_star,
+)
 from ..show.plot_style import (
     BLUE,
     GREEN,
@@ -57,6 +66,11 @@ if TYPE_CHECKING:
 
 _LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
 _JUMP = 0.5  # a radius that changes by more between neighbouring angles changes its side
+_MOST_STARS = 8
+_STARS = (
+    "Forces of the cylinders at crank angle 0, by number, without devices; then the polygons of\n"
+    "force and moment, bank by bank. Dashed: their sum; dot: 0."
+)
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
 
@@ -228,8 +242,14 @@ def _divide_cycle(*curves: Phasors | None) -> Array:
     return np.radians(np.arange((720 if halves else 360) + 1))
 
 
-def make_page(subject: PageSubject, what: str) -> Figure:
-    """Return a page of pictures; `what` is one of `PAGES` except those of torsion."""
+def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure:
+    """Return a page of pictures.
+
+    Args:
+        subject: Engine, units and cylinder.
+        what: One of `PAGES` except those of torsion.
+        titled: Whether the name of the engine is its title.
+    """
     width, height, lay_out = _LAYOUTS[what]
     engine, remedy = subject.now.engine, subject.study.remedy
     title = f"{fit_name(engine.name) or NAMELESS}, {engine.speed_rpm:g} rpm"
@@ -243,7 +263,8 @@ def make_page(subject: PageSubject, what: str) -> Figure:
             fig.supxlabel(words, x=0.01, ha="left", fontsize=9)
         if not fig.axes:
             fig.set_size_inches(6.4, 0.7)
-        put_title(fig, title)
+        if titled:
+            put_title(fig, title)
         return fig
 
 
@@ -407,6 +428,25 @@ def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
     draw_journals(fig.subplots(), subject.now.engine, subject.system.moment)
 
 
+def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
+    """Draw star and polygons of the first orders."""
+    engine = subject.now.engine
+    kinds = ("force", "moment")[: 1 + subject.now.moments_known]
+    stars = list(find_stars(engine, subject.now.orders, kinds))[:_MOST_STARS]
+    if not stars:
+        return "No cylinder has a force of these orders."
+    rays = [ray for star in stars for bank in star.banks for ray in bank.cylinders]
+    quantities = ("force", "moment")[: 1 + any(ray.moment for ray in rays)]
+    fig.set_size_inches(2.9 * (1 + len(quantities)), 0.6 + 2.5 * len(stars))
+    axes = fig.subplots(len(stars), 1 + len(quantities), squeeze=False)
+    turn = -(engine.up_deg or 0.0)
+    for star, (first, *others) in zip(stars, axes, strict=True):
+        draw_star(first, star, turn)
+        for ax, quantity in zip(others, quantities, strict=True):
+            draw_polygon(ax, star, quantity, turn, subject.unit(quantity))
+    return _STARS
+
+
 # Width and height in inches (some layouts change them), and the drawing function.
 _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | None]]] = {
     "overview": (10.8, 6.4, _lay_out_overview),
@@ -416,6 +456,7 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "orders": (11.7, 7.4, _lay_out_orders),
     "spectrum": (6.5, 8.0, partial(_lay_out_rows, whats=("spectrum",), height=2.5)),
     "curves": (7.5, 8.6, partial(_lay_out_rows, whats=("curves",), height=2.7)),
+    "stars": (8.7, 11.3, _lay_out_stars),
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),

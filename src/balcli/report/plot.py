@@ -77,9 +77,10 @@ def plot(
             spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
             "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
             "ladder" (loci, step by step), "bank" (a vee over its bank angle; with scheme
-            "two-shaft", the radii of its shafts), "factor" (over the balance factor), "piston",
-            "journals"; with gas "pressure", "p-v", "torque", "pin", "main"; for torsion "all",
-            "modes", "campbell", "response", "waterfall". Other results have one picture.
+            "two-shaft", the radii of its shafts), "factor" (over the balance factor), "stars" (each
+            cylinder's vectors), "piston", "journals"; with gas "pressure", "p-v", "torque", "pin",
+            "main"; for torsion "all", "modes", "campbell", "response", "waterfall". Other results
+            have one picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme of an engine to compare with.
         speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..analysis.answer import Analysis, analyze, find_inner_loads
+from ..analysis.answer import DEFAULT_ORDERS, Analysis, analyze, find_inner_loads
 from ..balancing.answer import balance_engine as balance
 from ..core.phasors import Array, Phasors, unit
 from ..engine.engine import Engine, refuse_geared
@@ -146,6 +146,8 @@ def compute_study(
         engines = (found.after.engine, engine) if what == "inner" else ()
         bent = tuple(map(find_inner_loads, engines))
         return Study(found.after, found.before, found.remedy, bent=bent)
+    if what == "stars":
+        return Study(analyze(engine, orders or DEFAULT_ORDERS))
     now = analyze(engine, orders)
     if what == "ladder":
         ladder = find_ladder(engine, asked.read_small())

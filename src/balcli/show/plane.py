@@ -6,14 +6,16 @@ clockwise. If the file gives `frame.up`, that direction is up in the pictures.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..core.peaks import find_largest
-from ..core.phasors import Array, Complex, Phasors
-from .plot_style import BLUE, INK, PAPER, RED, SOFT, Look, put_legend_above
+from ..core.phasors import Array, Complex, Phasors, unit as unit_vector
+from ..core.records import angle_deg
+from ..forces.stars import Star
+from .plot_style import BLUE, GREEN, INK, PAPER, RED, SOFT, Look, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
 from .units import ShownUnit
 
@@ -218,3 +220,112 @@ def draw_order(
         ax.plot([], [], label=label, **look)
         start = tip
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, columnspacing=1)
+
+
+# ------------------------------------------------------------------ stars
+_BANKS = (BLUE, RED, GREEN, SOFT)
+_WAYS = {"forward": "with the crank", "backward": "against it"}
+_SAME = 1e-6  # vectors whose directions differ by less are parallel
+_BESIDE = 0.07  # distance of a number from its vector, and of vectors that run back, over the side
+
+
+def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
+    """Draw the forces of all cylinders from one point, with the numbers of the cylinders.
+
+    Args:
+        ax: Axes to draw on.
+        star: Vectors of one order.
+        turn_deg: Angle by which the picture is turned.
+    """
+    turn = complex(unit_vector(turn_deg))
+    largest = max(abs(ray.force) for bank in star.banks for ray in bank.cylinders)
+    ax.set(title=f"order {order_name(star.order)}, {_WAYS[star.turns]}")
+    _set_up_square(ax, 0j, 1.4)
+    ax.plot([0], [0], "o", color=INK, markersize=4)
+    tips = []
+    for k, bank in enumerate(star.banks):
+        for ray in bank.cylinders:
+            if ray.force:
+                tip = turn * ray.force / largest
+                _draw_arrow(ax, 0j, tip, **_look(k, len(star.banks)))
+                tips.append((tip, 2 * _BESIDE * tip / abs(tip), str(ray.cylinder)))
+    _write_numbers(ax, tips)
+
+
+def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: ShownUnit) -> None:
+    """Draw the vectors of force or moment one after the other, bank by bank, and their sum. In a
+    bank they follow each other by direction, so that the polygon is convex.
+
+    Args:
+        ax: Axes to draw on.
+        star: Vectors of one order.
+        quantity: "force" or "moment".
+        turn_deg: Angle by which the picture is turned.
+        unit: Unit of the vectors.
+    """
+    turn = complex(unit_vector(turn_deg))
+    rays = [
+        (turn * getattr(ray, quantity), str(ray.cylinder), bank)
+        for bank, own in enumerate(star.banks)
+        for ray in sorted(own.cylinders, key=lambda ray: _find_direction(getattr(ray, quantity)))
+        if getattr(ray, quantity)
+    ]
+    corners = np.cumsum([0j, *(vector for vector, _, _ in rays)])
+    spans = np.ptp(corners.real), np.ptp(corners.imag)
+    limit = 0.62 * float(max(spans)) or 1.0
+    middle = complex(corners.real.min(), corners.imag.min()) + complex(*spans) / 2
+    left = turn * getattr(star, quantity)
+    ax.set(title=f"{quantity}: {size_text(abs(left), unit) if left else 'closes'}")
+    _set_up_square(ax, middle, limit)
+    aside, last = 0j, 0j
+    places = []
+    for (vector, name, bank), start in zip(rays, corners, strict=False):
+        way = vector / abs(vector)
+        if abs(way + last) < _SAME:  # it runs back along the one before
+            aside += 1j * last * _BESIDE * limit
+        last, place = way, complex(start) + aside
+        _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))
+        places.append((place + vector / 2, -1j * way * _BESIDE * limit, name))
+    _write_numbers(ax, places)
+    if left:
+        straight = all(abs((vector / left).imag) < _SAME for vector, _, _ in rays)
+        beside = straight * 1j * _BESIDE * limit * left / abs(left)
+        look: Look = {"color": INK, "linewidth": 1.6, "linestyle": (0, (4, 2))}
+        _draw_arrow(ax, beside, beside + left, mutation_scale=11, **look)
+    else:
+        ax.plot([0], [0], "o", color=INK, markersize=4)
+
+
+def _find_direction(vector: complex) -> float:
+    """Return the direction of a vector, deg from 0 to 360, without rounding errors."""
+    return round(angle_deg(vector), 6) % 360
+
+
+def _look(bank: int, banks: int) -> Look:
+    """Return the look of a bank's vectors; lines of later banks are narrower, so that equal vectors
+    remain visible.
+    """
+    width = 1.4 + 1.3 * max(0, min(banks, 4) - 1 - bank)
+    return {"color": _BANKS[bank % len(_BANKS)], "linewidth": width, "mutation_scale": 9 + width}
+
+
+def _set_up_square(ax: Axes, middle: complex, limit: float) -> None:
+    """Make the axes an invisible square about its middle, with half its side."""
+    ends = np.array([-limit, limit])
+    ax.set(aspect="equal", xlim=middle.imag + ends, ylim=middle.real + ends)
+    ax.set_axis_off()
+
+
+def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) -> None:
+    """Write each number beside its place, in the direction of its second figure; where places lie
+    close together, the numbers stand side by side.
+    """
+    found: dict[complex, tuple[complex, list[str]]] = {}
+    for place, out, name in numbers:
+        near = (one for one, (way, _) in found.items() if abs(one + way - place - out) < abs(out))
+        found.setdefault(next(near, place), (out, []))[1].append(name)
+    for place, (out, names) in found.items():
+        wide = abs(out.imag) / abs(out)  # how far the text itself reaches in this direction
+        spot = place + out * (1 + 0.5 * wide * (len(names) - 1))
+        middle: Look = {"ha": "center", "va": "center", "bbox": _BOX}
+        ax.text(spot.imag, spot.real, ", ".join(names), fontsize=7, **middle)

@@ -1,0 +1,136 @@
+"""Phasor stars: the rotating vectors of the cylinders, and their sums.
+
+Each cylinder contributes two vectors to an order of the free force: one turns with the crank, one
+against it (`core.phasors`). Drawn from one point, at crank angle 0, the vectors that turn one way
+are the star of the order; in a line of equal cylinders, that of order n has the directions n times
+the crank angles. Put one after the other, they form a polygon. If it closes, the sum is 0 and this
+part of the force is balanced. The same holds for the moment, whose vectors are those of the force
+times their distance along the crank, a quarter turn ahead. Source: W. Thomson, Fundamentals of
+Automotive Engine Balance.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from itertools import pairwise
+from typing import Annotated, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from ..core.records import INLINE, Polar, angle_deg
+from ..engine.engine import CylinderNumber, Engine
+from .spectrum import Spectra, compute_spectra, with_only
+from .symmetry import without_devices
+
+Force = Annotated[complex, Polar("force_N", "force_deg"), INLINE]
+Moment = Annotated[complex | None, Polar("moment_Nm", "moment_deg"), INLINE]
+Turns: TypeAlias = Literal["forward", "backward"]
+WAYS: tuple[Turns, ...] = ("forward", "backward")  # the axis of `Phasors.vectors`
+
+
+class Ray(NamedTuple):
+    """Vectors of one cylinder at crank angle 0.
+
+    Attributes:
+        cylinder: Number of the cylinder.
+        force: Vector of its force.
+        moment: Vector of its moment about the point of reference; omitted if it is not known.
+    """
+
+    cylinder: CylinderNumber
+    force: Force
+    moment: Moment = None
+
+
+class Bank(NamedTuple):
+    """Vectors of the cylinders of one bank, and their sums.
+
+    Attributes:
+        axis_deg: Direction of the bank, from x.
+        force: Sum of the vectors of force.
+        cylinders: Vectors of each cylinder, by number.
+        moment: Sum of the vectors of moment; omitted if it is not known.
+    """
+
+    axis_deg: float
+    force: Force
+    cylinders: tuple[Ray, ...]
+    moment: Moment = None
+
+    @property
+    def directions(self) -> dict[float, list[CylinderNumber]]:
+        """Cylinders by the direction of their force, deg, ascending; those without force are left
+        out.
+        """
+        found: dict[float, list[CylinderNumber]] = {}
+        for ray in self.cylinders:
+            if ray.force:
+                angle = round(angle_deg(ray.force), 6) % 360
+                found.setdefault(angle, []).append(ray.cylinder)
+        return dict(sorted(found.items()))
+
+
+class Star(NamedTuple):
+    """Vectors of one order that turn one way, without those of devices.
+
+    Attributes:
+        order: Order.
+        turns: "forward": with the crank; "backward": against it.
+        force: Sum of all vectors of force.
+        banks: Vectors of each bank. Cylinders that stand alone, as in a radial, count as one bank.
+        moment: Sum of all vectors of moment; omitted if it is not known.
+    """
+
+    order: float
+    turns: Turns
+    force: Force
+    banks: tuple[Bank, ...]
+    moment: Moment = None
+
+
+def find_stars(
+    engine: Engine, asked: Iterable[float], kinds: Collection[str] = ("force", "moment")
+) -> Iterator[Star]:
+    """Yield the stars of each order: the vectors that turn with the crank, and those that turn
+    against it; a star without vectors is left out.
+
+    Args:
+        engine: Engine without trailing axes, with one crank.
+        asked: Orders, ascending; there is no star of order 0.
+        kinds: "force", and "moment" for an engine whose moments are known, if wanted.
+    """
+    orders = np.array([order for order in asked if order > 0])
+    alone = without_devices(engine)
+    axes, row_of = engine.cylinders.axis_of_each_deg, engine.numbers.index
+    banks = _list_banks(engine)
+    each = compute_spectra(alone, orders, kinds, each=True)
+    total = compute_spectra(alone, orders, kinds)
+    sums = [
+        compute_spectra(with_only(alone, np.isin(engine.numbers, bank)), orders, kinds)
+        for bank in banks
+    ]
+    for k, order in enumerate(orders.tolist()):
+        for way, turns in enumerate(WAYS):
+            if not each["force"].vectors[way, k].any():
+                continue
+            found = tuple(
+                Bank(
+                    axis_deg=float(axes[row_of(bank[0])]),
+                    cylinders=tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank),
+                    **_pick(own, way, k),
+                )
+                for bank, own in zip(banks, sums, strict=True)
+            )
+            yield Star(order, turns, banks=found, **_pick(total, way, k))
+
+
+def _list_banks(engine: Engine) -> list[list[CylinderNumber]]:
+    """Return the cylinders of each bank, by number; one list if each bank has only one."""
+    ends = [*engine.cylinders.starts, len(engine.numbers)]
+    banks = [sorted(engine.numbers[slice(*pair)]) for pair in pairwise(ends)]
+    return banks if max(map(len, banks)) > 1 else [sorted(engine.numbers)]
+
+
+def _pick(found: Spectra, *place: int) -> dict[str, complex]:
+    """Return the vectors of force and moment at a place of `Phasors.vectors`."""
+    return {kind.name: complex(phasors.vectors[place]) for kind, phasors in found.vectors()}
