@@ -103,7 +103,7 @@ TABLES: dict[str, Callable[[Print, Ranges], Table]] = {
     ),
     "kvasnikov-statements": series.tabulate_kvasnikov_statements,
     "liang-examples": worked_examples.tabulate_liang_examples,
-    "torque-examples": worked_examples.tabulate_torque_examples,
+    "published": worked_examples.tabulate_published,
     "series": series.tabulate_series,
     "statements": tabulate_statements,
     "layouts": tabulate_layouts,

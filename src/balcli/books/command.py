@@ -57,13 +57,14 @@ def tables(
     form: FormatOption = None,
     output: Output = None,
 ) -> None:
-    """Recompute the coefficient tables printed in five books and papers, and worked examples of
-    three textbooks; list their errata by class, also those of equations and text.
+    """Recompute the coefficient tables printed in five books and papers; list their errata by
+    class, also those of equations and text; list published problems with balcli's answers.
 
     \b
     Examples:
       balcli tables tsinghua-1-2
       balcli tables --errata --kind misprint
+      balcli tables published
       balcli tables --errata --format json
     """
     form = text_format(output, form)
@@ -74,7 +75,8 @@ def tables(
     if errata or kind:
         show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
     elif name:
-        renderer = pages.LAYOUTS if name == "layouts" else pages.RENDERER
+        own = {"layouts": pages.LAYOUTS, "published": pages.PUBLISHED}
+        renderer = own.get(name, pages.RENDERER)
         show(chosen, renderer, form, output)
     else:
         show([chosen], pages.TABLE_LIST, form, output)

@@ -17,6 +17,7 @@ from ..show.table import WIDTH, fold
 from ..show.units import System
 from .answer import find_gaps
 from .recomputed import (
+    ANSWER,
     CLASSES,
     STATEMENT,
     Cell,
@@ -99,7 +100,7 @@ def lay_out_errata(errata: Errata, _system: System) -> Sheet:
     """Return a grid for each table and reason, a paragraph for each statement, and the classes."""
     groups: dict[tuple[str, str, str], list[Erratum]] = {}
     for table, e in errata:
-        kind = "" if e.column == STATEMENT else e.kind
+        kind = "" if e.column in (STATEMENT, ANSWER) else e.kind
         groups.setdefault((table, e.category, kind), []).append(e)
     parts: list[Grid | Text] = []
     for (table, category, kind), members in groups.items():
@@ -114,7 +115,7 @@ def lay_out_errata(errata: Errata, _system: System) -> Sheet:
 
 def _lay_out_statement(e: Erratum) -> Text:
     title = "\n".join(fold(f"{e.label} ({e.category})", WIDTH))
-    return Text(title, (f"printed: {e.printed}", f"right: {e.exact}", e.kind))
+    return Text(title, (f"printed: {e.printed}", f"right: {_exact(e)}", e.kind))
 
 
 def _explain(errata: Sequence[Erratum]) -> Grid:
@@ -197,3 +198,39 @@ def lay_out_layouts(table: Table, _system: System) -> Sheet:
 
 
 LAYOUTS = Renderer(sheet=lay_out_layouts, rows=rows)
+
+
+def lay_out_published(table: Table, _system: System) -> Sheet:
+    """Return a table for each chapter with a line for each problem, and the verdicts on its
+    figures.
+    """
+    heads = ("chapter", "source", "title", "verdict")
+    places = [table.columns.index(name) for name in heads]
+    chapters: dict[str, dict[str, Counter[str]]] = {}
+    for chapter, source, title, verdict in ([str(row[k]) for k in places] for row in table.exact):
+        problems = chapters.setdefault(chapter, {})
+        problems.setdefault(f"{source}: {title}", Counter()).update([verdict])
+    grids = [
+        Grid(
+            chapter,
+            ("problem", "figures"),
+            tuple(map(_tell_verdicts, problems.items())),
+            words=(0, 1),
+        )
+        for chapter, problems in chapters.items()
+    ]
+    every = Counter(str(row[places[-1]]) for row in table.exact)
+    note = (
+        f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: "
+        f"{every['agrees']} agree with the print, {every['definition']} follow another definition, "
+        f"{every['misprint']} are wrong in print (--errata). Every figure: --format csv."
+    )
+    return Sheet(table.title, (*grids, Text("", (note,))))
+
+
+def _tell_verdicts(problem: tuple[str, Counter[str]]) -> tuple[str, str]:
+    name, verdicts = problem
+    return name, ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+
+
+PUBLISHED = Renderer(sheet=lay_out_published, rows=rows)

@@ -1,5 +1,5 @@
-"""Recompute worked examples of textbooks on crank torque, flywheels and balancing: exact answers,
-and values that explain the authors' answers.
+"""Recompute the worked examples of Liang: exact answers, and values that explain his answers; and
+list published problems with balcli's answers.
 
 The examples of Liang Shoupan, Engine Dynamics, 1948, are in inches, pounds and seconds: an engine
 with a stroke of 4 in and a rod of 7 in turns at 4000 rpm. The rod weighs 2.75 lb, and its centre of
@@ -12,68 +12,11 @@ from math import floor, log10
 
 import numpy as np
 
-from ..core.mechanisms import slidercrank
 from ..core.mechanisms.slidercrank import rod_acceleration
 from ..core.phases import RPM
-from ..core.phasors import Array
-from ..core.piecewise import polyline, resolved
-from ..core.speed_ripple import surplus
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
-from .recomputed import ErratumClass, Print, Ranges, Table, as_numbers, load_print
-
-
-def tabulate_torque_examples(printed: Print, ranges: Ranges) -> Table:
-    """Return exact and printed answers on torque: Bevan 12.3, Khurmi 16.12, Uicker 18.1.
-
-    Uicker 18.1 gives the torque (table 18-1) at every 10 degrees of a cycle, integrates it by
-    Simpson's rule, and computes the inertia for a fluctuation of 0.025 at 4600 rpm.
-    """
-    torque = as_numbers(load_print("uicker-18-1").column("torque_Nm"))
-    uicker = polyline(np.radians(np.arange(0, 721, 10)), [*torque, torque[0]])
-    work = float(np.tile([2, 4], 36) @ torque) * np.pi / 18 / 3
-    square = 0.025 * (4600 * RPM) ** 2
-    answers = (_bevan(), *_khurmi(), work / (4 * np.pi), surplus(uicker).energy / square)
-    whole = "the work of a whole cycle is taken for the fluctuation of energy"
-    others: list[tuple[ErratumClass, str, int, float]] = [
-        ("approximation", "two terms of the motion", 0, _bevan(two_terms=True)),
-        ("method", "the largest while the torque first exceeds the load", 2, _khurmi_zero_side()),
-        ("method", whole, 4, work / square),
-    ]
-    return printed.compare_answers(answers, others)
-
-
-# ------------------------------------------------------------------ Bevan 12.3
-def _bevan(*, two_terms: bool = False) -> float:
-    """Return the torque, lbf ft, of a steam engine at 40 degrees: bore 9 in, stroke 24 in, rod 60
-    in, piston rod 2 in, pressures 160 and 32 psi.
-    """
-    force = 160 * np.pi / 4 * 9**2 - 32 * np.pi / 4 * (9**2 - 2**2)  # lbf
-    psi, lam = np.radians(40.0), 12 / 60
-    exact = float(slidercrank.velocity(psi, lam, 0.0))
-    rate = np.sin(psi) + lam / 2 * np.sin(2 * psi) if two_terms else exact
-    return float(force * rate)  # the crank radius is 1 ft
-
-
-# ------------------------------------------------------------------ Khurmi 16.12
-def _khurmi() -> tuple[float, float]:
-    """Return the fluctuation of energy and the largest acceleration of a flywheel (500 kg, radius
-    of gyration 0.4 m) under a torque of 5000 + 600 sin 2t and a load of 5000 + 500 sin t.
-    """
-    net = resolved(_khurmi_net, [0.0, 2 * np.pi])
-    lowest, highest = net.extremes()
-    return surplus(net).energy, max(highest.value, -lowest.value) / (500 * 0.4**2)
-
-
-def _khurmi_net(angle: Array) -> Array:
-    return 600 * np.sin(2 * angle) - 500 * np.sin(angle)
-
-
-def _khurmi_zero_side() -> float:
-    """Return the acceleration by the largest excess torque before it first changes its sign."""
-    first = resolved(_khurmi_net, [0.0, np.arccos(5 / 12)])
-    return first.extremes()[1].value / (500 * 0.4**2)
-
+from .recomputed import ANSWER, Erratum, ErratumClass, Print, Ranges, Table
 
 POUND, FOOT = float(units.POUND), float(12 * units.INCH)  # kg, m
 CRANK, ROD = 2 / 12, 7 / 12  # ft
@@ -121,3 +64,21 @@ def _round(value: float) -> float:
     """Return the value with three significant digits, as on a slide rule."""
     unit = 10.0 ** (floor(log10(abs(value))) - 2)
     return floor(value / unit + 0.5) * unit
+
+
+def tabulate_published(printed: Print, ranges: Ranges) -> Table:
+    """Return the figures of published problems with balcli's answers, which tests recompute by the
+    command of each problem. Errata are misprints.
+    """
+    heads = printed.columns[:-2]
+    told = [printed.column(name) for name in ("source", "figure", "verdict", "remark")]
+    rows, words, errata = [], [], []
+    lines = zip(printed.rows, *told, strict=True)
+    for i, ((*about, text, own), source, figure, verdict, remark) in enumerate(lines):
+        rows.append((*about, float(str(own))))
+        words.append((*about, text))
+        if verdict == "misprint":
+            label = f"{source}: {figure}"
+            errata.append(Erratum(i, ANSWER, str(text), float(str(own)), remark, label, "misprint"))
+    shape = (*heads, ANSWER), tuple(rows), tuple(words)
+    return Table(*printed[:3], *shape, tuple(errata), stub=len(heads))

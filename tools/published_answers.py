@@ -1,0 +1,121 @@
+"""Run the published problems of `tests/published/`; write `src/balcli/books/data/published.csv` and
+`docs/published.md`.
+
+Usage: python tools/published_answers.py
+"""
+
+import csv
+import sys
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from support.published import CHAPTERS, Figure, Problem, load_problems  # noqa: E402
+
+DATA = ROOT / "src" / "balcli" / "books" / "data" / "published.csv"
+PAGE = ROOT / "docs" / "published.md"
+HEADS = ("chapter", "source", "title", "figure", "unit", "verdict", "remark", "answer", "balcli")
+NAMES = {
+    "forces": "Free forces and moments, motion of pistons",
+    "balancing": "Balancing",
+    "locomotive": "Locomotives",
+    "torque": "Gas, torque and flywheels",
+    "torsion": "Torsional vibration",
+    "mounts": "Mounts and isolation",
+    "field": "Balancing rotors",
+}
+INTRODUCTION = """\
+# How balcli compares with {figures} published answers
+
+{problems} problems of {works} books, papers, guides and pages have printed answers that balcli was
+asked for. Of {figures} figures, {agrees} agree within the digits of the print, {definition} follow
+another definition, and {misprint} are wrong in print. For each figure of the last two kinds, a
+second calculation without balcli gives the print by the other definition, or the right value.
+
+The files with all data and commands are in `tests/published`, and tests run them. `balcli tables
+published` lists the problems, with `--format csv` every figure."""
+
+
+def list_rows(problem: Problem) -> list[tuple[str, ...]]:
+    """Return a row of the table for each figure of a problem; balcli's answer with six digits."""
+    about = problem.chapter, problem.source, problem.title
+    return [
+        (*about, f.name, f.unit, f.verdict, f.remark, f.printed, f"{value:.6g}")
+        for f, value in zip(problem.figures, problem.answer(), strict=True)
+    ]
+
+
+def write_table(problems: list[Problem]) -> None:
+    """Write the table of all figures."""
+    with DATA.open("w", encoding="utf-8", newline="") as file:
+        file.write("# source: many; each line names its own\n")
+        file.write("# title: published problems, and balcli's answers\n")
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(HEADS)
+        for problem in problems:
+            writer.writerows(list_rows(problem))
+
+
+def write_page(problems: list[Problem]) -> str:
+    """Return the page of the documentation."""
+    figures = [(problem, figure) for problem in problems for figure in problem.figures]
+    every = Counter(figure.verdict for _, figure in figures)
+    introduction = INTRODUCTION.format(
+        problems=len(problems),
+        works=len({problem.work for problem in problems}),
+        figures=len(figures),
+        **every,
+    )
+    table = [
+        "| chapter | problems | figures | agree | other definition | wrong in print |",
+        "| --- | ---: | ---: | ---: | ---: | ---: |",
+    ]
+    for chapter in CHAPTERS:
+        own = [problem for problem in problems if problem.chapter == chapter]
+        count = Counter(figure.verdict for problem in own for figure in problem.figures)
+        verdicts = count["agrees"], count["definition"], count["misprint"]
+        cells = (NAMES[chapter], len(own), count.total(), *verdicts)
+        table.append(f"| {' | '.join(map(str, cells))} |")
+    parts = [introduction, "\n".join(table)]
+    parts += ["## Wrong in print", _list_differing(figures, "misprint", "right")]
+    parts += ["## Other definitions", _list_differing(figures, "definition", "balcli")]
+    for chapter in CHAPTERS:
+        parts.append(f"## {NAMES[chapter]}")
+        lines = ["| problem | what | figures | verdict |", "| --- | --- | ---: | --- |"]
+        lines += [_list_problem(problem) for problem in problems if problem.chapter == chapter]
+        parts.append("\n".join(lines))
+    return "\n\n".join(parts) + "\n"
+
+
+def _list_problem(problem: Problem) -> str:
+    count = Counter(figure.verdict for figure in problem.figures)
+    verdict = ", ".join(f"{n} {word}" if len(count) > 1 else word for word, n in count.items())
+    return f"| {_link(problem)} | {problem.title} | {len(problem.figures)} | {verdict} |"
+
+
+def _list_differing(figures: list[tuple[Problem, Figure]], verdict: str, head: str) -> str:
+    lines = [f"| problem | figure | printed | {head} | why |", "| --- | --- | ---: | ---: | --- |"]
+    for problem, f in figures:
+        if f.verdict == verdict:
+            unit = f" {_write_unit(f.unit)}" if f.unit else ""
+            lines.append(
+                f"| {_link(problem)} | {f.name} | {f.printed}{unit} | {f.balcli} | {f.remark} |"
+            )
+    return "\n".join(lines)
+
+
+def _write_unit(unit: str) -> str:
+    """Return a unit in signs: `kg m2` as kg·m²."""
+    return unit.replace("^", "").replace(" ", "·").translate(str.maketrans("23", "²³"))
+
+
+def _link(problem: Problem) -> str:
+    return f"[{problem.source}]({problem.address})" if problem.address else problem.source
+
+
+if __name__ == "__main__":
+    found = load_problems()
+    write_table(found)
+    PAGE.write_text(write_page(found), encoding="utf-8")
