@@ -31,6 +31,7 @@ SHOWN = {  # by renderer
     "mounts": ("mounts", PACKAGE / "file" / "starting_files" / "mounts.toml"),
     "numbers": ("numbers", V8),
     "printed_table": ("tables", "liu-1"),
+    "published": ("tables", "published"),
     "search": ("search", V8, "--over", "throws", "--minimise", "moment.1.major"),
     "speeds": ("analyze", V6, V8, "--speed", "60:124:8", "--only", "force,peak,inner"),
     "table_list": ("tables",),
