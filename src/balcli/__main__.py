@@ -17,6 +17,7 @@ def main() -> NoReturn:
         if getattr(sys, name) is None:  # closed by the caller (`>&-`): using it raises OSError
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else each package is searched for some
     status: int = Exit.DONE
     try:
         ignore_matplotlib_settings()

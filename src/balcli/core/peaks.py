@@ -75,15 +75,28 @@ class Swing(NamedTuple):
 # ------------------------------------------------------------------ curves by their phasors
 def find_peak(curve: Phasors) -> Peak:
     """Return the largest |F| of phasors over a revolution; they must have no trailing axes."""
-    if not np.any(curve.vectors):
-        return Peak(0.0, 0.0)
-    value, theta = find_longest(curve.orders, _list_components(curve))
-    # F is a sum of vectors that turn m times per revolution (m < 0: backward); |F| depends only on
-    # differences of their angles.
-    ahead, against = curve.orders[curve.forward != 0], curve.orders[curve.backward != 0]
-    halves = np.rint(2 * np.concatenate([ahead, -against])).astype(int)
+    (peak,) = find_peaks(Phasors(curve.orders, curve.vectors[..., None], curve.noise))
+    return peak
+
+
+def find_peaks(curves: Phasors) -> tuple[Peak, ...]:
+    """Return the largest |F| over a revolution at each place along the trailing axis."""
+    values, angles = find_longest(curves.orders, _list_components(curves))
+    orders = np.rint(2 * np.concatenate([curves.orders, -curves.orders])).astype(int)
+    there = np.concatenate([curves.forward, curves.backward]) != 0
+    return tuple(
+        Peak(value, angle, _find_repeat(orders[there[:, place]])) if value else Peak(0.0, 0.0)
+        for place, (value, angle) in enumerate(zip(values.tolist(), angles.tolist(), strict=True))
+    )
+
+
+def _find_repeat(halves: NDArray[np.int64]) -> float:
+    """Return the angle after which |F| repeats, rad; 0 if it is constant. F is a sum of vectors
+    that turn `halves` times in two revolutions (below 0: backward); |F| depends only on the
+    differences of their angles.
+    """
     times = int(np.gcd.reduce(halves - halves[0]))
-    return Peak(float(value), float(theta), 2 * _TURN / times if times else 0.0)
+    return 2 * _TURN / times if times else 0.0
 
 
 def find_largest(curves: Phasors) -> Array:

@@ -25,7 +25,7 @@ import numpy as np
 
 from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever
-from ..core.peaks import Peak, find_peak
+from ..core.peaks import Peak, find_peaks
 from ..core.phasors import Array, Complex, Phasors, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
 from ..engine.engine import Engine
@@ -241,8 +241,7 @@ def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
 
 def _with_peaks(places: Array, phasors: Phasors, orders: Array) -> AlongCrank:
     """Return phasors of shape (orders, places) at some orders, with the peaks of all orders."""
-    peaks = tuple(find_peak(phasors.select_place(place)) for place in range(len(places)))
-    return AlongCrank(places, phasors.select_orders(orders), peaks)
+    return AlongCrank(places, phasors.select_orders(orders), find_peaks(phasors))
 
 
 ROUNDING = 1e-13  # a sum below this share of its terms is a rounding error
