@@ -18,7 +18,7 @@ def test_dead_centres_at_even_intervals():
     assert np.abs(found.before.top_deg).max() > 3
     assert np.abs(found.after.top_deg).max() < 1e-9
     assert found.angles_deg[0] == 0
-    assert found.reasons[0].endswith("top dead centres as even as the master's")
+    assert found.reasons[0].endswith("top dead centres where the master's cylinder has them")
 
 
 def test_equal_strokes():

@@ -57,7 +57,7 @@ UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
 
-# Quantities that depend on a key or table on which other quantities do not depend.
+# For each key or table: the quantities that depend on it; no others do.
 _WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
 _WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
@@ -72,7 +72,7 @@ _DEPENDENT = {
     "flywheel.inertia": _WITH_UNEVEN_SPEED,
     **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
     "layout.stagger": _WITH_PLACES,
-    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force: explains missing moments
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force says why moments are missing
 }
 DEFAULT_ORDERS = (1.0, 2.0)
 _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")

@@ -378,7 +378,7 @@ def _explain(
     """
     result = "strokes equal to the master's"
     if goal == "dead-centres":
-        result = "top dead centres as even as the master's"
+        result = "top dead centres where the master's cylinder has them"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
     reasons = [f"knuckle pins {turned}: {result}"] * bool(np.any(hung & done))

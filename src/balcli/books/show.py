@@ -1,7 +1,8 @@
 """Show recomputed tables, their errata, the list of tables, and the table of common layouts.
 
-A table is laid out like its print, with each figure rounded to the printed or requested decimals. A
-deviating print follows its figure: `.4313 ≠ .4312`. JSON and CSV have full precision.
+A table is laid out like its print, with each figure rounded to the printed or requested decimals.
+If the printed figure deviates, it follows the exact one: `.4313 ≠ .4312`. JSON and CSV have full
+precision.
 """
 
 from __future__ import annotations
@@ -150,7 +151,7 @@ def lay_out_list(tables: Sequence[Table], _system: System) -> Sheet:
     """Return a list of the tables with their errata, and a list of sources."""
     lines = tuple((t.name, str(len(t.errata)), t.title) for t in tables)
     errata = sum(len(t.errata) for t in tables)
-    note = f"{errata} errata; --errata lists them, tables NAME a table"
+    note = f"{errata} errata; --errata lists them, tables NAME shows one table"
     titles = Grid("", ("name", "errata", "title"), lines, note=note, words=(0, 2))
     sources = {t.name.partition("-")[0]: t.source.partition(", Table ")[0] for t in tables}
     printed = Grid("Sources", ("tables", "printed in"), tuple(sources.items()), words=(0, 1))
@@ -177,8 +178,8 @@ TABLE_LIST = Renderer(sheet=lay_out_list, document=describe_list, rows=list_tabl
 _SHOWN = ("F1", "F2", "M1", "M2")
 _NOTE = (
     "Largest values: F1 in m r ω² of one cylinder's reciprocating mass, F2 in A2 m r ω² (A2 ≈ λ), "
-    "M1 and M2 in these times the distance of neighbouring throws. Orders 4 and 6, smallest "
-    "values: --format csv. As files: balcli engines."
+    "M1 and M2 in the units of F1 and F2 times the distance of neighbouring throws. Orders 4 and "
+    "6, smallest values: --format csv. As files: balcli engines."
 )
 
 

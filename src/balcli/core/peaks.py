@@ -10,8 +10,8 @@ distance d from its maximum (M. Riesz). With 16 samples per period of the highes
 next to the highest peak are therefore among the highest samples. Newton's method climbs the curve
 from those.
 
-The search for maxima of other functions of one variable suits those for which one call with many
-places costs little more than a call with few.
+The search for maxima of other functions of one variable assumes that a call with many places costs
+little more than a call with few.
 """
 
 from __future__ import annotations
@@ -270,8 +270,8 @@ def find_highest(
     lie between the given places.
 
     An interval between neighbouring places is searched if it may contain the maximum: its higher
-    end is at least `near * level`, and no farther below the level than the function changes from
-    place to place there.
+    end is at least `near * level`, and the level is within reach: no farther above this end than
+    the function changes from place to place there.
 
     Args:
         judge: The functions, as in `find_peaks_between`.
@@ -325,7 +325,8 @@ def find_peaks_between(
         _raise(best, highest, going, place, here)
         of_function = np.full(which.max(initial=0) + 1, -np.inf)
         np.maximum.at(of_function, which, highest)
-        may = 2 * here - around.min(axis=0) >= of_function[which[going]]  # it may rise as it fell
+        # A peak may rise above its place by as much as the curve falls to the next place.
+        may = 2 * here - around.min(axis=0) >= of_function[which[going]]
         going, place, step, top = (each[may] for each in (going, place, step, top))
         low, high, around = place - step, place + step, around[:, may]
     before, middle, after = around

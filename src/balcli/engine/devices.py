@@ -172,7 +172,7 @@ def find_sector(
     unbalance = find_given_unbalance(table, figures, path)
     is_double = thickness is not None and unbalance is not None
     if is_double or figures.is_displaced(f"{path}.sector"):
-        told = "the file gives a sector, by its thickness or by an unbalance; vary that one"
+        told = "the file gives thickness or unbalance of the sector; vary the one that it gives"
         raise InputError([Problem(path, told)])
     inner, outer, angle = inner / 1e3, outer / 1e3, opening * (math.pi / 180)
     area = angle / 2 * (outer**2 - inner**2)
@@ -214,7 +214,7 @@ def check_shafts(parts: Parts) -> Iterator[Problem]:
             value, wanted = (shorten(getattr(entries[k], key)) for k in (number, first))
             if value != wanted:
                 told = f'is {value}, but shaft.{first} of the name "{name}" has {wanted}: '
-                yield Problem(f"shaft.{number}.{key}", f"{told}give one shaft the same {key}")
+                yield Problem(f"shaft.{number}.{key}", f"{told}give both the same {key}")
         for key in _OF_SHAFT:
             for number in [k for k, one in entries.items() if one.has(key)][1:]:
                 told = f'is given twice for the shaft "{name}"; give it once'

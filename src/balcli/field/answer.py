@@ -55,9 +55,9 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
     if len(alike) > 1:
         yield (
             f"planes {join_words([each.plane for each in alike])} have nearly the same effect as "
-            f"other planes: only {min(each.own_effect for each in alike):.1%} of the effect of one "
-            f"is its own (condition {result.condition:.3g}), so reading errors grow much; if "
-            f"their weights are large, try --without {alike[0].plane}"
+            f"other planes: all but {min(each.own_effect for each in alike):.1%} of the effect of "
+            f"one can come from others (condition {result.condition:.3g}), so small reading errors "
+            f"change the weights much; if these are large, try --without {alike[0].plane}"
         )
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
@@ -118,7 +118,7 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
     remedy = "check its weights and the state of the machine, or leave the run out"
     if np.abs(series.readings - turned).max() <= _SURPRISING * largest:
         other = "with" if file.senses[1] == "against" else "against"
-        remedy = f'with weights = "{other}", angles of weights the other way round, it fits'
+        remedy = f'it fits if angles of weights count the other way round: weights = "{other}"'
     yield (
         f"'{file.name_run(series.numbers[row])}' reads {read} at "
         f"{result.readings[sensor].sensor}; the other runs predict {expected}; {remedy}"
@@ -142,8 +142,8 @@ Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
 _NOISE = 1e-14  # a reading below this share of its cancelling terms is rounding
-_NEGLIGIBLE = 1e-9  # smallest weight, as a share of the weight with the effect of all unbalance
-_AT_EDGE = 1e3  # a weight within this multiple of the negligible one counts as at its limit
+_NEGLIGIBLE = 1e-9  # smallest weight, as a share of one whose effect is as large as all readings
+_AT_EDGE = 1e3  # a weight is at its limit if it is closer to it than so many negligible ones
 _G_MM = 1e-6  # 1 g mm in kg m
 
 

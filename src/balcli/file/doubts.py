@@ -25,9 +25,8 @@ CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines
 BORE = 0.2, 3.0  # bore / stroke: crosshead engines have 0.25 or more, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
 SMALL_END = 0.55  # largest share of the rod's mass at the small end: rods have 0.2 to 0.4
-# Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at the
-# ends 1/4, and no rod between its two centres can have more; bosses and bolts beyond them add a
-# little.
+# Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at its
+# ends 1/4. A rod has more only by bosses and bolts beyond its two centres.
 INERTIA = 0.02, 0.4
 TWO_MASSES = 1.6  # rod inertia / inertia of two masses at its ends: engines have 0.6 to 1.35
 PISTON_SPEED = 40.0  # largest mean piston speed, m/s; racing engines have up to 30
@@ -37,8 +36,9 @@ CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
-# Absolute pressures: at 10 km of height there are 0.26 bar, charged in two stages 10; psi and MPa
-# lie beyond. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7 bar.
+# Absolute pressures: 0.26 bar at a height of 10 km, 10 bar after two stages of charging; figures in
+# psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7
+# bar.
 PRESSURES = {
     **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
@@ -62,8 +62,8 @@ LOSS = (
 WHEEL_LOAD = 1000  # N, smallest load of a wheel on its rail: those of toys are smaller
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
-    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad", and numbers '
-    "of cylinders in layout.firing_order"
+    'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; numbers of '
+    "cylinders belong in layout.firing_order"
 )
 OFF_AXIS = "is it in kg? It is the unbalanced mass of one throw, not the mass of the crankshaft"
 GRAMS = 'is it in kg? Give grams as in "47 g"'

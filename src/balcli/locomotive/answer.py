@@ -1,16 +1,16 @@
 """Compute the balance masses in the wheels of a locomotive, the hammer blow and the forces along
 the track: `analyze_locomotive`.
 
-Everything that revolves is an unbalance with an axle, a position z along it, and a complex mass x
-radius from cylinder 1's crank pin: the pins with the masses that turn on them, coupling masses, and
-the counterweights of the file. The lever rule divides each unbalance between the two planes of its
-axle's balance masses. The reciprocating masses of all cylinders enter as if a share c of them
-turned with the crank, divided between the axles by their shares f. Let S be the unbalance that
-revolves in a plane, and Q that of the reciprocating masses. A wheel then gets the balance mass `B =
--(S + c f Q)`. The remaining unbalance `S + B` loads and unloads the rail once a turn: the hammer
-blow is `|S + B| w^2`, not `|B| w^2`. An inclined cylinder enters Q with its crank angle less its
-bank angle: its balance mass points straight back along the track when its piston is at the outer
-dead centre.
+Everything that revolves is an unbalance with an axle, a position z along it, and a complex product
+of mass and radius, whose angle counts from cylinder 1's crank pin: the pins with the masses that
+turn on them, coupling masses, and the counterweights of the file. The lever rule divides each
+unbalance between the two planes of its axle's balance masses. The reciprocating masses of all
+cylinders enter as if a share c of them turned with the crank, divided between the axles by their
+shares f. Let S be the unbalance that revolves in a plane, and Q that of the reciprocating masses. A
+wheel then gets the balance mass `B = -(S + c f Q)`. The remaining unbalance `S + B` loads and
+unloads the rail once a turn: the hammer blow is `|S + B| w^2`, not `|B| w^2`. For an inclined
+cylinder, Q takes the crank angle minus the bank angle, so that the balance mass points straight
+back along the track when the piston is at the outer dead centre.
 
 Sources: Sarkar, Theory of Machines, ch. 12; Khurmi and Gupta, Theory of Machines, ch. 22; Bridge
 Stress Committee 1928 (blow of a rail and of the engine).

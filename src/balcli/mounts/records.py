@@ -101,7 +101,7 @@ class MountForce(NamedTuple):
     Attributes:
         name: Name of the mount.
         orders: Each order by itself.
-        peak_N: Largest force over the cycle, all orders added up in time, by speed.
+        peak_N: Largest force over the cycle, all orders added with their phases, by speed.
         worst: Largest force over all speeds.
     """
 
@@ -149,7 +149,7 @@ class PointMotion(NamedTuple):
     Attributes:
         name: Name of the point.
         orders: Each order by itself.
-        peak_mm: Largest motion over the cycle, all orders added up in time, by speed.
+        peak_mm: Largest motion over the cycle, all orders added with their phases, by speed.
         worst: Largest motion over all speeds.
     """
 

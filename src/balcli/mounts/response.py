@@ -1,5 +1,5 @@
 """Compute the vibration of an engine that runs on its mounts: forces on mounts and motion of points
-at every speed, order by order and with all orders added up in time.
+at every speed, order by order and with all orders added with their phases.
 """
 
 from __future__ import annotations

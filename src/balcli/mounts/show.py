@@ -154,7 +154,7 @@ def _grid_worst(result: MountReport, kind: Kind) -> Grid:
         if response is result.response:
             columns.append(("largest order", [order_name(worst.order) for worst in every]))
             columns.append(("alone", [kind.show(worst[3]) for worst in every]))
-    note = "Largest values over the cycle and all speeds of the range, orders added up in time."
+    note = "Largest over the cycle and all speeds of the range, orders added with their phases."
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
     return Grid.of_columns(title, columns, note)
 

@@ -50,9 +50,9 @@ class Banks(NamedTuple):
     force: Phasors
 
     def find_radii(self) -> tuple[Array, Array, Array]:
-        """Return the radii of the shafts with and against the crank that cancel the force without
-        a roll moment, as shares of the longest radius, and their ratio; nan where no force turns
-        with the crank. Each has the shape (angles,).
+        """Return the radii at which a forward and a backward shaft cancel the force without a roll
+        moment, as shares of the longest radius, and their ratio; nan where no force turns with the
+        crank. Each has the shape (angles,).
 
         Radii are inversely proportional to the forces. Their sign is Liu's: above 0, one shaft is
         above and one below the crank on the same side of the middle plane; below 0, both are at the
@@ -118,7 +118,8 @@ def compute_study(
         engine: Single engine (no trailing axes).
         orders: Orders to show; "bank" shows the first one.
         scheme: Balance scheme to compare with, if any.
-        options: Options of the scheme; "factor" uses only planes, "ladder" only small.
+        options: Options of the scheme; the page "factor" uses only `planes`, "ladder" only
+            `small`.
 
     Raises:
         BalcliError: The scheme is unknown, cannot be fitted, or does not suit the page, or "bank"

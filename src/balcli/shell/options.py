@@ -93,8 +93,8 @@ OnlyParts = Annotated[
     optional(
         "WHAT,...",
         f"{_ONLY}, journals (torque along the crankshaft), masses, parts (balancer shafts in their "
-        "bearings, counterweights as sectors), pru (power related unbalance); or xy, textbook, "
-        "verdict.",
+        "bearings, counterweights as sectors), pru (power related unbalance); or as views: xy "
+        "(components), textbook (multiples of F1), verdict.",
         "--only",
     ),
 ]
@@ -109,8 +109,8 @@ Misfire = Annotated[
     list[str] | None,
     optional(
         "N|NAME.N",
-        "Cylinder without gas pressure; may be given again. If it still compresses, give "
-        "[cylinder.N] heat = 0 in the file.",
+        "Cylinder without gas pressure (NAME.N: of the engine NAME of several); repeat it for "
+        "more cylinders. If it still compresses, give [cylinder.N] heat = 0 in the file.",
     ),
 ]
 GuideHeight = Annotated[

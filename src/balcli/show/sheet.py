@@ -185,8 +185,8 @@ def size_cell(
 def degrees(value: float, turn: float = 360) -> str:
     """Return an angle rounded to a tenth of a degree, or a dash for nan.
 
-    Minus half a turn is shown as plus half a turn, and 360 as 0. Otherwise rounding errors would
-    decide which of two equal angles is shown.
+    Minus half a period is shown as plus half a period, and 360 as 0. Otherwise rounding errors
+    would decide which of two equal angles is shown.
 
     Args:
         value: Angle, deg.

@@ -180,8 +180,9 @@ class Ladder:
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
     """Return the fitting with a counterweight at every throw, against the forward force of order 1
-    of the throw's cylinders and of the nearest counterweights of the file. If a force or moment
-    remains (from stagger, or weights of the file), the smallest additional unbalances cancel it.
+    of the throw's cylinders; each counterweight of the file counts at the nearest throw. If a force
+    or moment remains (from stagger, or weights of the file), the smallest additional unbalances
+    cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -199,8 +200,8 @@ def add_at_throws(fitting: Fitting) -> Fitting:
 
 
 def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
-    """Return the fitting with weights in the end planes for the part that turns with the crank; of
-    geared engines on the first crank that turns in this sense.
+    """Return the fitting with weights in the end planes for the part that turns with the crank. In
+    geared engines, they are on the first crank that turns in the sense `sense`.
     """
     one = find_carrier(fitting.engine, sense)
     if one is None:

@@ -31,9 +31,8 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(
-    0.25j * np.pi
-)  # shift of the eigenvalues; a pole there would grow, so none is there
+# Shift of the eigenvalues; a pole here would be a vibration that grows, which no chain has.
+_SIGMA = np.exp(0.25j * np.pi)
 _INFINITE = 1e-6  # eigenvalues below this share of the largest are (double) zeros
 
 
@@ -159,7 +158,7 @@ class NaturalMode(NamedTuple):
 
     Attributes:
         frequency_Hz: Natural frequency.
-        shape: Angle of each node at its own speed, relative to the largest.
+        shape: Real angle of each node, not reduced by gears, relative to the largest.
         nodes: Number of vibration nodes, places that do not move.
         node_in: Names of the shafts with a vibration node: their ends turn against each other.
         node_at: Names of the nodes of the chain that are at rest between others that move.
@@ -307,10 +306,11 @@ class Holzer(NamedTuple):
 def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = -1) -> Holzer:
     """Return Holzer's table at a frequency w (rad/s). The angle of the first node is 1.
 
-    Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft and
-    `w^2 J x = sum of T` for each node except the last, where the difference is the residual.
-    Branches off the line from the first node to the last are allowed. Dampers and losses are
-    ignored, as in textbooks.
+    Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft
+    (`Branch` of `chain` has the gear factors near and far, and which node is the parent), and `w^2
+    J x = sum of T` for each node except the last, where the difference is the residual. Branches
+    off the line from the first node to the last are allowed. Dampers and losses are ignored, as in
+    textbooks.
 
     Args:
         chain: Inertias and shafts.

@@ -237,7 +237,7 @@ def _draw_swing(ax: Axes, result: TorsionAnalysis, curves: _Curves) -> None:
     """Draw the half swing of the free end, and its largest orders."""
     end = len(result.shafts)
     amplitudes = np.degrees(np.abs(curves.phasors[:, :, end]))
-    ax.plot(curves.rpm, np.degrees(curves.swings[:, end]), color=INK, label="added up in time")
+    ax.plot(curves.rpm, np.degrees(curves.swings[:, end]), color=INK, label="all orders")
     largest = np.argsort(-amplitudes.max(axis=1), kind="stable")[:5]
     for k, (line, colour) in zip(sorted(largest), MANY_LOOKS, strict=False):
         label = f"order {order_name(float(curves.orders[k]))}"

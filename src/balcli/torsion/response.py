@@ -117,7 +117,7 @@ class WorstTorque:
 
     Attributes:
         speed_rpm: Speed at which it occurs.
-        half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added up in time.
+        half_peak_to_peak_Nm: Half of the peak-to-peak torque, all orders added with their phases.
         stress_Pa: Stress at that speed; left out without a diameter.
         orders: Torque by order at that speed.
     """

@@ -331,8 +331,8 @@ def _show_response(
     heads = ["shaft", f"± {unit.name}", "at rpm", f"sum, {unit.name}"]
     heads += [*[stress.name] * stressed, "largest orders"]
     note = (
-        "±: half of peak to peak at the worst speed, all orders added up in time. sum: sum of "
-        f"their amplitudes, too large because orders do not peak together. {worst}"
+        "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
+        f"of their amplitudes, too large because orders do not peak together. {worst}"
         f"{_name_gas(result, ' Gas as in the file at every speed.')}"
     )
     words = (0, len(heads) - 1)
