@@ -333,7 +333,7 @@ DOUBTS = [
     (trials(1, 1, ([10.5, 10], [10.5, 10.1])), "the correction of 80 g in p1 is 80 times the largest weight tried there; put it on, read again, and add that run to the file"),
     (at_speeds(), "the trial weight in p1 at 1500 rpm changes no reading by more than 0.011, 0.11% of the largest; use a heavier one"),
     (three_runs("radius = [0.1, 0.45]"), 'radius is 0.45 mm; is it in mm? Give another unit as in "0.45 m"'),
-    *((in_other_sense(known, 'weights = "with"\n'), f"'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; with {TURNED}") for known in (False, True)),
+    *((in_other_sense(known, 'weights = "with"\n'), f"'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; {TURNED}") for known in (False, True)),
     ('sensors = ["rear"]\n' + head(1) + OFF + run([9], [("p1", -5)]), "'run 3' reads 9 @ 0.0 at rear; the other runs predict 3 @ 0.0; check its weights and the state of the machine, or leave the run out"),
     (head(2, ALIKE) + run([1, 2]), "planes p1 and p2 have nearly the same effect as other planes: all but 4.8% of the effect of one can come from others (condition 42.1), so small reading errors change the weights much; if these are large, try --without p1"),
     (head(3, TOGETHER) + run([1, 2, 3]), "planes p1, p2 and p3 have nearly the same effect as other planes: all but 7.1% of the effect of one can come from others (condition 30.1), so small reading errors change the weights much; if these are large, try --without p1"),
