@@ -173,14 +173,15 @@ class Number(_Field):
         below: float | None = None,
         most: float = math.inf,
         word: str = "",
+        meaning: float = math.nan,
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word = word  # text that is allowed instead of a number; the figure is then nan
+        self.word, self.meaning = word, meaning  # text allowed instead of a number, and its figure
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
         if self.word and value == self.word:
-            return WrittenFigure(math.nan, self.word)
+            return WrittenFigure(self.meaning, self.word)
         try:
             number = self._measure(value)
         except ValueError as error:

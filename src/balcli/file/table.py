@@ -63,7 +63,8 @@ Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
 Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
-GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
+INERTIA_ABOVE_0 = Number(INERTIA, above=0, most=1e24)
+GivenInertia = Annotated[float, INERTIA_ABOVE_0]
 
 FIT = "fit"  # value in place of an unbalance that `balance` computes
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
