@@ -129,9 +129,12 @@ class Placed(NamedTuple):
         """Return an unbalance on its crank in its own axes at its own crank angle 0, from what all
         see when the first crank is at 0, kg m.
         """
-        back = np.conj(unit(self.turn_deg)) * seen
-        own = back if self.ratio > 0 else np.conj(back)
-        return complex(np.conj(unit(self.phase_deg)) * own)
+        return complex(np.conj(unit(self.phase_deg)) * self.turn_back(seen))
+
+    def turn_back(self, vector: complex | Complex) -> Complex:
+        """Return a vector of the axes of all in its own."""
+        back: Complex = np.conj(unit(self.turn_deg)) * vector
+        return back if self.ratio > 0 else np.conj(back)
 
     def turn_axial(self, vector: complex | Complex) -> Complex:
         """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
@@ -156,8 +159,7 @@ class Placed(NamedTuple):
 
     def find_own_place(self, place: complex | Complex) -> Complex:
         """Return a point x + iy of the axes of all in its own, m."""
-        back: Complex = np.conj(unit(self.turn_deg)) * (place - place_in_plane(*self.at_m[:2]))
-        return back if self.ratio > 0 else np.conj(back)
+        return self.turn_back(place - place_in_plane(*self.at_m[:2]))
 
 
 NONE_SILENT = SilentCylinders()
