@@ -127,15 +127,10 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_engine_file(record: Path) -> Path:
-    """Return the path of the engine file whose result is recorded here, existing or not."""
-    return record.parent.with_name(f"{record.stem}.toml")
-
-
 def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
     """Yield a difference for each record among `files` whose engine file is missing."""
     for record in files:
-        engine_file = find_engine_file(record)
+        engine_file = record.parent.with_name(f"{record.stem}.toml")
         if not engine_file.exists() and _is_record(record):
             reason = (
                 f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
@@ -343,8 +338,3 @@ def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
             errors[kind.key, f"order {order:g}"] = float(error)
         errors[kind.key, ""] = float(each.sum())
     return errors
-
-
-def describe_checks(checked: Iterable[CheckedEngine]) -> Node:
-    """Return the document `balcli.check/1`."""
-    return to_document(Check(engines=tuple(checked)))

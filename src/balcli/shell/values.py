@@ -4,8 +4,8 @@ engine file (`40`, `2.5 in`, `1/7 turn`, `9000 rpm`), and shares as `0.51` or `5
 A bare number is in mm, kg, kg mm2, degrees or rpm. With `--units imperial`, lengths, masses and
 inertias need a unit, because bare numbers would be ambiguous.
 
-The module also declares optional options (`optional`), and reads ranges of crank speeds
-(`--speeds`, `analyze --speed`).
+The module also declares options (`optional`) and arguments (`argument`), and reads ranges of crank
+speeds (`--speeds`, `analyze --speed`).
 """
 
 from __future__ import annotations
@@ -192,6 +192,11 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
         more: Further arguments of `typer.Option`.
     """
     return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
+
+
+def argument(metavar: str, text: str, **more: Any) -> object:
+    """Return an argument of a command whose help shows no default; parameters as of `optional`."""
+    return typer.Argument(metavar=metavar, help=text, **{"show_default": False, **more})
 
 
 def parse_cylinder(text: str) -> int | str:
