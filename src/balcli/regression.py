@@ -37,7 +37,7 @@ PEAK_ANGLE_DEG = 1e-3  # allowed move of a peak's angle, which rounding moves mo
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
-_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
+_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced", "order")  # order: in the path
 _MALFORMED = (LookupError, TypeError, AttributeError, RecursionError)
 _BROKEN = (OSError, ValueError, OverflowError, BalcliError, *_MALFORMED)
 
@@ -304,26 +304,20 @@ def _compare(
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
         allowed = tolerance * scale + roundings.get((group, order), 0.0)
-        figures = [
-            value or 0.0 for value in (before, after) if isinstance(value, (float, NoneType))
-        ]
         if is_angle and isinstance(before, float) and isinstance(after, float):
             least = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
             allowed = max(least, tolerance * 360)
-        if len(figures) == 2 and (None not in (before, after) or not shared):
-            same = abs(figures[1] - figures[0]) <= allowed
-        else:  # if only one side has an order, its figures decide
-            same = before == after or (
-                path[-1] == "order" and not shared and (before or after or 0) > 2
-            )  # 1 and 2 are always recorded
-        if not same:
-            sized = len(figures) == 2 and scale and not is_angle
+        sized = isinstance(before, (float, NoneType)) and isinstance(after, (float, NoneType))
+        move = abs((after or 0.0) - (before or 0.0)) if sized else math.inf
+        if shared and None in (before, after):  # a figure that exists on one side only
+            allowed = -math.inf
+        if before != after and not move <= allowed:
             yield Difference(
                 cause=_name_cause(path),
                 figure=" ".join(part for part in path if part != "orders"),
                 recorded=before,
                 now=after,
-                share=abs(figures[1] - figures[0]) / scale if sized else None,
+                share=move / scale if sized and scale and not is_angle else None,
             )
 
 
