@@ -352,9 +352,9 @@ class OneOf(_Field):
         for option in self.options:
             if type(value) is not bool and value == option:
                 return option
-        near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
-        hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
-        raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
+        hint = suggest_nearest(str(value), map(str, self.options), self.meaning)
+        told = f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}"
+        raise ValueError(f"{told}; {hint}" if hint else told)
 
     def json(self) -> Node:
         return {"enum": list(self.options)}

@@ -394,9 +394,7 @@ class Sector(FileTable):
     """Density. Example: 7.85"""
 
     def _check_radii(self) -> Iterator[str]:
-        inner, outer = self.inner_radius, self.outer_radius
-        if inner >= outer:
-            yield f"inner_radius = {inner:g} mm: has to be below outer_radius = {outer:g} mm"
+        yield from self.check_below("inner_radius", "outer_radius")
 
 
 class Counterweight(Device):

@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole
+from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole, as_written
 from .units import (
     ANGLE,
     DENSITY,
@@ -156,6 +156,18 @@ class FileTable(BaseModel):
     def given(self) -> set[str]:
         """Keys that the file gives."""
         return self.model_fields_set
+
+    def check_below(self, inner: str, outer: str) -> Iterator[str]:
+        """Yield the contradiction if a length (mm) such as a bore is not below the one around it.
+
+        Args:
+            inner: Key of the length.
+            outer: Key of the length around it.
+        """
+        bore, diameter = getattr(self, inner), getattr(self, outer)
+        if bore and (diameter is None or bore >= diameter):
+            around = "" if diameter is None else f" = {as_written(diameter, 'mm')}"
+            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{around}"
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""

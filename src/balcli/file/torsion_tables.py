@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field
 
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, OneOrEach, Whole, as_written
+from .fields import RIGID, Number, OneOf, OneOrEach, Whole
 from .table import INERTIA_ABOVE_0, Density, FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
@@ -79,14 +79,7 @@ class ShaftKeys(FileTable):
             )
 
     def _check_bore(self) -> Iterator[str]:
-        if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
-            outer = (
-                "no diameter"
-                if self.diameter is None
-                else f"a diameter of {as_written(self.diameter, 'mm')}"
-            )
-            message = f"has a bore of {as_written(self.bore, 'mm')} and {outer}; "
-            yield message + "the bore is the smaller of both"
+        yield from self.check_below("bore", "diameter")
 
     def _check_density(self) -> Iterator[str]:
         if self.density is not None and (self.length is None or self.diameter is None):
@@ -275,7 +268,4 @@ class Torsion(ChainKeys):
     """Dampers on throws."""
 
     def _check_bore(self) -> Iterator[str]:
-        if self.throw_bore is not None and (
-            self.throw_diameter is None or self.throw_bore >= self.throw_diameter
-        ):
-            yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
+        yield from self.check_below("throw_bore", "throw_diameter")
