@@ -206,7 +206,7 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
-        told = f"there is no cylinder {join_words([str(number) for number in strangers])}"
+        told = f"there is no cylinder {join_words(strangers)}"
         yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; give every throw its angle")
 
 

@@ -25,7 +25,7 @@ from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, join_assumed, list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
-from .figures import find_first_largest, place_in_plane
+from .figures import find_first_largest, or_zero, place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -401,9 +401,7 @@ class Engine:
             momenta = (one.ratio * own.momentum for one, own in zip(self.cranks, each, strict=True))
             return TurningInertia(sum(momenta), sum(own.energy for own in each))
         crank = None if self.rotary else self.crank_inertia
-        on_crank: Figure = 0.0
-        for inertia in (crank, self.flywheel_inertia):
-            on_crank = on_crank + (0.0 if inertia is None else inertia)
+        on_crank = or_zero(crank) + or_zero(self.flywheel_inertia)
         if beyond_pins and crank is not None:
             radii = zip(self.weighed, self.cylinders.radius_of_each, strict=True)
             on_crank = on_crank - sum(masses.share * radius**2 for masses, radius in radii)

@@ -22,7 +22,7 @@ import numpy as np
 from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
-from ..file.fields import counted
+from ..file.fields import counted, join_words
 from ..file.model import Crank, EngineFile, Layout
 from ..limits import MOST_PARTS
 from .figures import FileFigures, or_zero
@@ -196,7 +196,7 @@ def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list
         right = "bank, from the free end to the flywheel end"
         if plan.in_rows:
             right = "row, in the sense of rotation"
-        told = f"has lists of {_join(given)} cylinders, but {_join(sizes)} are there"
+        told = f"has lists of {join_words(given)} cylinders, but {join_words(sizes)} are there"
         return default, [Problem("layout.numbering", f"{told}: give one list per {right}")]
     numbers = [number for row in layout.numbering for number in row]
     if sorted(numbers) != [*default.values()]:
@@ -237,14 +237,9 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    missing = [n for n in wanted if n not in times]
-    parts += [f"missing is {_join(missing)}"] * bool(missing)
+    if missing := [n for n in wanted if n not in times]:
+        parts.append(f"missing is {join_words(missing)}")
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
-
-
-def _join(numbers: Sequence[int]) -> str:
-    """Return numbers as text: `1 and 2`, or `1, 2, 3`."""
-    return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))
 
 
 def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:

@@ -427,7 +427,7 @@ class Choice(NamedTuple):
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
 
-def join_words(words: Collection[str]) -> str:
-    """Return words joined as in a sentence: `a, b and c`."""
-    *front, last = words
+def join_words(words: Iterable[object]) -> str:
+    """Return words or numbers joined as in a sentence: `a, b and c`."""
+    *front, last = map(str, words)
     return f"{', '.join(front)} and {last}" if front else last

@@ -102,13 +102,13 @@ class Form(NamedTuple):
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
-_RANGES = {
+_RANGES = (
     (
-        "mount.",
-        "point.",
-    ): "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
-    ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed.",
-}
+        ("mount.", "point."),
+        "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
+    ),
+    (("shaft.",), "Shafts: largest value from 0.5 to 1.5 times the engine's speed."),
+)
 
 
 def describe_names() -> str:
@@ -135,9 +135,4 @@ def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    found = (
-        note
-        for beginnings, note in _RANGES.items()
-        if any(name.startswith(beginnings) for name in asked)
-    )
-    return " ".join(found)
+    return " ".join(note for starts, note in _RANGES if any(n.startswith(starts) for n in asked))
