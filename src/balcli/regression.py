@@ -37,7 +37,7 @@ PEAK_ANGLE_DEG = 1e-3  # allowed move of a peak's angle, which rounding moves mo
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
-_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced", "order")  # order: in the path
+_DERIVED = ("axis_deg", "phase_deg", "peak_deg", "balanced")
 _MALFORMED = (LookupError, TypeError, AttributeError, RecursionError)
 _BROKEN = (OSError, ValueError, OverflowError, BalcliError, *_MALFORMED)
 
@@ -300,6 +300,8 @@ def _compare(
             largest[group] = max(largest.get(group, 0.0), abs(value))
     for path in dict.fromkeys((*new, *old)):
         before, after, shared = old.get(path), new.get(path), path in old and path in new
+        if path[-1] == "order" and not shared and (before or after or 0) > 2:
+            continue  # its figures decide; orders 1 and 2 are always recorded
         group, is_angle = _find_group(path), path[-1].endswith("_deg")
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
