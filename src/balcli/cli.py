@@ -164,14 +164,14 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-def _quiet(wanted: bool) -> None:
-    if wanted:
-        set_loudness(Loudness.QUIET)
+def _loudness_option(loudness: Loudness, text: str, *names: str) -> object:
+    """Return an option that sets how much is printed as soon as it is read."""
 
+    def apply(wanted: bool) -> None:
+        if wanted:
+            set_loudness(loudness)
 
-def _verbose(wanted: bool) -> None:
-    if wanted:
-        set_loudness(Loudness.VERBOSE)
+    return typer.Option(*names, callback=apply, expose_value=False, help=text)
 
 
 def _digits(wanted: int | None) -> int | None:
@@ -180,48 +180,37 @@ def _digits(wanted: int | None) -> int | None:
     return wanted
 
 
+VERSION = "Print the version of balcli."
+QUIET = "No warnings and no progress."
+VERBOSE = "Also print what was read, and the run time."
+DIGITS = f"Significant digits in tables; default: {USUAL_DIGITS}."
+Version = Annotated[
+    bool, typer.Option("-V", "--version", callback=_version, is_eager=True, help=VERSION)
+]
+Digits = Annotated[
+    int | None,
+    typer.Option(
+        "--digits",
+        callback=_digits,
+        min=1,
+        max=MOST_DIGITS,
+        metavar="N",
+        envvar="BALCLI_DIGITS",
+        show_envvar=False,
+        show_default=False,
+        help=DIGITS,
+    ),
+]
+
+
 @app.callback()
 def _options(
-    version: Annotated[
-        bool,
-        typer.Option(
-            "-V", "--version", callback=_version, is_eager=True, help="Print the version of balcli."
-        ),
-    ] = False,
-    quiet: Annotated[
-        bool,
-        typer.Option(
-            "-q",
-            "--quiet",
-            callback=_quiet,
-            expose_value=False,
-            help="No warnings and no progress.",
-        ),
-    ] = False,
+    version: Version = False,
+    quiet: Annotated[bool, _loudness_option(Loudness.QUIET, QUIET, "-q", "--quiet")] = False,
     verbose: Annotated[
-        bool,
-        typer.Option(
-            "-v",
-            "--verbose",
-            callback=_verbose,
-            expose_value=False,
-            help="Also print what was read, and the run time.",
-        ),
+        bool, _loudness_option(Loudness.VERBOSE, VERBOSE, "-v", "--verbose")
     ] = False,
-    digits: Annotated[
-        int | None,
-        typer.Option(
-            "--digits",
-            callback=_digits,
-            min=1,
-            max=MOST_DIGITS,
-            metavar="N",
-            envvar="BALCLI_DIGITS",
-            show_envvar=False,
-            show_default=False,
-            help=f"Significant digits in tables; default: {USUAL_DIGITS}.",
-        ),
-    ] = None,
+    digits: Digits = None,
 ) -> None:
     """Engine balance: free forces and moments of an engine, order by order, and devices that cancel
     them.

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import typer
 
-from .core.records import Node, describe_record
+from .core.records import Node, describe_record, to_document
 from .errors import BalcliError, Exit, OtherKindError, legible
 from .file import examples
 from .file.examples import template
@@ -29,6 +29,7 @@ from .shell.inputs import exit_on_errors, find_engine_files, find_expected, read
 from .shell.options import FormatOption, Output
 from .shell.output import emit, make_folder_of, refuse_existing, show, write_file
 from .shell.progress import each_until_stopped, exit_if_cut_short, reporting_until_stopped
+from .shell.values import argument, optional
 from .show.formats import Format, json_text
 
 if TYPE_CHECKING:
@@ -36,28 +37,17 @@ if TYPE_CHECKING:
 
 
 Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
+KIND = (
+    "single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its mounts; "
+    "locomotive: balance of its wheels; field: runs of a rotor on a machine; torsion: a chain of "
+    "inertias and shafts."
+)
+WHERE = "Where to write it; default: standard output."
 
 
 def new(
-    kind: Annotated[
-        str,
-        typer.Argument(
-            metavar="KIND",
-            help="single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its "
-            "mounts; locomotive: balance of its wheels; field: runs of a rotor on a machine; "
-            "torsion: a chain of inertias and shafts.",
-            show_default=False,
-        ),
-    ],
-    path: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="FILE",
-            callback=parse_output,
-            help="Where to write it; default: standard output.",
-            show_default=False,
-        ),
-    ] = None,
+    kind: Annotated[str, argument("KIND", KIND)],
+    path: Annotated[Path | None, argument("FILE", WHERE, callback=parse_output)] = None,
     force: Force = False,
 ) -> None:
     """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
@@ -78,29 +68,18 @@ def complete_examples(incomplete: str) -> list[str]:
     return [name for name in examples.names() if name.startswith(incomplete)]
 
 
+NAME = "An example; without it all are listed."
+COPY = "Copy it here; default: standard output."
+FIND = (
+    "List those whose name, class (aero, car, marine), title, source, lesson or tables (gas, "
+    "torsion) have the words."
+)
+
+
 def engines(
-    name: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="NAME",
-            help="An example; without it all are listed.",
-            autocompletion=complete_examples,
-        ),
-    ] = None,
-    path: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="FILE", callback=parse_output, help="Copy it here; default: standard output."
-        ),
-    ] = None,
-    find: Annotated[
-        str,
-        typer.Option(
-            metavar="WORDS",
-            help="List those whose name, class (aero, car, marine), title, source, lesson or "
-            "tables (gas, torsion) have the words.",
-        ),
-    ] = "",
+    name: Annotated[str | None, argument("NAME", NAME, autocompletion=complete_examples)] = None,
+    path: Annotated[Path | None, argument("FILE", COPY, callback=parse_output)] = None,
+    find: Annotated[str, optional("WORDS", FIND)] = "",
     force: Force = False,
 ) -> None:
     """List the example engines that come with balcli, print one, or copy it, with the files of its
@@ -145,24 +124,16 @@ class File(StrEnum):
     TORSION = "torsion"
 
 
+FILE = (
+    "engine: the engine file; field: runs of a rotor on a machine; torsion: a chain of inertias "
+    "and shafts."
+)
+OF = f"Print the schema of a result in JSON instead: {', '.join(DOCUMENTS)}."
+
+
 def schema(
-    kind: Annotated[
-        File | None,
-        typer.Argument(
-            show_default="engine",
-            help="engine: the engine file; field: runs of a rotor on a machine; torsion: a chain "
-            "of inertias and shafts.",
-        ),
-    ] = None,
-    of: Annotated[
-        str | None,
-        typer.Option(
-            "--of",
-            metavar="RESULT",
-            show_default=False,
-            help=f"Print the schema of a result in JSON instead: {', '.join(DOCUMENTS)}.",
-        ),
-    ] = None,
+    kind: Annotated[File | None, typer.Argument(show_default="engine", help=FILE)] = None,
+    of: Annotated[str | None, optional("RESULT", OF, "--of")] = None,
     output: Output = None,
 ) -> None:
     """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
@@ -186,11 +157,9 @@ def _describe_file(kind: File) -> Node:
     if kind is File.FIELD:
         return files.describe_file(runs.RunsFile, [runs.Run], "runs-file", "balcli file of runs")
     if kind is File.TORSION:
+        name, title = "chain-file", "balcli chain file"
         return files.describe_file(
-            chain.ChainFile,
-            [torsion_tables.Damper, *chain.LISTS],
-            "chain-file",
-            "balcli chain file",
+            chain.ChainFile, [torsion_tables.Damper, *chain.LISTS], name, title
         )
     return files.describe_engine_file()
 
@@ -217,37 +186,17 @@ def describe_document(name: str) -> Node:
     return head | found | changed | {"title": f"balcli.{name}/1"}
 
 
-CheckFormat = Annotated[
-    Format | None,
-    format_option(
-        (Format.TABLE, Format.JSON, Format.JUNIT),
-        "junit: an XML report for continuous integration.",
-    ),
-]
+REPORTS = (Format.TABLE, Format.JSON, Format.JUNIT)
+REPORT = "junit: an XML report for continuous integration."
+UPDATE = "Record the present results in expected/ next to the engines."
+TOLERANCE = "Allowed move of a figure, as a share of the largest figure of its group."
 
 
 def check(
-    paths: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="PATH...", help="Engine files, or folders of them.", show_default=False
-        ),
-    ],
-    update: Annotated[
-        bool,
-        typer.Option(
-            "--update", help="Record the present results in expected/ next to the engines."
-        ),
-    ] = False,
-    tolerance: Annotated[
-        float,
-        typer.Option(
-            help="Allowed move of a figure, as a share of the largest figure of its group.",
-            min=0,
-            max=1,
-        ),
-    ] = 1e-9,
-    form: CheckFormat = None,
+    paths: Annotated[list[Path], argument("PATH...", "Engine files, or folders of them.")],
+    update: Annotated[bool, typer.Option("--update", help=UPDATE)] = False,
+    tolerance: Annotated[float, typer.Option(help=TOLERANCE, min=0, max=1)] = 1e-9,
+    form: Annotated[Format | None, format_option(REPORTS, REPORT)] = None,
 ) -> None:
     """Recompute engines and compare them with their recorded results; exit status 1 if anything
     moved.
@@ -262,7 +211,7 @@ def check(
       balcli check v8.toml
       balcli check v8.toml --tolerance 1e-6 --format junit
     """
-    from .regression import describe_checks, find_abandoned
+    from .regression import Check, find_abandoned
 
     files, expected = find_engine_files(paths), find_expected(paths)
     found, work = {*files} - {*paths}, partial(_check_engine, update=update, tolerance=tolerance)
@@ -273,7 +222,7 @@ def check(
     compared = sum(each.error is None for each in results)
     moved = sum(len(each.differences) for each in checked)
     if form is Format.JSON:
-        emit(json_text(describe_checks(checked)))
+        emit(json_text(to_document(Check(engines=tuple(checked)))))
     elif form is Format.JUNIT:
         emit(_write_junit(checked))
     else:

@@ -127,15 +127,10 @@ def find_record(engine_file: Path) -> Path:
     return engine_file.parent / "expected" / f"{engine_file.stem}.json"
 
 
-def find_engine_file(record: Path) -> Path:
-    """Return the path of the engine file whose result is recorded here, existing or not."""
-    return record.parent.with_name(f"{record.stem}.toml")
-
-
 def find_abandoned(files: Iterable[Path]) -> Iterator[CheckedEngine]:
     """Yield a difference for each record among `files` whose engine file is missing."""
     for record in files:
-        engine_file = find_engine_file(record)
+        engine_file = record.parent.with_name(f"{record.stem}.toml")
         if not engine_file.exists() and _is_record(record):
             reason = (
                 f"its result is recorded in {record.parent.name}/{record.name}, but there is no "
@@ -305,30 +300,26 @@ def _compare(
             largest[group] = max(largest.get(group, 0.0), abs(value))
     for path in dict.fromkeys((*new, *old)):
         before, after, shared = old.get(path), new.get(path), path in old and path in new
+        if path[-1] == "order" and not shared and (before or after or 0) > 2:
+            continue  # its figures decide; orders 1 and 2 are always recorded
         group, is_angle = _find_group(path), path[-1].endswith("_deg")
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
         allowed = tolerance * scale + roundings.get((group, order), 0.0)
-        figures = [
-            value or 0.0 for value in (before, after) if isinstance(value, (float, NoneType))
-        ]
         if is_angle and isinstance(before, float) and isinstance(after, float):
             least = DEAD_CENTER_DEG if path[0] == "travel" else PEAK_ANGLE_DEG
             allowed = max(least, tolerance * 360)
-        if len(figures) == 2 and (None not in (before, after) or not shared):
-            same = abs(figures[1] - figures[0]) <= allowed
-        else:  # if only one side has an order, its figures decide
-            same = before == after or (
-                path[-1] == "order" and not shared and (before or after or 0) > 2
-            )  # 1 and 2 are always recorded
-        if not same:
-            sized = len(figures) == 2 and scale and not is_angle
+        sized = isinstance(before, (float, NoneType)) and isinstance(after, (float, NoneType))
+        move = abs((after or 0.0) - (before or 0.0)) if sized else math.inf
+        if shared and None in (before, after):  # a figure that exists on one side only
+            allowed = -math.inf
+        if before != after and not move <= allowed:
             yield Difference(
                 cause=_name_cause(path),
                 figure=" ".join(part for part in path if part != "orders"),
                 recorded=before,
                 now=after,
-                share=abs(figures[1] - figures[0]) / scale if sized else None,
+                share=move / scale if sized and scale and not is_angle else None,
             )
 
 
@@ -343,8 +334,3 @@ def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
             errors[kind.key, f"order {order:g}"] = float(error)
         errors[kind.key, ""] = float(each.sum())
     return errors
-
-
-def describe_checks(checked: Iterable[CheckedEngine]) -> Node:
-    """Return the document `balcli.check/1`."""
-    return to_document(Check(engines=tuple(checked)))

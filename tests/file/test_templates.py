@@ -92,9 +92,6 @@ def test_every_key_is_explained_and_lines_are_short(kind):
 def test_unknown_kinds():
     with pytest.raises(BalcliError) as caught:
         template("boxxer")
-    assert str(caught.value) == (
-        '"boxxer" is not a kind of file; there are single, inline, vee, boxer, radial, '
-        "radial14, w, mounts, locomotive, field, torsion. Did you mean boxer?"
-    )
-    with pytest.raises(BalcliError, match=r"w, mounts, locomotive, field, torsion\.$"):
+    assert str(caught.value) == '"boxxer" is not a kind of file; did you mean boxer?'
+    with pytest.raises(BalcliError, match=r"w, mounts, locomotive, field, torsion$"):
         template("q" * 10_000)

@@ -25,9 +25,9 @@ def ask_for(pattern: str) -> str:
 def test_every_name_that_a_file_has_can_be_swept(file):
     path = ENGINES / f"{file}.toml"
     listed = list(list_quantities(read(path)))
-    names = [ask_for(form.pattern) for form in listed]
+    names = [ask_for(form.name) for form in listed]
     assert len(names) == len(set(names))
-    assert [form["name"] for form in ask_json("numbers", path)["quantities"]] == [form.pattern for form in listed]
+    assert [form["name"] for form in ask_json("numbers", path)["quantities"]] == [form.name for form in listed]
     done = run_here("sweep", path, "--vary", "operation.speed=1200", "-q", ",".join(names))
     assert (done.status, done.err) == (0, "")
     head, values = csv.reader(StringIO(done.out))
@@ -38,9 +38,9 @@ def test_every_name_that_a_file_has_can_be_swept(file):
 
 
 def test_files_name_what_they_have_only():
-    beginnings = {form.pattern.partition(".")[0] for form in list_quantities(read(ENGINES / "i4.toml"))}
+    beginnings = {form.name.partition(".")[0] for form in list_quantities(read(ENGINES / "i4.toml"))}
     assert beginnings == {"force", "moment", "couple", "torque", "roll", "peak", "guide", "piston", "journal", "pin"}
-    diesel = [form.pattern for form in list_quantities(read(ENGINES / "i6_diesel.toml"))]
+    diesel = [form.name for form in list_quantities(read(ENGINES / "i6_diesel.toml"))]
     assert {"torsion.1.Hz", "shaft.flywheel.stress", "gas.N.PART"} <= {*diesel}
     assert not any(name.startswith(("mode", "mount", "shaft.gear.stress")) for name in diesel)
 

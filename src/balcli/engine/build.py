@@ -206,10 +206,8 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
-        there = join_words([str(number) for number in strangers])
-        none = "are no cylinders" if len(strangers) > 1 else "is no cylinder"
-        told = f"there {none} {there}: {made}; give every throw its angle"
-        yield Problem(f"cylinder.{strangers[0]}", told)
+        told = f"there is no cylinder {join_words(strangers)}"
+        yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; give every throw its angle")
 
 
 def check_rods(parts: Parts) -> Iterator[Problem]:

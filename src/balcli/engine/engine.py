@@ -25,7 +25,7 @@ from ..file.fields import join_words
 from ..file.model import EngineFile
 from ..file.plain_tables import choose_assumed, join_assumed, list_tables
 from ..names import CRANKS, EXPLORE, NOTEBOOK, VARY, import_name
-from .figures import find_first_largest, place_in_plane
+from .figures import find_first_largest, or_zero, place_in_plane
 from .numbering import doubt_firing, find_fitting_splay
 from .rods import CylinderMasses
 
@@ -129,9 +129,12 @@ class Placed(NamedTuple):
         """Return an unbalance on its crank in its own axes at its own crank angle 0, from what all
         see when the first crank is at 0, kg m.
         """
-        back = np.conj(unit(self.turn_deg)) * seen
-        own = back if self.ratio > 0 else np.conj(back)
-        return complex(np.conj(unit(self.phase_deg)) * own)
+        return complex(np.conj(unit(self.phase_deg)) * self.turn_back(seen))
+
+    def turn_back(self, vector: complex | Complex) -> Complex:
+        """Return a vector of the axes of all in its own."""
+        back: Complex = np.conj(unit(self.turn_deg)) * vector
+        return back if self.ratio > 0 else np.conj(back)
 
     def turn_axial(self, vector: complex | Complex) -> Complex:
         """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
@@ -156,8 +159,7 @@ class Placed(NamedTuple):
 
     def find_own_place(self, place: complex | Complex) -> Complex:
         """Return a point x + iy of the axes of all in its own, m."""
-        back: Complex = np.conj(unit(self.turn_deg)) * (place - place_in_plane(*self.at_m[:2]))
-        return back if self.ratio > 0 else np.conj(back)
+        return self.turn_back(place - place_in_plane(*self.at_m[:2]))
 
 
 NONE_SILENT = SilentCylinders()
@@ -399,9 +401,7 @@ class Engine:
             momenta = (one.ratio * own.momentum for one, own in zip(self.cranks, each, strict=True))
             return TurningInertia(sum(momenta), sum(own.energy for own in each))
         crank = None if self.rotary else self.crank_inertia
-        on_crank: Figure = 0.0
-        for inertia in (crank, self.flywheel_inertia):
-            on_crank = on_crank + (0.0 if inertia is None else inertia)
+        on_crank = or_zero(crank) + or_zero(self.flywheel_inertia)
         if beyond_pins and crank is not None:
             radii = zip(self.weighed, self.cylinders.radius_of_each, strict=True)
             on_crank = on_crank - sum(masses.share * radius**2 for masses, radius in radii)

@@ -22,7 +22,7 @@ import numpy as np
 from ..core.phases import TURN
 from ..core.phasors import Array, Figure
 from ..errors import InputError, Problem
-from ..file.fields import counted
+from ..file.fields import counted, join_words
 from ..file.model import Crank, EngineFile, Layout
 from ..limits import MOST_PARTS
 from .figures import FileFigures, or_zero
@@ -98,9 +98,6 @@ def plan_cylinders(model: EngineFile) -> Plan:
     blank = Plan(banks, throws, tuple(Cell(*place, 0) for place in places), rods, in_rows)
     numbers, problems = _number_cylinders(layout, blank)
     problems += [*_check_rows(model, throws), *_check_throws(crank, throws)]
-    if crank.positions is not None and len(crank.positions) != throws:
-        told = f"has {counted(len(crank.positions), 'value')} for {counted(throws, 'throw')}"
-        problems.append(Problem("crank.positions", f"{told}: give one position a throw"))
     if not shared and throws < banks:
         told = f'is "alternating", one rod a throw, for {counted(banks, "bank")} and '
         told += f'{counted(throws, "throw")}: give more throws, or "shared"'
@@ -133,14 +130,11 @@ def _check_rows(model: EngineFile, throws: int) -> Iterator[Problem]:
 
 def _check_throws(crank: Crank, throws: int) -> Iterator[Problem]:
     """Check that lists of figures of the throws have a figure for each throw."""
-    for key, noun, given in (
-        ("stroke", "stroke", crank.stroke),
-        ("throw_mass", "mass", crank.throw_mass),
-    ):
+    for key in ("positions", "stroke", "throw_mass"):
+        given = getattr(crank, key)
         if isinstance(given, tuple) and len(given) != throws:
-            several = f"{len(given)} {noun}{'es' if noun == 'mass' else 's'}"
-            told = f"{several} for {counted(throws, 'throw')}; give one {noun}, or one per throw"
-            yield Problem(f"crank.{key}", told)
+            told = f"has {counted(len(given), 'value')} for {counted(throws, 'throw')}"
+            yield Problem(f"crank.{key}", f"{told}; give one per throw")
 
 
 OPPOSED = (0.0, 180.0)  # default angles of one or two throws, deg
@@ -199,17 +193,11 @@ def _number_cylinders(layout: Layout, plan: Plan) -> tuple[dict[Cell, int], list
         return default, []
     sizes, given = [[len(row) for row in rows] for rows in (plan.groups, layout.numbering)]
     if given != sizes:
-        message = (
-            f"has rows of {_join(given)}, but the banks have {_join(sizes)} cylinders: "
-            "give one row a bank, from the free end to the flywheel end"
-        )
+        right = "bank, from the free end to the flywheel end"
         if plan.in_rows:
-            message = f"has rows of {_join(given)}, but {counted(len(sizes), 'row')} of {sizes[0]}"
-            message += " cylinders are there: give one list per row, in the sense of rotation"
-        if plan.in_rows and len(given) != len(sizes):
-            message = f"{counted(len(given), 'list')} for {counted(len(sizes), 'row')}; "
-            message += "give one list per row"
-        return default, [Problem("layout.numbering", message)]
+            right = "row, in the sense of rotation"
+        told = f"has lists of {join_words(given)} cylinders, but {join_words(sizes)} are there"
+        return default, [Problem("layout.numbering", f"{told}: give one list per {right}")]
     numbers = [number for row in layout.numbering for number in row]
     if sorted(numbers) != [*default.values()]:
         told = _describe_not_once(numbers, [*default.values()])
@@ -249,14 +237,9 @@ def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
     parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
-    missing = [n for n in wanted if n not in times]
-    parts += [f"missing is {_join(missing)}"] * bool(missing)
+    if missing := [n for n in wanted if n not in times]:
+        parts.append(f"missing is {join_words(missing)}")
     return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
-
-
-def _join(numbers: Sequence[int]) -> str:
-    """Return numbers as text: `1 and 2`, or `1, 2, 3`."""
-    return " and ".join(map(str, numbers)) if len(numbers) < 3 else ", ".join(map(str, numbers))
 
 
 def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:
@@ -340,18 +323,9 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
-        each = cycle / len(order)
-        gaps = [ready[i] - ready[order[0]] - k * each for k, i in enumerate(order)]
-        off = (
-            i
-            for i, gap in zip(order, gaps, strict=True)
-            if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG
-        )
         told = (
-            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
-            f"cycle has {cycle:g}; evenly, every {each:g} deg, cylinder {next(off, order[-1])} is "
-            "the first that is not at top dead centre when it fires: change firing_order or "
-            "crank.throws, or leave crank.throws out"
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, and a "
+            f"cycle has {cycle:g}: change firing_order or crank.throws, or leave crank.throws out"
         )
         raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):

@@ -18,7 +18,7 @@ from ..file.plain_tables import change_tables, take_tables
 from ..file.toml import name_file
 from .build import build
 from .engine import Engine, take_model
-from .parse import parse_dict, parse_tables, read
+from .parse import parse_dict, read
 
 if TYPE_CHECKING:
     from ..file.gas_tables import Gas
@@ -57,9 +57,7 @@ def build_tables(tables: Mapping[str, object], name: str) -> Engine:
     Raises:
         InputError: The tables have mistakes; the error lists all of them.
     """
-    model = parse_tables(tables, name)
-    with naming_file(name):
-        return build(model)
+    return build_named(parse_dict(tables, Path(name).parent, name), name)
 
 
 def build_named(model: EngineFile, path: str | Path) -> Engine:

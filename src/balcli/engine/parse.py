@@ -43,30 +43,18 @@ def parse(text: str | bytes, name: str = "") -> EngineFile:
     return _refuse_mistakes(read_tables(text, name), name)
 
 
-def parse_tables(tables: Mapping[str, object], name: str) -> EngineFile:
-    """Return the model of an engine that normalized tables describe.
-
-    Args:
-        tables: Tables as `normalize_tables` returns them.
-        name: Name of their file, or empty; files that it names are in the same folder.
-
-    Raises:
-        InputError: As for `parse`.
-    """
-    return _refuse_mistakes(check_tables(tables, Path(name).parent, name), name)
-
-
-def parse_dict(tables: Mapping[str, object], folder: Path | None = None) -> EngineFile:
+def parse_dict(tables: Mapping[str, object], folder: Path = Path(), name: str = "") -> EngineFile:
     """Return the model of an engine that the tables of a dict describe.
 
     Args:
         tables: Tables in the form of a file.
         folder: Folder of the files that they name; default: the working directory.
+        name: Name of their file, for messages.
 
     Raises:
         InputError: As for `parse`.
     """
-    return _refuse_mistakes(check_tables(normalize_tables(tables), folder or Path()))
+    return _refuse_mistakes(check_tables(normalize_tables(tables), folder, name), name)
 
 
 def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:

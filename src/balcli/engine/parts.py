@@ -506,15 +506,10 @@ class Parts:
         found = [self.figures.take_each(path, every)] * throws
         if rows := [row for row in table.knuckle_angles if isinstance(row, tuple)]:
             found = [self.figures.take_each(f"{path}.{k}", row) for k, row in enumerate(rows, 1)]
-        wrong = ""
+        wrong = [(len(row), "angle", banks, "bank") for row in found if len(row) != banks]
         if len(found) != throws:
-            wrong = f"has {counted(len(found), 'list')} for {counted(throws, 'row')}: give one "
-            wrong += "list for all, or one per row"
-        elif few := [row for row in found if len(row) != banks]:
-            wrong = (
-                f"has {counted(len(few[0]), 'angle')} for {counted(banks, 'bank')}: give one for "
-            )
-            wrong += "each, the master's own is 0"
-        if wrong:
-            raise InputError([Problem(path, wrong)])
+            wrong = [(len(found), "list", throws, "row")]
+        for number, what, wanted, each in wrong[:1]:
+            told = f"has {counted(number, what)} for {counted(wanted, each)}: give one per {each}"
+            raise InputError([Problem(path, told)])
         return found

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 import re
 import tomllib
-from difflib import get_close_matches
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import BalcliError
-from .fields import nearest
+from .fields import suggest_nearest
 
 # Folder of the examples in the installed package, and in a checkout of the repository.
 _PLACES = (Path(__file__).parents[1] / "engines", Path(__file__).parents[3] / "engines")
@@ -84,9 +83,8 @@ def text(name: str) -> str:
     known = _find_paths()
     if name in known:
         return known[name].read_text(encoding="utf-8")
-    near = get_close_matches(name.lower()[:100], known, 3)
-    hint = f" Did you mean {' or '.join(near)}?" if near else ""
-    raise BalcliError(f'there is no example "{name[:60]}": balcli engines lists them.{hint}')
+    hint = suggest_nearest(name, known, "balcli engines lists them")
+    raise BalcliError(f'there is no example "{name[:60]}": {hint}')
 
 
 def locate(name: str) -> Path:
@@ -147,14 +145,8 @@ def template(kind: str) -> str:
         BalcliError: There is no such kind; the error lists all kinds and names the nearest.
     """
     if kind not in KINDS:
-        near = nearest(kind, KINDS)
-        like = [name for name in names() if kind.lower() in name]
-        hint = f" Did you mean {near}?" if near else ""
-        if like:
-            hint = f" An example to start from: balcli engines {like[0]} {like[0]}.toml."
-        raise BalcliError(
-            f'"{kind[:60]}" is not a kind of file; there are {", ".join(KINDS)}.{hint}'
-        )
+        hint = suggest_nearest(kind, KINDS, f"there are {', '.join(KINDS)}")
+        raise BalcliError(f'"{kind[:60]}" is not a kind of file; {hint}')
     if kind in ENGINE_KINDS:
         return SCHEMA + _read_template(kind) + _read_template("optional")
     return SCHEMA * (kind == "locomotive") + _read_template(kind)

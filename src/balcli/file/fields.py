@@ -173,14 +173,15 @@ class Number(_Field):
         below: float | None = None,
         most: float = math.inf,
         word: str = "",
+        meaning: float = math.nan,
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word = word  # text that is allowed instead of a number; the figure is then nan
+        self.word, self.meaning = word, meaning  # text allowed instead of a number, and its figure
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:
         if self.word and value == self.word:
-            return WrittenFigure(math.nan, self.word)
+            return WrittenFigure(self.meaning, self.word)
         try:
             number = self._measure(value)
         except ValueError as error:
@@ -351,9 +352,9 @@ class OneOf(_Field):
         for option in self.options:
             if type(value) is not bool and value == option:
                 return option
-        near = nearest(value, [str(o) for o in self.options]) if isinstance(value, str) else ""
-        hint = f"; did you mean {near}?" if near else f"; {self.meaning}" if self.meaning else ""
-        raise ValueError(f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}{hint}")
+        hint = suggest_nearest(str(value), map(str, self.options), self.meaning)
+        told = f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}"
+        raise ValueError(f"{told}; {hint}" if hint else told)
 
     def json(self) -> Node:
         return {"enum": list(self.options)}
@@ -426,7 +427,7 @@ class Choice(NamedTuple):
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
 
-def join_words(words: Collection[str]) -> str:
-    """Return words joined as in a sentence: `a, b and c`."""
-    *front, last = words
+def join_words(words: Iterable[object]) -> str:
+    """Return words or numbers joined as in a sentence: `a, b and c`."""
+    *front, last = map(str, words)
     return f"{', '.join(front)} and {last}" if front else last

@@ -302,7 +302,4 @@ class Bearing(FileTable):
     def _check_bores(self) -> Iterator[str]:
         """Check that a hollow journal has a diameter larger than its bore."""
         for kind in ("pin", "main"):
-            bore, diameter = getattr(self, f"{kind}_bore"), getattr(self, f"{kind}_diameter")
-            if bore and (diameter is None or bore >= diameter):
-                wanted = "" if diameter is None else f" = {diameter:g} mm"
-                yield f"{kind}_bore = {bore:g} mm: has to be below {kind}_diameter{wanted}"
+            yield from self.check_below(f"{kind}_bore", f"{kind}_diameter")

@@ -19,21 +19,15 @@ if TYPE_CHECKING:
 
 
 TEXTS = ("name", "source")
-TABLES: dict[str, type[FileTable]] = {
-    "crank": model.Crank,
-    "rod": model.Rod,
-    "piston": model.Piston,
-    "crosshead": model.Crosshead,
-    "layout": model.Layout,
-    "bobweight": model.Bobweight,
-    "operation": model.Operation,
-    "frame": model.Frame,
-}
-DEVICES: dict[str, type[FileTable]] = {
-    "counterweight": model.Counterweight,
-    "shaft": model.Shaft,
-    "slider": model.Slider,
-}
+
+
+def _find_classes(keys: str) -> dict[str, type[FileTable]]:
+    """Return the classes of tables by their keys; a class has the name of its key."""
+    return {key: getattr(model, key.capitalize()) for key in keys.split()}
+
+
+TABLES = _find_classes("crank rod piston crosshead layout bobweight operation frame")
+DEVICES = _find_classes("counterweight shaft slider")
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
 # What may stand in a file with [[engine]]; the rest stands in the files of its engines
 _OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")

@@ -9,7 +9,7 @@ that a file has. The string below a key documents it (`table.document_keys`).
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from itertools import chain, pairwise
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
@@ -252,29 +252,12 @@ class Layout(FileTable):
                 f"{counted(len(order), 'firing')}; give one for each, the last one "
                 "back to the first cylinder"
             )
-        elif gaps := _list_gaps(intervals, cycle):
-            yield (
-                "firing_intervals look like angles that count from the first firing: "
-                f"{join_words([f'{angle:g}' for angle in intervals])}; give the angle from each "
-                f"firing to the next: [{', '.join(f'{gap:g}' for gap in gaps)}]"
-            )
         elif abs(sum(intervals) - cycle) > INTERVAL_TOLERANCE_DEG:
             yield (
                 f"firing_intervals add up to {sum(intervals):g} degrees; the cycle of a "
                 f"{self.strokes}-stroke has {cycle} (within {INTERVAL_TOLERANCE_DEG:g}); give the "
                 "angle from each firing to the next"
             )
-
-
-def _list_gaps(angles: Sequence[float], cycle: float) -> list[float]:
-    """Return the interval after each firing if these numbers look like angles from the first
-    firing: they rise from 0, or to the whole cycle. Otherwise return an empty list.
-    """
-    first = angles[0] == 0
-    gaps = [b - a for a, b in pairwise([*angles, cycle] if first else [0, *angles])]
-    rises = min(gaps) > 0 and (first or angles[-1] == cycle) and len(angles) > 1
-    fits = sum(angles) == cycle and max(gaps) > min(gaps) + INTERVAL_TOLERANCE_DEG
-    return gaps if rises and not fits else []
 
 
 class Bobweight(FileTable):
@@ -411,9 +394,7 @@ class Sector(FileTable):
     """Density. Example: 7.85"""
 
     def _check_radii(self) -> Iterator[str]:
-        inner, outer = self.inner_radius, self.outer_radius
-        if inner >= outer:
-            yield f"inner_radius = {inner:g} mm: has to be below outer_radius = {outer:g} mm"
+        yield from self.check_below("inner_radius", "outer_radius")
 
 
 class Counterweight(Device):

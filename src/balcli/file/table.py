@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from ..core.records import Node
 from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole
+from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole, as_written
 from .units import (
     ANGLE,
     DENSITY,
@@ -63,7 +63,8 @@ Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
 Inertia = Annotated[float, Number(INERTIA, least=0, most=1e24)]
 
-GivenInertia = Annotated[float, Number(INERTIA, above=0, most=1e24)]
+INERTIA_ABOVE_0 = Number(INERTIA, above=0, most=1e24)
+GivenInertia = Annotated[float, INERTIA_ABOVE_0]
 
 FIT = "fit"  # value in place of an unbalance that `balance` computes
 Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
@@ -155,6 +156,18 @@ class FileTable(BaseModel):
     def given(self) -> set[str]:
         """Keys that the file gives."""
         return self.model_fields_set
+
+    def check_below(self, inner: str, outer: str) -> Iterator[str]:
+        """Yield the contradiction if a length (mm) such as a bore is not below the one around it.
+
+        Args:
+            inner: Key of the length.
+            outer: Key of the length around it.
+        """
+        bore, diameter = getattr(self, inner), getattr(self, outer)
+        if bore and (diameter is None or bore >= diameter):
+            around = "" if diameter is None else f" = {as_written(diameter, 'mm')}"
+            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{around}"
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""

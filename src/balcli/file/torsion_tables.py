@@ -8,56 +8,29 @@ from typing import Annotated
 
 from pydantic import Field
 
-from ..core.records import Node
 from ..limits import MOST_TORSION_NODES
-from .fields import RIGID, Number, OneOf, Whole, as_written, counted, shorten
-from .table import Density, FileTable, GivenInertia, Name, Size
+from .fields import RIGID, Number, OneOf, OneOrEach, Whole
+from .table import INERTIA_ABOVE_0, Density, FileTable, GivenInertia, Name, Size
 from .units import (
     ANGLE,
-    INERTIA,
     MASS,
     PLAIN,
     SHEAR_MODULUS,
     STRESS,
     TORSIONAL_DAMPING,
     TORSIONAL_STIFFNESS,
-    Dimension,
 )
 
-
-class _Stiffness(Number):
-    """A torsional stiffness above 0, or "rigid"."""
-
-    def __init__(self) -> None:
-        super().__init__(TORSIONAL_STIFFNESS, above=0, most=1e24)
-
-    def read(self, value: object) -> float:
-        return math.inf if value == RIGID else super().read(value)
-
-    def json(self) -> Node:
-        return {"anyOf": [super().json(), {"const": RIGID}], "unit": TORSIONAL_STIFFNESS.unit}
-
-
-class _PolarInertia(Number):
-    """A moment of inertia above 0."""
-
-    def __init__(self) -> None:
-        super().__init__(INERTIA, above=0, most=1e24)
-
-    def read(self, value: object) -> float:
-        if value == 0 and not isinstance(value, bool):
-            raise ValueError("is 0; leave it out where a node has no inertia")
-        return super().read(value)
-
-
-NodeInertia = Annotated[float, _PolarInertia()]
-Stiffness = Annotated[float, _Stiffness()]
+_STIFFNESS = Number(TORSIONAL_STIFFNESS, above=0, most=1e24)
+Stiffness = Annotated[
+    float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24, word=RIGID, meaning=math.inf)
+]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
 Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
 StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
 AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
-_RingStiffness = Annotated[float, Number(TORSIONAL_STIFFNESS, above=0, most=1e24)]
+_RingStiffness = Annotated[float, _STIFFNESS]
 _RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
 _PendulumOrder = Annotated[float, Number(PLAIN, above=0, most=1e3)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
@@ -106,14 +79,7 @@ class ShaftKeys(FileTable):
             )
 
     def _check_bore(self) -> Iterator[str]:
-        if self.bore is not None and (self.diameter is None or self.bore >= self.diameter):
-            outer = (
-                "no diameter"
-                if self.diameter is None
-                else f"a diameter of {as_written(self.diameter, 'mm')}"
-            )
-            message = f"has a bore of {as_written(self.bore, 'mm')} and {outer}; "
-            yield message + "the bore is the smaller of both"
+        yield from self.check_below("bore", "diameter")
 
     def _check_density(self) -> Iterator[str]:
         if self.density is not None and (self.length is None or self.diameter is None):
@@ -182,7 +148,7 @@ class NodeKeys(FileTable):
 
     name: Name
     """Name of the node; no two have the same. Example: 'flywheel'"""
-    inertia: NodeInertia | None = None
+    inertia: GivenInertia | None = None
     """Moment of inertia; left out: a massless node. Example: 2.075e6"""
     damper: Damper | None = None
     """Damper on the node. Example: { kind = 'viscous', inertia = 30000, damping = 12 }"""
@@ -226,11 +192,8 @@ def _find_polar_moment(shaft: ShaftKeys) -> float:
     return math.pi * (outer**4 - inner**4) / 32
 
 
-class SpeedRatio(Number):
+class _Ratio(Number):
     """A speed ratio: not 0; negative if the gears reverse the rotation."""
-
-    def __init__(self) -> None:
-        super().__init__(PLAIN, most=1e6)
 
     def read(self, value: object) -> float:
         ratio = super().read(value)
@@ -239,25 +202,14 @@ class SpeedRatio(Number):
         return ratio
 
 
-class _EachOrAll(Number):
-    """One figure above 0 for all throws, or a list of them."""
+SpeedRatio = Annotated[float, _Ratio(PLAIN, most=1e6)]
 
-    def __init__(self, dimension: Dimension) -> None:
-        super().__init__(dimension, above=0, most=1e24)
 
-    def read(self, value: object) -> tuple[float, ...]:  # type: ignore[override]
-        if not isinstance(value, list):
-            return (super().read(value),)
-        if not 1 <= len(value) <= MOST_TORSION_NODES:
-            raise ValueError(
-                f"{shorten(value)} has {counted(len(value), 'value')}; give one for all, or a list "
-                f"of up to {MOST_TORSION_NODES}"
-            )
-        return tuple(super(_EachOrAll, self).read(each) for each in value)
+class _OfThrows(OneOrEach):
+    """A figure that holds for all throws (a tuple of one), or one for each."""
 
-    def json(self) -> Node:
-        items = {"type": "array", "items": super().json(), "minItems": 1}
-        return {"anyOf": [super().json(), items], "unit": self.dimension.unit}
+    def read_one(self, value: object) -> object:
+        return (self.one.read(value),)
 
 
 class Part(ShaftKeys, NodeKeys):
@@ -265,7 +217,7 @@ class Part(ShaftKeys, NodeKeys):
     connects it.
     """
 
-    gear: Annotated[float, SpeedRatio()] | None = None
+    gear: SpeedRatio | None = None
     """Speed over crank speed; left out: the speed of the part to which it is connected. The mesh is
     at that part, and the shaft turns with this part. Example: 0.5
     """
@@ -293,11 +245,11 @@ _ThrowDampers = Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION
 class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and parts before and behind the throws."""
 
-    throw_stiffness: Annotated[tuple[float, ...], _EachOrAll(TORSIONAL_STIFFNESS)] | None = None
+    throw_stiffness: Annotated[tuple[float, ...], _OfThrows(_STIFFNESS)] | None = None
     """Torsional stiffness between neighbouring throws: one figure for all, or a list. Example:
     1.25e6
     """
-    throw_inertia: Annotated[tuple[float, ...], _EachOrAll(INERTIA)] | None = None
+    throw_inertia: Annotated[tuple[float, ...], _OfThrows(INERTIA_ABOVE_0)] | None = None
     """Moment of inertia of the crankshaft at each throw with its counterweights, without rods and
     pistons: one figure for all, or a list; left out: an equal share of crank.inertia. Example:
     46700
@@ -316,7 +268,4 @@ class Torsion(ChainKeys):
     """Dampers on throws."""
 
     def _check_bore(self) -> Iterator[str]:
-        if self.throw_bore is not None and (
-            self.throw_diameter is None or self.throw_bore >= self.throw_diameter
-        ):
-            yield "has a throw_bore without a larger throw_diameter; the bore lies within the shaft"
+        yield from self.check_below("throw_bore", "throw_diameter")

@@ -400,9 +400,6 @@ def read_unit(names: str, dimension: Dimension) -> Unit:
             before, part = pair
         if part is None:
             near = find_near_name(name)
-            alone = _find(near) if name == names.strip() else None
-            if alone and alone.powers != dimension.powers:
-                near = ""
             hint = f" did you mean {near}?" if near else ""
             raise ValueError(f'has the unknown unit "{name}";{hint} {wanted(dimension)}')
         sign = -1 if joint == "/" else 1

@@ -161,11 +161,10 @@ def find_engine_files(paths: Sequence[Path]) -> list[Path]:
         # Unlike Path.is_dir, this is false for forbidden paths and for names that are too long.
         folder = os.path.isdir(path)
         found = sorted(filter(_is_engine, _walk(path))) if folder else [path]
-        if not found or not os.path.exists(path):
-            reason = "has no engine files (*.toml)"
-            if not folder:
-                reason = f"no such file or folder{find_near_file(path)}"
-            raise BalcliError(f"{path}: {reason}")
+        if not found:
+            raise BalcliError(f"{path}: has no engine files (*.toml)")
+        if not os.path.exists(path):
+            raise BalcliError(f"{path}: no such file or folder{find_near_file(path)}")
         files += found
     return files
 

@@ -20,7 +20,7 @@ from ..limits import (
 from ..show.formats import Format, Units
 from ..sizing.options import check_small
 from .file_names import TEXTS, format_option, parse_output
-from .values import optional, read_length, read_share, read_speed
+from .values import argument, optional, read_length, read_share, read_speed
 
 # Words of `analyze --only` for tables and texts of quantities that are always computed.
 PARTS = ("xy", "textbook", "verdict")
@@ -29,23 +29,14 @@ OF_ONE = (*PARTS, *CLOSER[2:])  # words of tables that describe one engine at on
 WORDS_OF_ONLY = (*KINDS, "peak", "sizing", "ladder", *GAS_KINDS, *CLOSER, *PARTS)
 
 
-EnginePath = Annotated[
-    str,
-    typer.Argument(
-        metavar="FILE", help="Engine file (TOML); - reads standard input.", show_default=False
-    ),
-]
+EnginePath = Annotated[str, argument("FILE", "Engine file (TOML); - reads standard input.")]
 EnginePaths = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="FILE...", show_default=False, help="Engine files (TOML); - reads standard input."
-    ),
+    list[str], argument("FILE...", "Engine files (TOML); - reads standard input.")
 ]
 FormatOption = Annotated[
     Format | None,
     format_option(
-        TEXTS.values(),
-        "Default: by the ending of -o (.txt, .json, .csv, .md), else table.",
+        TEXTS.values(), "Default: by the ending of -o (.txt, .json, .csv, .md), else table."
     ),
 ]
 UnitsOption = Annotated[
@@ -61,17 +52,10 @@ UnitsOption = Annotated[
 Output = Annotated[
     Path | None,
     optional(
-        "FILE",
-        "File to write; - is standard output.",
-        "--output",
-        "-o",
-        callback=parse_output,
+        "FILE", "File to write; - is standard output.", "--output", "-o", callback=parse_output
     ),
 ]
-Target = Annotated[
-    Path | None,
-    typer.Argument(metavar="OUT", show_default=False, help="The file to write; the same as -o."),
-]
+Target = Annotated[Path | None, argument("OUT", "The file to write; the same as -o.")]
 Speed = Annotated[
     str | None, optional("RPM", "Crank speed instead of the file's, rpm.", "--speed", "--rpm")
 ]

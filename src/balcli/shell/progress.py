@@ -105,9 +105,7 @@ def reporting(what: str, total: float | None = None, shown: bool = True) -> Iter
 
 
 @contextmanager
-def reporting_until_stopped(
-    what: str, total: float | None = None, shown: bool = True
-) -> Iterator[Progress]:
+def reporting_until_stopped(what: str, total: float | None = None) -> Iterator[Progress]:
     """Report progress as `reporting` does, for a computation that can end early with a partial
     result: the first Ctrl-C only sets `stopped`, the second one ends the command. If the process
     ignores Ctrl-C (`nohup`), it continues to do so.
@@ -115,10 +113,9 @@ def reporting_until_stopped(
     Args:
         what: Noun for the work.
         total: Total number; None: the callback receives the share of the work, from 0 to 1.
-        shown: Whether to show a bar.
     """
     before = signal.getsignal(signal.SIGINT)
-    with reporting(what, total, shown) as progress:
+    with reporting(what, total) as progress:
 
         def stop(*_: object) -> None:
             progress.stopped = True

@@ -4,8 +4,8 @@ engine file (`40`, `2.5 in`, `1/7 turn`, `9000 rpm`), and shares as `0.51` or `5
 A bare number is in mm, kg, kg mm2, degrees or rpm. With `--units imperial`, lengths, masses and
 inertias need a unit, because bare numbers would be ambiguous.
 
-The module also declares optional options (`optional`), and reads ranges of crank speeds
-(`--speeds`, `analyze --speed`).
+The module also declares options (`optional`) and arguments (`argument`), and reads ranges of crank
+speeds (`--speeds`, `analyze --speed`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import BalcliError, warn
+from ..errors import BalcliError
 from ..file.units import (
     ANGLE,
     FORTRAN,
@@ -194,6 +194,11 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
     return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
 
 
+def argument(metavar: str, text: str, **more: Any) -> object:
+    """Return an argument of a command whose help shows no default; parameters as of `optional`."""
+    return typer.Argument(metavar=metavar, help=text, **{"show_default": False, **more})
+
+
 def parse_cylinder(text: str) -> int | str:
     """Return a cylinder as an engine names it: `3`, or of geared engines `upper.3`."""
     return int(text) if text.isascii() and text.isdecimal() and len(text) < 6 else text
@@ -239,9 +244,6 @@ def parse_speeds(
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
-    if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
-        meant = f"{figure[1]}{figure[2]} rpm"
-        warn(f"{start}a comma separates speeds, not thousands: was {meant} meant?")
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]

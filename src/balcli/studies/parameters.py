@@ -86,19 +86,17 @@ def find_places(model: EngineFile) -> dict[str, Place]:
     numbers: dict[str, Place] = {}
     for path, table in tables.items():
         numbers |= _numbers_of(path, table)
-    idle = _list_idle_paths(model, numbers)
-    idle += [path for path, place in numbers.items() if (place.table, place.key) in _SHOWN_ALONE]
-    for path in idle:
-        del numbers[path]
-    for k in range(len(model.layout.firing_intervals or ())):  # intervals add up to a cycle
-        del numbers[f"layout.firing_intervals.{k + 1}"]
+    idle = {*_list_idle_paths(model, numbers)}
     if plan.banks != 2:  # an angle would turn the engine into a vee
-        numbers.pop("layout.bank_angle", None)
+        idle.add("layout.bank_angle")
     if not plan.in_rows:  # it would number the cylinders anew
-        numbers.pop("layout.row_angle")
-    for path in [path for path in numbers if re.match(_OF_WHEELS, path)]:
-        del numbers[path]
-    return numbers
+        idle.add("layout.row_angle")
+    return {
+        path: place
+        for path, place in numbers.items()
+        if path not in idle and (place.table, place.key) not in _SHOWN_ALONE
+        if not re.match(_FIXED, path)
+    }
 
 
 def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
@@ -118,8 +116,8 @@ def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
 
 
 _IDLE_TABLES = ("torsion", "locomotive", "axle")  # of engines that are geared together
-# Numbers that only `locomotive` reads.
-_OF_WHEELS = r"locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
+# Intervals, which add up to a cycle, and numbers that only `locomotive` reads.
+_FIXED = r"layout\.firing_intervals\.|locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 
 
 def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:

@@ -203,6 +203,15 @@ def naming_variant(name: str) -> Iterator[None]:
         raise BalcliError(": ".join(filter(None, (name, str(error))))) from None
 
 
+def _list_variants(
+    figures: Mapping[str, Figure], shape: tuple[int, ...]
+) -> Iterator[dict[str, float]]:
+    """Yield the figures of each variant in a grid of this shape, to which they broadcast."""
+    columns = {path: np.broadcast_to(v, shape).ravel() for path, v in figures.items()}
+    for k in range(math.prod(shape)):
+        yield {path: float(column[k]) for path, column in columns.items()}
+
+
 class _VariedGas:
     """Gas torque of variants by order, shape (orders, *trailing). Axes of parameters without effect
     on the gas have length 1.
@@ -225,12 +234,7 @@ class _VariedGas:
         )
 
     def _build(self) -> Iterator[Engine]:
-        columns = [np.broadcast_to(each, self._shape).ravel() for each in self._figures.values()]
-        for row in range(int(np.prod(self._shape))):
-            own = {
-                path: float(column[row])
-                for path, column in zip(self._figures, columns, strict=True)
-            }
+        for own in _list_variants(self._figures, self._shape):
             with naming_file(tell_variant(own)):
                 yield build(self._model, own)
 
@@ -306,10 +310,8 @@ class Evaluator:
     def _evaluate_one_by_one(
         self, figures: Mapping[str, Array], shape: tuple[int, ...]
     ) -> dict[AnyQuantity, Array]:
-        columns = {path: np.broadcast_to(v, shape).ravel() for path, v in figures.items()}
         rows: list[list[float]] = []
-        for k in range(int(np.prod(shape))):
-            own = {path: float(column[k]) for path, column in columns.items()}
+        for own in _list_variants(figures, shape):
             with naming_variant(tell_variant(own)), naming_file(""):
                 rows.append([v for _, one in self._chapters for v in one.evaluate(own)])
         names = [q for members, _ in self._chapters for q in members]
@@ -334,21 +336,6 @@ class FileNumber:
     meaning: str
 
 
-@dataclass(frozen=True)
-class NamedQuantity:
-    """Quantities whose names have the same pattern.
-
-    Attributes:
-        name: Pattern; N stands for an order or a number, PART for a word of the meaning.
-        unit: SI unit.
-        meaning: Meaning in words.
-    """
-
-    name: str
-    unit: str
-    meaning: str
-
-
 @dataclass(frozen=True, kw_only=True)
 class NamedNumbers:
     """Numbers of an engine file that can vary, and its quantities.
@@ -363,7 +350,7 @@ class NamedNumbers:
     format: Literal["balcli.numbers/1"] = "balcli.numbers/1"
     engine: NamedEngine
     numbers: tuple[FileNumber, ...]
-    quantities: tuple[NamedQuantity, ...]
+    quantities: tuple[Form, ...]
 
 
 def list_quantities(model: EngineFile) -> Iterator[Form]:
@@ -380,7 +367,7 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
         known = list(forms)
         for name in load_chapter(chapter).list_names(model):
             number = name.replace(".N.", ".1.")
-            yield next(f for f in known if f.matches(number))._replace(pattern=name)
+            yield next(f for f in known if f.matches(number))._replace(name=name)
 
 
 def name_numbers(model: EngineFile) -> NamedNumbers:
@@ -388,9 +375,7 @@ def name_numbers(model: EngineFile) -> NamedNumbers:
     return NamedNumbers(
         engine=NamedEngine(model.name),
         numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),
-        quantities=tuple(
-            NamedQuantity(form.pattern, form.unit, form.words) for form in list_quantities(model)
-        ),
+        quantities=tuple(list_quantities(model)),
     )
 
 

@@ -10,7 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from itertools import groupby
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
+
+from ..core.records import HIDDEN
 
 ENGINE, GUIDE, CYCLE, PISTON = "engine", "guide", "cycle", "piston"
 JOURNALS, MOUNTS, TORSION = "journals", "mounts", "torsion"
@@ -74,39 +76,39 @@ class Form(NamedTuple):
 
     Attributes:
         chapter: Chapter that computes them: ENGINE, or a key of `names.QUANTITIES`.
-        pattern: Pattern of their names.
+        name: Pattern; N stands for an order or a number, PART for a word of the meaning.
         unit: SI unit.
         table: Table of the engine file that they require; empty if every engine has them.
-        words: Meaning in words.
+        meaning: Meaning in words.
     """
 
-    chapter: str
-    pattern: str
+    chapter: Annotated[str, HIDDEN]
+    name: str
     unit: str
-    table: str
-    words: str
+    table: Annotated[str, HIDDEN]
+    meaning: str
 
     @property
     def beginning(self) -> str:
         """First word of the names."""
-        return self.pattern.partition(".")[0]
+        return self.name.partition(".")[0]
 
     def matches(self, name: str) -> bool:
         """Return whether a quantity of this name matches the pattern."""
-        parts = (_PLACES.get(part, part) for part in self.pattern.split("."))
+        parts = (_PLACES.get(part, part) for part in self.name.split("."))
         return re.fullmatch(r"\.".join(parts), name) is not None
 
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
 # Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
-_RANGES = {
+_RANGES = (
     (
-        "mount.",
-        "point.",
-    ): "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
-    ("shaft.",): "Shafts: largest value from 0.5 to 1.5 times the engine's speed.",
-}
+        ("mount.", "point."),
+        "Mounts and points: largest value from 1/8 to 1 times the engine's speed.",
+    ),
+    (("shaft.",), "Shafts: largest value from 0.5 to 1.5 times the engine's speed."),
+)
 
 
 def describe_names() -> str:
@@ -121,8 +123,8 @@ def describe_names() -> str:
 
 def join_patterns(forms: Iterable[Form]) -> Iterator[str]:
     """Yield patterns, joined if they differ only in the last part: `mount.NAME.force|static`."""
-    for stem, patterns in groupby(forms, lambda form: form.pattern.rpartition(".")[0]):
-        parts = "|".join(form.pattern.rpartition(".")[2] for form in patterns)
+    for stem, patterns in groupby(forms, lambda form: form.name.rpartition(".")[0]):
+        parts = "|".join(form.name.rpartition(".")[2] for form in patterns)
         yield f"{stem}.{parts}" if stem else parts
 
 
@@ -133,9 +135,4 @@ def tell_speeds(names: Iterable[str], varied: Iterable[str] = ()) -> str:
     if "operation.speed" in varied:
         return ""
     asked = [name for name in names if not name.endswith(".static")]
-    found = (
-        note
-        for beginnings, note in _RANGES.items()
-        if any(name.startswith(beginnings) for name in asked)
-    )
-    return " ".join(found)
+    return " ".join(note for starts, note in _RANGES if any(n.startswith(starts) for n in asked))

@@ -58,7 +58,7 @@ class Gear(FileTable):
         alias="from", examples=["pinion"], description="name of the node that drives"
     )
     to: Name = Field(examples=["wheel"], description="name of the node that is driven")
-    ratio: Annotated[float, SpeedRatio()] = Field(
+    ratio: SpeedRatio = Field(
         examples=[-0.5],
         description="speed of `to` over speed of `from`; negative: they turn against each other",
     )

@@ -19,7 +19,7 @@ from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
 from ...errors import BalcliError, InputError, check_type, wrong_type
-from ...file.fields import nearest
+from ...file.fields import suggest_nearest
 from ...file.model import EngineFile
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
@@ -206,12 +206,11 @@ def _read_range(model: EngineFile, text: str) -> Parameter:
     path, is_number, ends = text.partition("=")
     if not is_number:
         known = (*ARRANGED, *ANGLES)
-        near = nearest(text, known)
-        meant = f"; did you mean {near}?" if near else ""
-        raise BalcliError(
-            f'--over "{text}": choose from {", ".join(known)}, or give a number of the file with '
-            f"its range, such as mount.left.loss=0.05:0.3{meant}"
+        right = (
+            f"choose from {', '.join(known)}, or give a number of the file with its range, such "
         )
+        hint = suggest_nearest(text, known, f"{right}as mount.left.loss=0.05:0.3")
+        raise BalcliError(f'--over "{text}": {hint}')
     if ends.count(":") != 1:
         raise BalcliError(
             f'--over "{text}": give the ends of a range, such as {path}=from:to; balcli sweep '
