@@ -323,9 +323,18 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
     intervals = [angle if angle > TOLERANCE_DEG else angle + 360 for angle in turned]
     total = round(sum(intervals) / 360) * 360
     if total > cycle:
+        each = cycle / len(order)
+        gaps = [ready[i] - ready[order[0]] - k * each for k, i in enumerate(order)]
+        off = (
+            i
+            for i, gap in zip(order, gaps, strict=True)
+            if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG
+        )
         told = (
-            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, and a "
-            f"cycle has {cycle:g}: change firing_order or crank.throws, or leave crank.throws out"
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
+            f"cycle has {cycle:g}; evenly, every {each:g} deg, cylinder {next(off, order[-1])} is "
+            "the first that is not at top dead centre when it fires: change firing_order or "
+            "crank.throws, or leave crank.throws out"
         )
         raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):
