@@ -34,14 +34,6 @@ class _Figure(NamedTuple):
     value: Any
 
 
-def details_document(result: Balance) -> dict[str, object]:
-    """Return the `details` of `balcli.balance/1`, which `to_document` writes."""
-    remedy = result.remedy
-    lists = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
-    texts = {"note": remedy.note, "speed": result.speed_note}
-    return {**remedy.details, **{key: v for key, v in chain(lists.items(), texts.items()) if v}}
-
-
 def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
@@ -116,8 +108,6 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
             yield from (_Figure(key, name, figure) for name, figure in value.items())
         elif key not in ("best", "optima", "change", "compensators"):
             yield _Figure("", key, value)
-    if result.speed_note:
-        yield _Figure("", "speed", result.speed_note)
 
 
 def _choose_figures(result: Balance) -> list[_Figure]:
