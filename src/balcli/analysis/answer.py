@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from ..core.cylinders import find_travel
 from ..core.peaks import Peak
 from ..core.phasors import Array
-from ..core.records import HIDDEN, INLINE, Node, WrittenAs
+from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
@@ -40,6 +40,8 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
+from .crank_drive import find_journals, list_masses, relate_to_power
+from .parts import find_parts
 from .records import (
     BalanceParts,
     CylinderShare,
@@ -259,6 +261,7 @@ def analyze(
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
     peak = find_peaks(everything) if peaked else None
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
+    model = take_model(engine) if "parts" in wanted else None
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -275,23 +278,11 @@ def analyze(
         why=_explain(engine, visible.orders, shown) if reasons else None,
         stars=_find_stars(engine, due, shown) if reasons else None,
         small=small,
-        **_find_seldom(engine, wanted),
+        power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
+        journals=find_journals(engine) if "journals" in wanted else None,
+        masses=list_masses(engine) if "masses" in wanted else None,
+        parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
     )
-
-
-def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
-    """Return results that are seldom wanted; their modules are loaded only for them."""
-    if not {"journals", "masses", "parts", "pru"}.intersection(wanted):
-        return {}
-    from . import crank_drive, parts
-
-    model = take_model(engine) if "parts" in wanted else None
-    return {
-        "power_related_unbalance": crank_drive.relate_to_power(engine) if "pru" in wanted else None,
-        "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
-        "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
-        "parts": model and parts.find_parts(engine, model.shaft, model.counterweight),
-    }
 
 
 def has_power(engine: Engine) -> bool:

@@ -21,11 +21,11 @@ import numpy as np
 from ..core.cylinders import find_innermost
 from ..core.loads import find_arms
 from ..core.phasors import Array, Complex, unit, wrap_degrees
-from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..core.records import Node, find_unit, remove_unit
 from ..engine.devices import build_device, find_given_unbalance, find_sector, group_eccentrics
 from ..engine.engine import Engine, refuse_geared
 from ..file.model import Counterweight, Shaft
-from ..show.figures import FigureRow
+from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
@@ -261,8 +261,8 @@ def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) 
 
 def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
     """Yield every figure of shafts and counterweights in SI units."""
-    shafts = ((f"shaft {one.name.removeprefix('shaft ')}", one) for one in parts.shafts)
-    weights = ((f"counterweight {k}", one) for k, one in enumerate(parts.counterweights, 1))
-    for label, record in (*shafts, *weights):
-        for name, value, unit_ in list_figures(to_document(record), ("name",)):
-            yield FigureRow(0, label, None, name, value, unit_)
+    for shaft in parts.shafts:
+        name = f"shaft {shaft.name.removeprefix('shaft ')}"
+        yield from record_rows(0, name, None, shaft, "name")
+    for k, weight in enumerate(parts.counterweights, 1):
+        yield from record_rows(0, f"counterweight {k}", None, weight)

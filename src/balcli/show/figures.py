@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
-from ..core.records import INLINE, Node, Reached, write_each
+from ..core.records import INLINE, Node, Reached, list_figures, to_document, write_each
 from ..engine.engine import CylinderNumber, Engine, Placed, SilentCylinders, place_in_mm
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -375,6 +375,16 @@ def figure_rows(
     for kind, peak in result.peaks:
         if kind not in unknown:
             yield from peak_rows(kind.name, peak, system.unit(kind))
+
+
+def record_rows(
+    cylinder: CylinderNumber, quantity: str, order: float | None, record: object, *without: str
+) -> Iterator[FigureRow]:
+    """Yield every figure of a record in SI units, without those of some keys; other arguments as
+    for `FigureRow`.
+    """
+    for figure in list_figures(to_document(record), without):
+        yield FigureRow(cylinder, quantity, order, *figure)
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:
