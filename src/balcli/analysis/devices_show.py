@@ -210,8 +210,8 @@ def holes_grid(
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
-    rim = tell_rim(tools, list_radii(practical, unit))
-
+    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
+    rim = f"from a rim at {list_radii(practical, unit)} ({why})"
     rows = tuple(
         (
             f"{k} {name_kind(device)}",
@@ -233,17 +233,6 @@ def holes_grid(
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, rows, note)
-
-
-def tell_rim(tools: Tools, radius: str) -> str:
-    """Return in words the radius at which holes start, and whether it was given.
-
-    Args:
-        tools: Tools of the workshop.
-        radius: Radius as it is printed.
-    """
-    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
-    return f"from a rim at {radius} ({why})"
 
 
 def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:

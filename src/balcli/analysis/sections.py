@@ -139,10 +139,9 @@ def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, not
 
 
 def _tell_largest(bending: AlongCrank, system: System) -> str:
-    most = bending.largest
-    moment = size_text(bending.peaks[most].value, system.moment, 5)
-    place = number(system.length.of(float(bending.z_m[most])))
-    return f"{moment} at {place} {system.length.name}"
+    moment, place_mm = bending.highest
+    place = number(system.length.of(place_mm / 1e3))
+    return f"{size_text(moment, system.moment, 5)} at {place} {system.length.name}"
 
 
 _ALONE = "of inertia only, without gas"

@@ -20,7 +20,7 @@ from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..shell.arguments import read_position, tell_arguments
-from ..show.engine_facts import tell_pivot, tell_place, tell_speed
+from ..show.engine_facts import tell_pivot, tell_place, tell_reference, tell_speed
 from ..show.figures import (
     EngineSize,
     EngineState,
@@ -320,10 +320,8 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
         yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
     if result.assumed:
         yield "assumed", tell_assumed(result.assumed)
-    if result.moments_known:
-        yield "reference", f"moments about {tell_place(first.reference_m, system)}"
-    else:
-        yield "reference", "moments are not known: crank.spacing is missing"
+    known = result.moments_known
+    yield "reference", tell_reference(first.reference_m, system, known=known)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)
