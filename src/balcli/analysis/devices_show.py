@@ -114,10 +114,9 @@ def ladder_grid(
             least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
             notes.append(f"Each later step would cancel less than {least}.")
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
-    heads, cells = zip(*columns, strict=True)
     at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
-    title, rows = f"What balances it, step by step ({at})", tuple(zip(*cells, strict=True))
-    return Grid(title, heads, rows, " ".join(filter(None, notes)))
+    title = f"What balances it, step by step ({at})"
+    return Grid.of_columns(title, columns, " ".join(filter(None, notes)))
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:

@@ -47,9 +47,8 @@ GENERATED: dict[str, Generator] = {  # coefficients that are listed up to the re
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
-PRINTED: dict[
-    str, Generator
-] = {  # other forms of coefficients, listed only if a source prints them
+# Other forms of coefficients, listed only if a source prints them.
+PRINTED: dict[str, Generator] = {
     "displacement (from shaft)/r": series.from_shaft,
     "acceleration (l w^2)": lambda n, power: {
         p: n * n * c for p, c in series.cos_beta(n, power).items()

@@ -19,7 +19,7 @@ from typing import Any
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.build import build
-from ..engine.engine import Engine
+from ..engine.engine import Engine, take_model
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
 from ..engine.load import SPEED
@@ -42,12 +42,12 @@ from ..file.units import (
     Dimension,
     convert,
 )
-from ..forces.kinds import FORCE
+from ..forces.kinds import FORCE, VECTORS
 from ..forces.spectrum import SHOWN
 from ..limits import SMALL
 from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
-from ..show.units import SI, System
+from ..show.units import SI, ShownUnit, System
 from ..studies.parameters import find_numbers
 
 # tables with numbers to change
@@ -55,12 +55,8 @@ _TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylind
 _DEVICES = ("counterweight", "shaft", "slider")
 # Numbers that have an effect only at an uneven speed.
 _UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
-_MOVING = (
-    "crank.s",
-    "crank.throws",
-    "crank.positions",
-    "layout.",
-)  # numbers that move axes, pins or positions
+# Numbers that move axes, pins or positions.
+_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")
 _UNITS = {  # further units that the page reads, by dimension
     LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
     MASS: ("mg", "g", "gram", "grams", "t", "lb", "lbs", "pounds", "oz", "ounces"),
@@ -86,29 +82,23 @@ _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
-    if engine.placed:
-        return "it has several cranks"
-    if isinstance(engine.cylinders.linkage, Rotary):
-        return "its cylinders turn"
-    if engine.cylinders.linkage is not None:
-        return "it has articulated rods"
-    if engine.cylinders.harmonic:
-        return "its pistons have harmonic motion"
-    if engine.model is not None and engine.model.locomotive is not None:
-        return "it is a locomotive"
-    crank = None if engine.model is None else engine.model.crank
-    lists = crank is not None and isinstance(crank.stroke, tuple) | isinstance(
-        crank.throw_mass, tuple
-    )
-    if lists or len(engine.cylinders.radius) > 1:
-        return "its throws differ"
-    if engine.model is not None:
-        devices = (*engine.model.counterweight, *engine.model.shaft)
-        if any(one.unbalance is None and one.mass is None for one in devices):
-            return "a counterweight or shaft has no unbalance in the file"
-        if any(device.compensates for device in engine.devices):
-            return "it has moment compensators"
-    return "its speed is uneven" if engine.ripple else ""
+    c, model = engine.cylinders, take_model(engine)
+    of_throws = (model.crank.stroke, model.crank.throw_mass)
+    weights = (*model.counterweight, *model.shaft)
+    reasons = {
+        "it has several cranks": engine.placed,
+        "its cylinders turn": isinstance(c.linkage, Rotary),
+        "it has articulated rods": c.linkage is not None,
+        "its pistons have harmonic motion": c.harmonic,
+        "it is a locomotive": model.locomotive is not None,
+        "its throws differ": len(c.radius) > 1 or any(isinstance(v, tuple) for v in of_throws),
+        "a counterweight or shaft has no unbalance in the file": any(
+            weight.unbalance is None and weight.mass is None for weight in weights
+        ),
+        "it has moment compensators": any(device.compensates for device in engine.devices),
+        "its speed is uneven": engine.ripple,
+    }
+    return next((reason for reason, there in reasons.items() if there), "")
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
@@ -195,7 +185,6 @@ def make_book(
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a part is small.
     """
-    units = {"force": system.force, "moment": system.moment}
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
@@ -215,14 +204,15 @@ def make_book(
             for dimension, others in _UNITS.items()
         },
         "show": {
-            kind: {
-                "name": unit.name,
-                "thousand": f"k{unit.name}" if unit.size == 1 else "",
-                "size": unit.size,
-            }
-            for kind, unit in units.items()
+            kind.name: {**name_unit(system.unit(kind)), "size": system.unit(kind).size}
+            for kind in VECTORS
         },
     }
+
+
+def name_unit(unit: ShownUnit) -> Node:
+    """Return the names of a unit and of a thousand of it; the latter is empty if it has none."""
+    return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
 def make_examples() -> Node:
