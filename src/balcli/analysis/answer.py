@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
-from ..core.peaks import Peak
 from ..core.phasors import Array
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS
 from ..forces.spectrum import (
     Spectra,
     check_orders,
@@ -29,6 +28,7 @@ from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textboo
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER, SMALL
 from ..show.figures import (
     EngineState,
+    OrdersAndPeaks,
     Peaks,
     describe_state,
     find_peaks,
@@ -81,7 +81,7 @@ _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Analysis(Result):
+class Analysis(OrdersAndPeaks, Result):
     """Free forces and moments of an engine, order by order. Results that were not requested are
     None.
 
@@ -140,11 +140,6 @@ class Analysis(Result):
         return self.spectra.orders
 
     @property
-    def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Each kind whose peak was computed, with its peak."""
-        return [] if self.peak is None else self.peak.items()
-
-    @property
     def moments_known(self) -> bool:
         """Whether the file gives the positions of the throws. If not, moments are computed as if
         all throws were in one plane.
@@ -167,11 +162,7 @@ class Analysis(Result):
     def of_one_cylinder(self) -> dict[str, float]:
         """Largest force and moment of one cylinder, by kind, with which values are compared."""
         scales = self.scales
-        return {
-            "force": scales.force,
-            "moment": scales.moment,
-            **{kind.name: scales.roll for kind in SCALARS},
-        }
+        return {kind.name: scales.roll for kind in SCALARS} | scales._asdict()
 
     @property
     def scales(self) -> Scales:

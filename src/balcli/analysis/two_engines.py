@@ -9,14 +9,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
-from ..core.peaks import Peak
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
 from ..file.edit import format_value
 from ..file.fields import counted
-from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..shell.arguments import read_position, tell_arguments
@@ -24,6 +22,7 @@ from ..show.engine_facts import tell_pivot, tell_place, tell_reference, tell_spe
 from ..show.figures import (
     EngineSize,
     EngineState,
+    OrdersAndPeaks,
     Peaks,
     describe_state,
     figure_rows,
@@ -113,7 +112,7 @@ class Arrangement:
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Combined(Result):
+class Combined(OrdersAndPeaks, Result):
     """Forces and moments of two engines on their common frame, about the first one's point of
     reference.
 
@@ -152,11 +151,6 @@ class Combined(Result):
     def moments_known(self) -> bool:
         """Whether both engine files give the positions of their throws."""
         return all(engine.places_known for engine in self.engines)
-
-    @property
-    def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Force and moment, with their peaks."""
-        return self.peak.items()
 
 
 def combine_engines(

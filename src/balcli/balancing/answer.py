@@ -74,7 +74,6 @@ class FittedRemedy:
         order: Order that the scheme balances; null if there is no single one.
         devices: New devices.
         reasons: Reasons for the devices.
-        details: Further figures of the scheme, under names that end in the unit.
     """
 
     scheme: str
@@ -82,21 +81,24 @@ class FittedRemedy:
     order: int | None
     devices: Annotated[Devices, INLINE]
     reasons: tuple[str, ...]
-    details: Node
 
 
 def describe_remedy(remedy: Remedy) -> FittedRemedy:
-    """Return the devices of a remedy, the reasons for them and its further figures."""
-    further: Node = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
-    further |= {"note": remedy.note}
+    """Return the devices of a remedy and the reasons for them."""
     return FittedRemedy(
         scheme=remedy.scheme,
         step=remedy.step or None,
         order=remedy.order,
         devices=describe_devices(remedy),
         reasons=remedy.reasons,
-        details={**remedy.details, **{key: value for key, value in further.items() if value}},
     )
+
+
+def list_details(remedy: Remedy) -> Node:
+    """Return the further figures of a scheme, with its card, planes, range of factors and note."""
+    further: Node = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
+    further |= {"note": remedy.note}
+    return {**remedy.details, **{key: value for key, value in further.items() if value}}
 
 
 def shorten_with_bearings(analysis: Analysis) -> PeaksAndOrders:
@@ -111,6 +113,7 @@ class Balance(Result):
     Attributes:
         remedy: New devices and the reasons for them.
         practical: Figures of each device for the workshop, in the order of `remedy.devices`.
+        details: Further figures of the scheme, under names that end in the unit.
         assumed: Values that are used because the engine file leaves them out.
         before: Analysis of the engine without the new devices.
         after: Analysis with the new devices, for the same orders.
@@ -126,6 +129,7 @@ class Balance(Result):
     format: Literal["balcli.balance/1"] = "balcli.balance/1"
     remedy: Annotated[Remedy, WrittenAs(describe_remedy), INLINE]
     practical: tuple[Practical, ...] = ()
+    details: Node
     assumed: tuple[str, ...] | None = None
     before: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     after: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
@@ -252,6 +256,7 @@ def _compare(
     before, after = analyze_alike((engine, changed), orders, analyze)
     return Balance(
         remedy=remedy,
+        details=list_details(remedy),
         assumed=before.assumed,
         before=before,
         after=after,

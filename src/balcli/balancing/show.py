@@ -47,7 +47,7 @@ from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
 from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS
 from ..sizing.planes import find_unbalance, name_kind
-from .answer import Balance, describe_remedy
+from .answer import Balance
 from .scheme_show import (
     card_grids,
     details_parts,
@@ -370,7 +370,7 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
         for figure in device_rows(device, system):
             yield part, "", "", *figure
         yield from _rows_of(part, practical)
-    yield from _rows_of("details", describe_remedy(result.remedy).details)
+    yield from _rows_of("details", result.details)
     if result.remedy.step:
         yield "step", "", "", "name", result.remedy.step, ""
     for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():

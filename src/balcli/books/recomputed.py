@@ -200,6 +200,19 @@ class Print(NamedTuple):
         found = [rows.get(identify(name), nothing) for name in stub]
         return [tuple(None if j is None else row[j] for j in places) for row in found]
 
+    def compare_columns(
+        self,
+        headings: Sequence[str],
+        body: Iterable[Iterable[float]],
+        explanations: Sequence[Explanation] = (),
+    ) -> Table:
+        """Return the table with a row of figures for each name in the first column of the print,
+        and a column for each heading.
+        """
+        stub, columns = self.column(self.columns[0]), (self.columns[0], *headings)
+        cells = self.align_cells(stub, columns)
+        return self.compare(columns, head_rows(stub, body), cells, explanations)
+
     def compare(
         self,
         columns: Sequence[str],

@@ -204,7 +204,6 @@ class Answers(NamedTuple):
     balanced: Balance
     mounted: MountReport | None = None
     twisted: TorsionAnalysis | None = None
-    turning: Engine | None = None
     cylinder: int | None = None
 
 
@@ -240,7 +239,7 @@ def find_answers(
         with _warning("torsion"):
             question = TorsionQuestion(choose_torsion_speeds(engine))
             twisted = answer_question(make_source(model, engine, name), question)
-    return Answers(result, balanced, mounted, twisted, None if engine.gas is None else engine)
+    return Answers(result, balanced, mounted, twisted)
 
 
 @contextmanager
@@ -267,7 +266,7 @@ def page(
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, turning, cylinder = found
+    result, balanced, mounted, twisted, cylinder = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
@@ -301,7 +300,7 @@ def page(
         piston=None if cylinder is None else _draw_page(now, "piston", cylinder),
         compared=pictures[len(alone) : len(alone) + len(beside)],
         loci=pictures[len(alone) + len(beside) :],
-        running=running(turning, system) if turning and drawn else None,
+        running=running(result.engine, system) if result.engine.gas and drawn else None,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),

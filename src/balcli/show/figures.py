@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -190,19 +190,21 @@ class EngineState:
     reference_mm: tuple[float, ...]
 
 
-class OrdersAndPeaks(Protocol):
-    """A result with orders and peaks: an analysis, or the sum of two engines. Its moments are known
-    if the file gives the positions of the throws.
-    """
+class OrdersAndPeaks:
+    """A result with orders and peaks: an analysis, or the sum of two engines."""
+
+    spectra: Spectra
+    peak: Peaks | None
 
     @property
-    def moments_known(self) -> bool: ...
+    def moments_known(self) -> bool:
+        """Whether moments are known: if the file gives the positions of the throws."""
+        raise NotImplementedError
 
     @property
-    def spectra(self) -> Spectra: ...
-
-    @property
-    def peaks(self) -> list[tuple[Kind, Peak]]: ...
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Each kind whose peak was computed, with its peak."""
+        return [] if self.peak is None else self.peak.items()
 
 
 class FigureRow(NamedTuple):
