@@ -28,7 +28,6 @@ from ..core.cylinder_pressure import crank_torque
 from ..core.peaks import CyclePeak, find_swing
 from ..core.phasors import Array, Complex
 from ..core.piecewise import Extreme, PiecewiseCurve, resolved
-from ..core.records import find_unit
 from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared
 from ..engine.gas import EngineGas
@@ -41,7 +40,8 @@ from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
 from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
-from ..show.units import System, name_with_unit
+from ..show.units import System
+from .parts import list_columns
 from .records import (
     Journal,
     JournalTorque,
@@ -329,14 +329,11 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each set of cylinders with equal parts.
         system: System of units.
     """
-    units = system.of_parts
+    labels = _LABELS.copy()
+    if not any(one.crosshead_kg for one in masses):
+        del labels["crosshead_kg"]
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
-    rows = []
-    for key, label in _LABELS.items():
-        values, unit = [getattr(one, key) for one in masses], units[find_unit(key)]
-        if any(value is not None for value in values) and (key != "crosshead_kg" or any(values)):
-            cells = (UNKNOWN if value is None else number(unit.of(value)) for value in values)
-            rows.append((name_with_unit(label, unit.name), *cells))
+    rows = ((name, *cells) for name, cells in list_columns(masses, labels, {}, system))
     return Grid("Masses", heads, tuple(rows))
 
 

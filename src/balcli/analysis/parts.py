@@ -211,11 +211,11 @@ def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
     pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
     names, bearings = zip(*pairs, strict=True)
     unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
-    columns = [("shaft", names), *_list_columns(bearings, _BEARING, {"N": unit}, system)]
+    columns = [("shaft", names), *list_columns(bearings, _BEARING, {"N": unit}, system)]
     return Grid.of_columns("Balancer shafts", columns, _BEARINGS_NOTE)
 
 
-def _list_columns(
+def list_columns(
     records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
 ) -> Iterator[tuple[str, list[str]]]:
     """Yield heading and cells of each figure that some records have.
@@ -252,7 +252,7 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
     numbers = [str(k) for k in range(1, len(parts) + 1)]
-    columns = list(_list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
+    columns = list(list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
     notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
     notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
     columns.insert(0, ("no.", numbers))

@@ -31,7 +31,7 @@ from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import Counterweight, EngineFile, Sector, Shaft
+from ..file.model import EngineFile, Sector
 from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
@@ -44,7 +44,6 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
 
-SHAPES = ("name", "bearings", "sector")  # keys that describe the shape of new devices
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
 
@@ -528,14 +527,9 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 def _list_entries(device: DeviceTable) -> Node:
     """Return the keys and values of a device for TOML."""
-    given = {key: getattr(device, key) for key in FIELDS[type(device)]}
-    entries = {key: _write(value) for key, value in given.items() if value is not None}
-    shapes = {key: _write(getattr(device, key)) for key in SHAPES if device.has(key)}
-    if isinstance(device, Shaft) and device.role != "balancer":
-        shapes["role"] = device.role
-    if isinstance(device, Counterweight) and device.engine is not None:
-        shapes = {"engine": device.engine, **shapes}
-    return shapes | entries
+    keys = ("engine", "name", "bearings", "sector", "role", *FIELDS[type(device)])
+    given = {key: getattr(device, key, None) for key in keys}
+    return {k: _write(value) for k, value in given.items() if value not in (None, "", "balancer")}
 
 
 def _write(value: object) -> object:

@@ -48,7 +48,7 @@ from ..limits import SMALL
 from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
 from ..show.units import SI, ShownUnit, System
-from ..studies.parameters import find_numbers
+from ..studies.parameters import find_places
 
 # tables with numbers to change
 _TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
@@ -117,7 +117,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
-    forms = _find_forms(model, parts, throws, [each["name"] for each in numbers])
+    forms = _find_forms(model, parts, throws, {each["name"]: each["value"] for each in numbers})
     reference = model.frame.reference
     return {
         "name": model.name,
@@ -237,13 +237,11 @@ def _describe_new(dimension: Dimension, usual: float) -> Node:
 
 def _list_numbers(model: EngineFile) -> Iterator[Node]:
     """Yield the numbers of the file that the page may change, with values, units and limits."""
-    tables = dict(model.tables())
-    for name, number in find_numbers(model).items():
-        value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or re.match(_UNUSED, name):
-            continue
-        yield {"name": name, "value": value, **_describe_limits(number)}
-    for path, table in tables.items():
+    for name, place in find_places(model).items():
+        shown = name.startswith((*_TABLES, *_DEVICES)) and not re.match(_UNUSED, name)
+        if shown and isinstance(place.value, (int, float)):
+            yield {"name": name, "value": float(place.value), **_describe_limits(place.reader)}
+    for path, table in model.tables():
         for key in ("ratio", "order"):
             if path.startswith(_DEVICES) and hasattr(table, key):
                 yield {"name": f"{path}.{key}", "value": getattr(table, key), **_WHOLE}
@@ -254,17 +252,6 @@ def _describe_limits(number: Number) -> Node:
     limits = {"above": number.above, "least": number.least, "most": number.most}
     given = {key: value for key, value in limits.items() if value is not None}
     return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
-
-
-def _find_value(tables: Mapping[str, object], name: str) -> float | None:
-    """Return the value of a number (dotted name) in the unit of the file; None if not given."""
-    path, _, key = name.rpartition(".")
-    if path not in tables and key.isdigit():  # a member of a list
-        path, _, outer = path.rpartition(".")
-        value = getattr(tables[path], outer)[int(key) - 1] if path in tables else None
-    else:
-        value = getattr(tables[path], key) if path in tables else None
-    return float(value) if isinstance(value, (int, float)) else None
 
 
 # ------------------------------------------------------------------ the text of the file
@@ -331,7 +318,7 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
 
 # ------------------------------------------------------------------ axes, pins and positions
 def _find_forms(
-    model: EngineFile, parts: Parts, throws: Mapping[int, int], names: list[str]
+    model: EngineFile, parts: Parts, throws: Mapping[int, int], numbers: Mapping[str, float]
 ) -> dict[str, list[Node]]:
     """Return the linear functions for axes and crank pins (deg) and positions (mm) of the
     cylinders, and for positions of the throws. Each has a constant, and coefficients by the names
@@ -341,16 +328,12 @@ def _find_forms(
     shift of top dead centre by the piston offset: the page adds it.
     """
     start = _measure(parts, throws)
-    moving = [
-        name
-        for name in names
-        if name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))
-    ]
     forms: dict[str, list[Node]] = {
         key: [{"value": value, "by": {}} for value in values] for key, values in start.items()
     }
-    for name in moving:
-        value = _find_value(dict(model.tables()), name) or 0.0
+    for name, value in numbers.items():
+        if not (name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))):
+            continue
         moved = _measure(Parts(model, {name: value + 1.0}), throws)
         for key, values in moved.items():
             for form, new, old in zip(forms[key], values, start[key], strict=True):
