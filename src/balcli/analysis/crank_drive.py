@@ -389,14 +389,11 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
     unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
-    rows = tuple(
-        (
-            order_name(each.order),
-            UNKNOWN if each.need is None else size_cell(each.moment_Nm, unit),
-            UNKNOWN if each.need is None else number(each.Nm_per_kW),
-            each.need or UNKNOWN,
-        )
-        for each in related.orders
-    )
+    rows = []
+    for each in related.orders:
+        cells = (UNKNOWN, UNKNOWN, UNKNOWN)
+        if each.need is not None:
+            cells = (size_cell(each.moment_Nm, unit), number(each.Nm_per_kW), each.need)
+        rows.append((order_name(each.order), *cells))
     heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
-    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))
+    return Grid(title, heads, tuple(rows), "At the speed of the file.", words=(3,))

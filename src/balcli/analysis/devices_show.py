@@ -211,16 +211,11 @@ def holes_grid(
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
     why = "--radius" if tools.radius else "the crank radius; --radius changes it"
     rim = f"from a rim at {list_radii(practical, unit)} ({why})"
-    rows = tuple(
-        (
-            f"{k} {name_kind(device)}",
-            degrees(p.hole_angle_deg or 0.0),
-            f"{p.holes}",
-            _length(p.drill_depth_mm or 0.0, unit, 4),
-        )
-        for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1)
-        if p.holes is not None
-    )
+    rows = []
+    for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
+        if p.holes is not None:
+            at, depth = degrees(p.hole_angle_deg or 0.0), _length(p.drill_depth_mm or 0.0, unit, 4)
+            rows.append((f"{k} {name_kind(device)}", at, f"{p.holes}", depth))
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
         what = "Holes remove steel opposite to the weight to add"
@@ -231,7 +226,7 @@ def holes_grid(
         )
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
-    return Grid(title, heads, rows, note)
+    return Grid(title, heads, tuple(rows), note)
 
 
 def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:

@@ -28,6 +28,7 @@ from ..file.model import Counterweight, Shaft
 from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
+from ..sizing.planes import measure_direction
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
 _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
@@ -123,13 +124,8 @@ def _share(loads: Complex, places: Array, planes: Array) -> Complex:
 
 def _describe_bearing(position_mm: float, turning: complex, fixed: complex) -> ShaftBearing:
     sizes = abs(turning), abs(fixed), abs(turning) + abs(fixed)
-    return ShaftBearing(position_mm, *sizes, _find_direction(turning), _find_direction(fixed))
-
-
-def _find_direction(vector: complex) -> float | None:
-    """Return the direction of a vector from x, deg, in (-180, 180]; None if it is 0."""
-    angle = math.degrees(math.atan2(vector.imag, vector.real))
-    return float(wrap_degrees(angle, 360)) if vector else None
+    directions = (measure_direction(load) if load else None for load in (turning, fixed))
+    return ShaftBearing(position_mm, *sizes, *directions)
 
 
 def _find_bending(

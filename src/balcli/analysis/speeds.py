@@ -406,16 +406,11 @@ def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
     heads = (
         f"{k.name}_{unit.name.replace('·', '')}" for k, unit in zip(FIGURES, units, strict=True)
     )
-    lines = (
-        (
-            name_cell(one.name),
-            speed.speed_rpm,
-            order,
-            *(clean(unit.of(value)) for unit, value in zip(units, figures, strict=True)),
-        )
-        for speed in one.result.speeds
-        for order, *figures in map(astuple, speed.orders)
-    )
+    lines = []
+    for speed in one.result.speeds:
+        for order, *figures in map(astuple, speed.orders):
+            values = (clean(unit.of(v)) for unit, v in zip(units, figures, strict=True))
+            lines.append((name_cell(one.name), speed.speed_rpm, order, *values))
     return Rows(("engine", "speed_rpm", "order", *heads), lines)
 
 

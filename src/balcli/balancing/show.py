@@ -179,13 +179,11 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
             return f"{size / each:.1%}, {'over' if size > each else 'within'}"
         return f"±{each / size:.2%}" if size else "–"
 
+    permitted = number(unit.of(each))
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
-        tuple(
-            (name, number(unit.of(size)), number(unit.of(each)), judge(size))
-            for name, size in found
-        ),
+        tuple((name, number(unit.of(size)), permitted, judge(size)) for name, size in found),
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
         f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
     )
@@ -258,17 +256,14 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         for k, kind in enumerate(kinds)
         if changed[k].any()
     ]
-    rows = tuple(
-        (
-            order_name(result.before.orders[n]),
-            *(
-                size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
-                for k, _, unit in columns
-                for s in (0, 1)
-            ),
+    rows = []
+    for n in np.flatnonzero(changed.any(axis=0)):
+        cells = (
+            size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
+            for k, _, unit in columns
+            for s in (0, 1)
         )
-        for n in np.flatnonzero(changed.any(axis=0))
-    )
+        rows.append((order_name(result.before.orders[n]), *cells))
     unchanged = []
     for kind, after in zip(kinds, left, strict=True):
         if orders := result.before.orders[after > 0].tolist():
@@ -279,7 +274,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         yield Grid(
             "Largest value by order, before and after",
             ("order", *(head for pair in heads for head in pair)),
-            rows,
+            tuple(rows),
             _tell_unchanged(unchanged),
         )
 

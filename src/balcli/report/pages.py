@@ -370,8 +370,7 @@ def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
 
 def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
     banks, unit = subject.study.banks, subject.system.force
-    if banks is None:
-        raise ValueError("a page of bank angles needs a study of them")
+    assert banks is not None
     largest = float(banks.force.major.max(initial=0))
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
         size = size_text(largest, unit, 2)
