@@ -250,7 +250,6 @@ def analyze(
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
-    peak = find_peaks(everything) if peaked else None
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
     model = take_model(engine) if "parts" in wanted else None
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
@@ -259,7 +258,7 @@ def analyze(
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
-        peak=peak,
+        peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,

@@ -107,8 +107,7 @@ class Arrangement:
         senses = {"first": (1, 1), "second": (ratio, ratio), "both": (1, ratio)}[self.load]
         leader = Placed(first, "first", load=self.load != "second", load_sense=senses[0])
         stands = ratio, self.phase_deg, self.turn_deg, self.at_m, self.load != "first", senses[1]
-        other = Placed(second, "second", "", *stands)
-        return leader, other
+        return leader, Placed(second, "second", "", *stands)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -96,7 +96,7 @@ def describe_remedy(remedy: Remedy) -> FittedRemedy:
 def list_details(remedy: Remedy) -> Node:
     """Return the further figures of a scheme, with its card, planes, range of factors and note."""
     further: Node = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
-    further |= {"note": remedy.note}
+    further["note"] = remedy.note
     return {**remedy.details, **{key: value for key, value in further.items() if value}}
 
 
@@ -238,7 +238,7 @@ def _answer(
     if engine.ripple:
         remedy = remedy.add_details(speed=_UNEVEN)
     return replace(
-        _compare(engine, fit_devices(engine, remedy), remedy, orders),
+        _analyze_both(engine, fit_devices(engine, remedy), remedy, orders),
         practical=practical,
         ladder=ladder,
         parts=parts,
@@ -246,7 +246,7 @@ def _answer(
     )
 
 
-def _compare(
+def _analyze_both(
     engine: Engine, changed: Engine, remedy: Remedy, orders: Iterable[float] | None
 ) -> Balance:
     """Return a remedy, and the analyses of an engine without and with it for the same orders: the
@@ -396,7 +396,7 @@ def balance_knuckles(
     old, new = build(model), build(found.model)
     if speed_rpm is not None:
         old, new = old.at_speed(speed_rpm), new.at_speed(speed_rpm)
-    return _compare(old, new, remedy, orders)
+    return _analyze_both(old, new, remedy, orders)
 
 
 def _find_range(values: Array) -> dict[str, float]:

@@ -82,11 +82,12 @@ _OF_ROD = ("mass", "cg", "length", "ratio", "small_end", "big_end", "inertia")
 
 def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
+    if engine.placed:
+        return "it has several cranks"
     c, model = engine.cylinders, take_model(engine)
     of_throws = (model.crank.stroke, model.crank.throw_mass)
     weights = (*model.counterweight, *model.shaft)
     reasons = {
-        "it has several cranks": engine.placed,
         "its cylinders turn": isinstance(c.linkage, Rotary),
         "it has articulated rods": c.linkage is not None,
         "its pistons have harmonic motion": c.harmonic,
