@@ -62,7 +62,7 @@ RENDERERS = {
 # The class that declares a JSON document, by the name in the document's `format`.
 DOCUMENTS = {
     "analysis": "analysis.answer:Analysis",
-    "balance": "balancing.show:BalanceDocument",
+    "balance": "balancing.answer:Balance",
     "bench": "bench:Bench",
     "check": "regression:Check",
     "compare": "analysis.comparison:Comparison",

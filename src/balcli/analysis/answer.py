@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from ..core.cylinders import find_travel
-from ..core.peaks import Peak
 from ..core.phasors import Array
-from ..core.records import HIDDEN, INLINE, Node, WrittenAs
+from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, check_engine, refuse_geared, take_model
 from ..errors import BalcliError, check_number, check_type, list_words
 from ..forces.crankshaft import InnerLoads, add_gas_loads, compute_inner_loads
 from ..forces.guide import GuideMoments, compute_guide_moments
-from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS, Kind
+from ..forces.kinds import EVERY_KIND, GAS, GAS_KINDS, KINDS, SCALARS, VECTORS
 from ..forces.spectrum import (
     Spectra,
     check_orders,
@@ -29,6 +28,7 @@ from ..forces.symmetry import Symmetry, Textbook, explain_symmetry, find_textboo
 from ..limits import HIGHEST_GUIDE_M, HIGHEST_ORDER_UNASKED, MOST_RESULTS_BY_CYLINDER, SMALL
 from ..show.figures import (
     EngineState,
+    OrdersAndPeaks,
     Peaks,
     describe_state,
     find_peaks,
@@ -40,6 +40,8 @@ from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import check_small
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.residual import Scales, find_scales
+from .crank_drive import find_journals, list_masses, relate_to_power
+from .parts import find_parts
 from .records import (
     BalanceParts,
     CylinderShare,
@@ -79,7 +81,7 @@ _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Analysis(Result):
+class Analysis(OrdersAndPeaks, Result):
     """Free forces and moments of an engine, order by order. Results that were not requested are
     None.
 
@@ -138,11 +140,6 @@ class Analysis(Result):
         return self.spectra.orders
 
     @property
-    def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Each kind whose peak was computed, with its peak."""
-        return [] if self.peak is None else self.peak.items()
-
-    @property
     def moments_known(self) -> bool:
         """Whether the file gives the positions of the throws. If not, moments are computed as if
         all throws were in one plane.
@@ -165,11 +162,7 @@ class Analysis(Result):
     def of_one_cylinder(self) -> dict[str, float]:
         """Largest force and moment of one cylinder, by kind, with which values are compared."""
         scales = self.scales
-        return {
-            "force": scales.force,
-            "moment": scales.moment,
-            **{kind.name: scales.roll for kind in SCALARS},
-        }
+        return {kind.name: scales.roll for kind in SCALARS} | scales._asdict()
 
     @property
     def scales(self) -> Scales:
@@ -257,15 +250,15 @@ def analyze(
         visible = compute_spectra(engine, few, shown)
         everything = compute_spectra(engine, computed, peaked) if peaked else visible
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
-    peak = find_peaks(everything) if peaked else None
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
+    model = take_model(engine) if "parts" in wanted else None
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
         state=describe_state(engine),
         spectra=visible,
         assumed=engine.list_assumed("gas", without=list_idle_defaults(engine, wanted)),
-        peak=peak,
+        peak=find_peaks(everything) if peaked else None,
         sizing=_size(engine, ladder, asked, wanted) if ladder and "sizing" in wanted else None,
         ladder=ladder if "ladder" in wanted else None,
         cylinders=_analyze_cylinders(engine, visible.orders, shown) if by_cylinder else None,
@@ -275,23 +268,11 @@ def analyze(
         why=_explain(engine, visible.orders, shown) if reasons else None,
         stars=_find_stars(engine, due, shown) if reasons else None,
         small=small,
-        **_find_seldom(engine, wanted),
+        power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
+        journals=find_journals(engine) if "journals" in wanted else None,
+        masses=list_masses(engine) if "masses" in wanted else None,
+        parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
     )
-
-
-def _find_seldom(engine: Engine, wanted: Collection[str]) -> Node:
-    """Return results that are seldom wanted; their modules are loaded only for them."""
-    if not {"journals", "masses", "parts", "pru"}.intersection(wanted):
-        return {}
-    from . import crank_drive, parts
-
-    model = take_model(engine) if "parts" in wanted else None
-    return {
-        "power_related_unbalance": crank_drive.relate_to_power(engine) if "pru" in wanted else None,
-        "journals": crank_drive.find_journals(engine) if "journals" in wanted else None,
-        "masses": crank_drive.list_masses(engine) if "masses" in wanted else None,
-        "parts": model and parts.find_parts(engine, model.shaft, model.counterweight),
-    }
 
 
 def has_power(engine: Engine) -> bool:

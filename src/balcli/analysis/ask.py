@@ -73,11 +73,12 @@ def answer(
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
+    words = None if asked.quantities is None else asked.parts  # for warnings
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
     def find_one(path: str) -> tuple[str, str, object]:
-        engine = read_engine(path, rpm, asked.words, over=asked.speeds_rpm or None).engine
+        engine = read_engine(path, rpm, words, over=asked.speeds_rpm or None).engine
         if "textbook" in asked.parts:
             refuse_geared(engine)
         result = find(silence_cylinders(engine, asked.misfires, path))

@@ -353,9 +353,8 @@ def sheet(result: Comparison, system: System) -> Sheet:
     first, *others = result.engines
     heads = ("", first, *(head for name in others for head in (name, "ratio")))
     told = [tell_speed(engine) for engine in result.compared]
-    one_for_all = ("speed", told[0])
-    speeds = Facts((("speeds", "; ".join(told)) if len(set(told)) > 1 else one_for_all,))
-    parts: list[Facts | Grid | Text] = [speeds, *assumed_facts(result.assumed)]
+    speeds = ("speeds", "; ".join(told)) if len(set(told)) > 1 else ("speed", told[0])
+    parts: list[Facts | Grid | Text] = [Facts((speeds,)), *assumed_facts(result.assumed)]
     nothing: list[str] = []
     for kind in dict.fromkeys(line.kind for line in result.figures):
         every = [line for line in result.figures if line.kind == kind]

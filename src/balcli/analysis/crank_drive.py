@@ -25,10 +25,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..core.cylinder_pressure import crank_torque
-from ..core.peaks import find_swing
+from ..core.peaks import CyclePeak, find_swing
 from ..core.phasors import Array, Complex
-from ..core.piecewise import PiecewiseCurve, resolved
-from ..core.records import find_unit, list_figures, to_document, write_each
+from ..core.piecewise import Extreme, PiecewiseCurve, resolved
 from ..engine.build import build
 from ..engine.engine import Engine, refuse_geared
 from ..engine.gas import EngineGas
@@ -40,9 +39,9 @@ from ..forces.curves import find_torque_curves
 from ..forces.quantity import TargetQuantity, refuse_stranger
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..show.engine_facts import name_cylinders
-from ..show.figures import FigureRow
 from ..show.sheet import UNKNOWN, Grid, degrees, number, order_name, size_cell, size_text
-from ..show.units import System, name_with_unit
+from ..show.units import System
+from .parts import list_columns
 from .records import (
     Journal,
     JournalTorque,
@@ -129,9 +128,7 @@ class CrankTorques(NamedTuple):
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE
-        high, low = find_swing(self.orders, series)
-        highest, at_high = float(high.value), float(high.angle)
-        return _write(highest, at_high, float(low.value), float(low.angle), 0.0)
+        return _write(*find_swing(self.orders, series))
 
     def measure_total(self, weights: Array) -> JournalTorque | None:
         """Return the torque of gas and inertia of the weighted cylinders; None without gas."""
@@ -141,7 +138,7 @@ class CrankTorques(NamedTuple):
             return _NONE
         curve = resolved(lambda angle: gas.at(angle) + self._sum(angle, weights), gas.breaks)
         low, high = curve.extremes()
-        return _write(high.value, high.angle, low.value, low.angle, curve.mean)
+        return _write(high, low, curve.mean)
 
     def sample(self, angle: Array, weights: Array) -> Array:
         """Return the torque of the weighted cylinders at crank angles, rad, in their shape."""
@@ -162,14 +159,13 @@ class CrankTorques(NamedTuple):
         return crank_torque(shares, self.gas.cycle)
 
 
-def _write(
-    highest: float, at_high: float, lowest: float, at_low: float, mean: float
-) -> JournalTorque:
+def _write(high: CyclePeak | Extreme, low: CyclePeak | Extreme, mean: float = 0.0) -> JournalTorque:
+    highest, lowest = float(high.value), float(low.value)
     return JournalTorque(
         max_Nm=highest,
-        max_deg=math.degrees(at_high),
+        max_deg=math.degrees(float(high.angle)),
         min_Nm=lowest,
-        min_deg=math.degrees(at_low),
+        min_deg=math.degrees(float(low.angle)),
         range_Nm=highest - lowest,
         mean_Nm=mean,
     )
@@ -273,13 +269,6 @@ def _grid(
     return Grid(title, tuple(heads), tuple(rows), note)
 
 
-def list_journal_rows(journals: Sequence[Journal]) -> Iterator[FigureRow]:
-    """Yield every figure of the journals in SI units."""
-    for each in journals:
-        for name, value, unit in list_figures(to_document(each), ("place",)):
-            yield FigureRow(0, each.place, None, name, value, unit)
-
-
 # ------------------------------------------------------------------ masses
 def list_masses(engine: Engine) -> tuple[Masses, ...]:
     """Return the masses of each set of cylinders with equal parts, sorted by the lowest cylinder
@@ -340,22 +329,12 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
         masses: Masses of each set of cylinders with equal parts.
         system: System of units.
     """
-    units = system.of_parts
+    labels = _LABELS.copy()
+    if not any(one.crosshead_kg for one in masses):
+        del labels["crosshead_kg"]
     heads = ("", *(name_cylinders(one.cylinders) for one in masses))
-    rows = []
-    for key, label in _LABELS.items():
-        values, unit = [getattr(one, key) for one in masses], units[find_unit(key)]
-        if any(value is not None for value in values) and (key != "crosshead_kg" or any(values)):
-            cells = (UNKNOWN if value is None else number(unit.of(value)) for value in values)
-            rows.append((name_with_unit(label, unit.name), *cells))
+    rows = ((name, *cells) for name, cells in list_columns(masses, labels, {}, system))
     return Grid("Masses", heads, tuple(rows))
-
-
-def list_mass_rows(masses: Sequence[Masses]) -> Iterator[FigureRow]:
-    """Yield every figure of the masses in SI units, with the lowest cylinder number of each set."""
-    for one in masses:
-        for name, value, unit in list_figures(to_document(one), ("cylinders",)):
-            yield FigureRow(one.cylinders[0], "masses", None, name, value, unit)
 
 
 # ------------------------------------------------------------------ power related unbalance
@@ -410,22 +389,11 @@ def lay_out_related(related: PowerRelatedUnbalance, system: System) -> Grid:
     kind = "" if related.power_kind == "file" else f"{related.power_kind} "
     title = f"Power related unbalance ({kind}power {size_text(related.power_W, system.power)})"
     unit = system.moment.fit(max(each.moment_Nm for each in related.orders))
-    rows = tuple(
-        (
-            order_name(each.order),
-            UNKNOWN if each.need is None else size_cell(each.moment_Nm, unit),
-            UNKNOWN if each.need is None else number(each.Nm_per_kW),
-            each.need or UNKNOWN,
-        )
-        for each in related.orders
-    )
+    rows = []
+    for each in related.orders:
+        cells = (UNKNOWN, UNKNOWN, UNKNOWN)
+        if each.need is not None:
+            cells = (size_cell(each.moment_Nm, unit), number(each.Nm_per_kW), each.need)
+        rows.append((order_name(each.order), *cells))
     heads = ("order", f"M, {unit.name}", "PRU, N·m/kW", "compensator")
-    return Grid(title, heads, rows, "At the speed of the file.", words=(3,))
-
-
-def list_related(related: PowerRelatedUnbalance) -> Iterator[FigureRow]:
-    """Yield every figure of the power related unbalance in SI units."""
-    for each in write_each(related.orders):
-        order = each.pop("order")
-        for name, value, unit in list_figures(each):
-            yield FigureRow(0, "pru", order, name, value, unit)
+    return Grid(title, heads, tuple(rows), "At the speed of the file.", words=(3,))

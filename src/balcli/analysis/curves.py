@@ -132,9 +132,9 @@ def _add_upright(engine: Engine, found: Curves) -> Curves:
         for kind in VECTORS:
             x, y = (curves[kind.key_along(axis)] for axis in "xy")
             turned = unit(-engine.up_deg) * compose(x, y)
-            noise = 4 * EPS * np.abs(turned).max(initial=0)
+            most = float(np.abs(turned).max(initial=0))
             for word, part in zip(kind.upright, (turned.real, turned.imag), strict=True):
-                curves[kind.key_along(word)] = np.where(np.abs(part) <= noise, 0.0, part)
+                curves[kind.key_along(word)] = _settle(part, most)
     return replace(found, curves=curves, assumed=engine.list_assumed())
 
 

@@ -114,10 +114,9 @@ def ladder_grid(
             least = f"{100 * WORTH_A_SHAFT:.0f} % of one cylinder's first order ({first})"
             notes.append(f"Each later step would cancel less than {least}.")
     notes += [_tell_left_out(one, ladder, system) for one in ladder.left_out]
-    heads, cells = zip(*columns, strict=True)
     at = "mean " * bool(engine.ripple) + f"{given(float(engine.speed_rpm))} rpm"
-    title, rows = f"What balances it, step by step ({at})", tuple(zip(*cells, strict=True))
-    return Grid(title, heads, rows, " ".join(filter(None, notes)))
+    title = f"What balances it, step by step ({at})"
+    return Grid.of_columns(title, columns, " ".join(filter(None, notes)))
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
@@ -210,18 +209,13 @@ def holes_grid(
     """
     unit = system.length
     drill = f"{number(unit.of(tools.drill or 0.0))} {unit.name}"
-    rim = tell_rim(tools, list_radii(practical, unit))
-
-    rows = tuple(
-        (
-            f"{k} {name_kind(device)}",
-            degrees(p.hole_angle_deg or 0.0),
-            f"{p.holes}",
-            _length(p.drill_depth_mm or 0.0, unit, 4),
-        )
-        for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1)
-        if p.holes is not None
-    )
+    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
+    rim = f"from a rim at {list_radii(practical, unit)} ({why})"
+    rows = []
+    for k, (device, p) in enumerate(zip(remedy.devices, practical, strict=True), 1):
+        if p.holes is not None:
+            at, depth = degrees(p.hole_angle_deg or 0.0), _length(p.drill_depth_mm or 0.0, unit, 4)
+            rows.append((f"{k} {name_kind(device)}", at, f"{p.holes}", depth))
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
         what = "Holes remove steel opposite to the weight to add"
@@ -232,18 +226,7 @@ def holes_grid(
         )
     note = f"{what}; radial, {rim} inwards, side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
-    return Grid(title, heads, rows, note)
-
-
-def tell_rim(tools: Tools, radius: str) -> str:
-    """Return in words the radius at which holes start, and whether it was given.
-
-    Args:
-        tools: Tools of the workshop.
-        radius: Radius as it is printed.
-    """
-    why = "--radius" if tools.radius else "the crank radius; --radius changes it"
-    return f"from a rim at {radius} ({why})"
+    return Grid(title, heads, tuple(rows), note)
 
 
 def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:

@@ -73,11 +73,6 @@ class Request(NamedTuple):
         """Whether there are several speeds."""
         return len(self.speeds_rpm) > 1
 
-    @property
-    def words(self) -> frozenset[str] | None:
-        """Words of `--only`, for warnings; None if it is not given."""
-        return None if self.quantities is None else self.parts
-
     def check(self) -> Request:
         """Return the request; options without effect cause an error or a warning.
 

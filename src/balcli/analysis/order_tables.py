@@ -34,7 +34,7 @@ from ..show.sheet import (
 
 if TYPE_CHECKING:
     from ..core.peaks import Peak
-    from ..core.phasors import Phasors
+    from ..core.phasors import Complex, Phasors
     from ..forces.spectrum import Spectra
     from ..forces.symmetry import Textbook
     from ..show.figures import OrdersAndPeaks
@@ -154,28 +154,28 @@ def cylinder_tables(
         system: System of units.
         about_crank: Whether couple and torques are wanted.
     """
-    heads, columns = ["order"], [list(map(order_name, share.orders))]
+    orders = ("order", [*map(order_name, share.orders)])
+    vectors, scalars = [orders], [orders]
     for kind, phasors in share.vectors():
-        unit = system.unit(kind)
         for way, part in (("with", phasors.forward), ("against", phasors.backward)):
-            heads.append(f"{kind.name} {way}, {unit.name}")
-            columns.append([_tell_vector(v, unit) for v in part.tolist()])
+            vectors.append(_column(f"{kind.name} {way}", part, system.unit(kind)))
+    for kind, phasors in share.scalars() if about_crank else ():
+        scalars.append(_column(kind.name, phasors.x.conj(), system.moment))
     title = f"Cylinder {cylinder} alone"
-    if len(heads) > 1:
-        yield Grid(title, tuple(heads), tuple(zip(*columns, strict=True)))
+    if len(vectors) > 1:
+        yield Grid.of_columns(title, vectors)
         title += ", about the crank"
-    if about_crank and (scalars := share.scalars()):
-        unit = system.moment
-        names = (f"{kind.name}, {unit.name}" for kind, _ in scalars)
-        cells = ([_tell_vector(c, unit) for c in p.x.conj().tolist()] for _, p in scalars)
-        rows = tuple(zip(columns[0], *cells, strict=True))
-        note = "Value = amplitude · cos(order · θ − angle)."
-        yield Grid(title, ("order", *names), rows, note)
+    if len(scalars) > 1:
+        yield Grid.of_columns(title, scalars, "Value = amplitude · cos(order · θ − angle).")
 
 
-def _tell_vector(v: complex, unit: ShownUnit) -> str:
-    angle = degrees(math.degrees(cmath.phase(v)))
-    return f"{number(unit.of(abs(v)))} ∠ {angle}" if v else NOTHING
+def _column(name: str, values: Complex, unit: ShownUnit) -> tuple[str, list[str]]:
+    """Return heading and cells of vectors as size and angle."""
+    cells = [
+        f"{number(unit.of(abs(v)))} ∠ {degrees(math.degrees(cmath.phase(v)))}" if v else NOTHING
+        for v in values.tolist()
+    ]
+    return f"{name}, {unit.name}", cells
 
 
 def peak_facts(

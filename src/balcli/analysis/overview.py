@@ -66,20 +66,15 @@ def vectors_grid(spectra: Spectra, shown: list[float], system: System, *, hints:
         hints: Whether to name the option that shows more.
     """
     chosen = spectra.select_orders(shown)
-    heads = ["order"]
-    columns: list[Sequence[str]] = [[order_name(order) for order in chosen.orders]]
+    columns: list[tuple[str, Sequence[str]]] = [("order", [*map(order_name, chosen.orders)])]
     for kind, phasors in chosen.vectors():
         unit = fit_largest(system.unit(kind), phasors)
-        heads += [f"{kind.name}, {unit.name}", "with crank", "against"]
         cells = (vector_cells(phasors, k, unit, 4) for k in range(len(shown)))
         largest, _, _, ahead, against = zip(*cells, strict=True)
-        columns += [largest, ahead, against]
-    return Grid(
-        "Largest by order, and its parts that turn with the crank and against it",
-        tuple(heads),
-        tuple(zip(*columns, strict=True)),
-        tell_others([spectra], shown, system, hints=hints),
-    )
+        columns.append((f"{kind.name}, {unit.name}", largest))
+        columns += [("with crank", ahead), ("against", against)]
+    title = "Largest by order, and its parts that turn with the crank and against it"
+    return Grid.of_columns(title, columns, tell_others([spectra], shown, system, hints=hints))
 
 
 def name_column(kind: Kind) -> str:
@@ -129,11 +124,11 @@ def roll_and_peaks(result: Analysis, system: System, *, every_order: bool) -> Fa
     peaks = peak_facts(result, system, "", result.of_one_cylinder).pairs
     roll = result.spectra.roll
     name = ROLL.label if result.engine.gas is None else f"{ROLL.label}, inertia alone"
-    pairs = []
-    if roll is not None:
-        pairs = [(name, _tell_roll(result, roll, system, every_order=every_order))]
     title = "Largest over a revolution" if peaks else f"About {tell_pivot(result.engine)}"
-    return Facts((*pairs, *peaks), title)
+    if roll is None:
+        return Facts(peaks, title)
+    told = _tell_roll(result, roll, system, every_order=every_order)
+    return Facts(((name, told), *peaks), title)
 
 
 def _tell_roll(result: Analysis, roll: Phasors, system: System, *, every_order: bool) -> str:

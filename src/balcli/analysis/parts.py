@@ -21,13 +21,14 @@ import numpy as np
 from ..core.cylinders import find_innermost
 from ..core.loads import find_arms
 from ..core.phasors import Array, Complex, unit, wrap_degrees
-from ..core.records import Node, find_unit, list_figures, remove_unit, to_document
+from ..core.records import Node, find_unit, remove_unit
 from ..engine.devices import build_device, find_given_unbalance, find_sector, group_eccentrics
 from ..engine.engine import Engine, refuse_geared
 from ..file.model import Counterweight, Shaft
-from ..show.figures import FigureRow
+from ..show.figures import FigureRow, record_rows
 from ..show.sheet import UNKNOWN, Facts, Grid, Text, number, size_text
 from ..show.units import ShownUnit, System, name_with_unit
+from ..sizing.planes import measure_direction
 from .records import BalanceParts, BalancerShaft, CounterweightPart, ShaftBearing, ShaftGear
 
 _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
@@ -123,13 +124,8 @@ def _share(loads: Complex, places: Array, planes: Array) -> Complex:
 
 def _describe_bearing(position_mm: float, turning: complex, fixed: complex) -> ShaftBearing:
     sizes = abs(turning), abs(fixed), abs(turning) + abs(fixed)
-    return ShaftBearing(position_mm, *sizes, _find_direction(turning), _find_direction(fixed))
-
-
-def _find_direction(vector: complex) -> float | None:
-    """Return the direction of a vector from x, deg, in (-180, 180]; None if it is 0."""
-    angle = math.degrees(math.atan2(vector.imag, vector.real))
-    return float(wrap_degrees(angle, 360)) if vector else None
+    directions = (measure_direction(load) if load else None for load in (turning, fixed))
+    return ShaftBearing(position_mm, *sizes, *directions)
 
 
 def _find_bending(
@@ -211,11 +207,11 @@ def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
     pairs = [(shaft.name, bearing) for shaft in shafts for bearing in shaft.bearings or ()]
     names, bearings = zip(*pairs, strict=True)
     unit = system.force.fit(max(bearing.largest_N for bearing in bearings))
-    columns = [("shaft", names), *_list_columns(bearings, _BEARING, {"N": unit}, system)]
+    columns = [("shaft", names), *list_columns(bearings, _BEARING, {"N": unit}, system)]
     return Grid.of_columns("Balancer shafts", columns, _BEARINGS_NOTE)
 
 
-def _list_columns(
+def list_columns(
     records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
 ) -> Iterator[tuple[str, list[str]]]:
     """Yield heading and cells of each figure that some records have.
@@ -252,7 +248,7 @@ def _tell_shaft(shaft: BalancerShaft, system: System) -> str:
 def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) -> Grid:
     unit_ = system.unbalance.fit(max(abs(part.unbalance_kg_m) for part in parts))
     numbers = [str(k) for k in range(1, len(parts) + 1)]
-    columns = list(_list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
+    columns = list(list_columns(parts, _WEIGHT, {"kg·m": unit_}, system))
     notes = [_RADIUS_NOTE] * any(part.mass_kg is not None for part in parts)
     notes += [_CLEARANCE_NOTE] * any(part.clearance_m is not None for part in parts)
     columns.insert(0, ("no.", numbers))
@@ -261,8 +257,8 @@ def _lay_out_counterweights(parts: Sequence[CounterweightPart], system: System) 
 
 def list_part_rows(parts: BalanceParts) -> Iterator[FigureRow]:
     """Yield every figure of shafts and counterweights in SI units."""
-    shafts = ((f"shaft {one.name.removeprefix('shaft ')}", one) for one in parts.shafts)
-    weights = ((f"counterweight {k}", one) for k, one in enumerate(parts.counterweights, 1))
-    for label, record in (*shafts, *weights):
-        for name, value, unit_ in list_figures(to_document(record), ("name",)):
-            yield FigureRow(0, label, None, name, value, unit_)
+    for shaft in parts.shafts:
+        name = f"shaft {shaft.name.removeprefix('shaft ')}"
+        yield from record_rows(0, name, None, shaft, "name")
+    for k, weight in enumerate(parts.counterweights, 1):
+        yield from record_rows(0, f"counterweight {k}", None, weight)

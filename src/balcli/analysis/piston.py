@@ -19,7 +19,7 @@ import numpy as np
 from ..core.cylinders import find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.mechanisms.slidercrank import fastest_two_term
-from ..core.peaks import Swing, find_swing
+from ..core.peaks import find_swing
 from ..core.phasors import Array, Complex
 from ..core.records import HIDDEN, find_unit, list_figures, remove_unit, to_document
 from ..engine.build import build
@@ -44,7 +44,7 @@ _HIGH_SPEED = 9.0  # mean piston speed above which an engine is a high-speed one
 _SAMPLES = 32  # samples per period of the highest order, to count minima
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Velocity:
     """Largest speeds of a piston, positive towards the crank.
 
@@ -61,7 +61,7 @@ class Velocity:
     min_own_deg: float
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Acceleration:
     """Accelerations of a piston, positive towards the crank.
 
@@ -203,7 +203,7 @@ def analyze_pistons(engine: Engine) -> Pistons:
                 inward_stroke_deg=inward,
                 outward_stroke_deg=360 - inward,
                 mean_speed_m_per_s=stroke * omega / math.pi,
-                velocity=_find_velocity(orders, series, radius * omega),
+                velocity=Velocity(*_find_extremes(orders, series / (1j * orders), radius * omega)),
                 acceleration=_find_acceleration(orders, series, radius * omega**2),
                 two_term=_use_two_terms(lam, radius, omega) if centred else None,
             )
@@ -232,36 +232,23 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
     return replace(result, mechanisms=tuple(replace(each, cylinders=(number,)) for each in chosen))
 
 
-def _find_velocity(orders: Array, series: Complex, scale: float) -> Velocity:
-    """Return the largest velocities, from the phasors of the acceleration by order."""
-    swing = find_swing(orders, series / (1j * orders))
-    high, low = _read(swing, scale)
-    return Velocity(
-        max_m_per_s=high[0], max_own_deg=high[1], min_m_per_s=low[0], min_own_deg=low[1]
-    )
-
-
 def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
     """Return the largest accelerations, from the phasors of the acceleration by order."""
-    (highest, at_high), (lowest, at_low) = _read(find_swing(orders, series), scale)
     angles = np.linspace(0, 2 * np.pi, _SAMPLES * len(orders), endpoint=False)
     jerk = (np.exp(1j * np.outer(angles, orders)) @ (1j * orders * series)).real
     turns = (jerk <= 0) & (np.roll(jerk, -1) > 0)
-    return Acceleration(
-        max_m_per_s2=highest,
-        max_own_deg=at_high,
-        min_m_per_s2=lowest,
-        min_own_deg=at_low,
-        type=int(np.count_nonzero(turns)),
-    )
+    return Acceleration(*_find_extremes(orders, series, scale), int(np.count_nonzero(turns)))
 
 
-def _read(swing: Swing, scale: float) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return value and crank angle (deg, 0 to 360) of the maximum and of the minimum."""
+def _find_extremes(
+    orders: Array, series: Complex, scale: float
+) -> tuple[float, float, float, float]:
+    """Return value and crank angle (deg, 0 to 360) of the maximum, then those of the minimum."""
     high, low = (
-        (scale * float(peak.value), math.degrees(float(peak.angle)) % 360) for peak in swing
+        (scale * float(peak.value), math.degrees(float(peak.angle)) % 360)
+        for peak in find_swing(orders, series)
     )
-    return high, low
+    return *high, *low
 
 
 def _use_two_terms(lam: float, radius: float, omega: float) -> TwoTerm:
@@ -319,16 +306,6 @@ Variants = partial(FiguresOfVariants, evaluate_engine)
 
 
 # ------------------------------------------------------------------ how it is shown
-_TWO_TERM = {  # figures of the two terms, by the paths of the exact figures
-    "velocity.max_m_per_s": "velocity_max_m_per_s",
-    "velocity.max_own_deg": "velocity_max_own_deg",
-    "acceleration.max_m_per_s2": "acceleration_max_m_per_s2",
-    "acceleration.min_m_per_s2": "acceleration_min_m_per_s2",
-    "acceleration.min_own_deg": "acceleration_min_own_deg",
-    "acceleration.type": "type",
-}
-
-
 def sheet(result: Pistons, system: System) -> Sheet:
     """Return a table with a row for each figure, and for each mechanism a column of exact figures
     followed by one of the two-term figures.
@@ -347,7 +324,9 @@ def sheet(result: Pistons, system: System) -> Sheet:
         columns.append((name_cylinders(each.cylinders), found))
         if each.two_term is not None:
             terms = to_document(each.two_term)
-            two = {name: _write(name, terms[key], system) for name, key in _TWO_TERM.items()}
+            terms["acceleration_type"] = terms.pop("type")
+            keys = {name: name.replace(".", "_") for name in found}
+            two = {n: _write(n, terms[key], system) for n, key in keys.items() if key in terms}
             columns.append(("two-term", two))
             if each.two_term.type != each.acceleration.type:
                 notes.append(

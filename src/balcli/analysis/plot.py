@@ -302,11 +302,11 @@ def _draw_motion(
     set_crank_axis(ax, own_deg, "")
 
 
-def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
+def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     """Draw the torque in every main journal over the cycle, at the mean speed.
 
     Args:
-        ax: Axes to draw on.
+        fig: Empty figure.
         engine: Engine without trailing axes.
         unit: Unit of the torques.
 
@@ -318,7 +318,7 @@ def draw_journals(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
     torques, angle = CrankTorques.of(engine), np.radians(degrees)
     mains = [each for each in weigh_cylinders(engine).items() if each[0].startswith("main")]
     curves = {place: torques.sample(angle, weights) for place, weights in mains}
-    s = unit.fit(max(float(np.abs(curve).max()) for curve in curves.values()))
+    ax, s = fig.subplots(), unit.fit(max(float(np.abs(each).max()) for each in curves.values()))
     for (place, curve), (line, color) in zip(curves.items(), repeat(MANY_LOOKS), strict=False):
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
     set_crank_axis(ax, degrees)

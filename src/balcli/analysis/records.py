@@ -23,7 +23,7 @@ from ..show.figures import (
     list_orders,
     list_vectors,
 )
-from ..sizing.planes import DeviceTable, find_unbalance
+from ..sizing.planes import DeviceTable, find_free, find_unbalance
 from ..sizing.remedy import Remedy
 
 
@@ -173,9 +173,8 @@ def describe_inner(inner: InnerLoads) -> Inner:
 
 def _describe_bent(shear: AlongCrank, bending: AlongCrank) -> Bent:
     """Return the record of shear force and bending moment at the same sections."""
-    (places, forces), (_, moments), most = _list_loads(shear), _list_loads(bending), bending.largest
-    sections = tuple(map(Section, places, forces, moments))
-    return Bent(bending.peaks[most].value, places[most], sections)
+    (places, forces), (_, moments) = _list_loads(shear), _list_loads(bending)
+    return Bent(*bending.highest, tuple(map(Section, places, forces, moments)))
 
 
 def _list_loads(along: AlongCrank) -> tuple[list[float], list[Load]]:
@@ -341,14 +340,9 @@ def name_devices(remedy: Remedy) -> SizedDevices:
 
 def describe_devices(remedy: Remedy) -> Devices:
     """Return the devices of a remedy by their kinds."""
-    shafts = (
-        (d, f)
-        for d, f in zip(remedy.devices, remedy.free, strict=True)
-        if isinstance(d, model.Shaft)
-    )
     return Devices(
         tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
-        tuple(_describe_shaft(shaft, free) for shaft, free in shafts),
+        tuple(map(_describe_shaft, remedy.shafts, find_free(remedy.shafts))),
         tuple(Slider(*_list_values(d, Slider)) for d in remedy.sliders),
     )
 
@@ -531,11 +525,6 @@ class BalanceParts(NamedTuple):
                 )
 
 
-def write_need(need: str | None) -> str | None:
-    """Return the need of a compensator."""
-    return need
-
-
 class RelatedMoment(NamedTuple):
     """Power related unbalance of an order.
 
@@ -549,7 +538,7 @@ class RelatedMoment(NamedTuple):
     order: int
     moment_Nm: Annotated[float, HIDDEN]
     Nm_per_kW: float
-    need: Annotated[str | None, WrittenAs(write_need, "class")]
+    need: Annotated[str | None, WrittenAs(key="class")]
 
 
 class PowerRelatedUnbalance(NamedTuple):

@@ -126,23 +126,19 @@ def _grid(along: AlongCrank, title: str, unit: ShownUnit, length: ShownUnit, not
     unit = unit.fit(max(peak.value for peak in along.peaks))
     orders = along.phasors.orders[:ORDERS_SHOWN]
     heads = (f"place, {length.name}", "largest", "deg", *(f"order {order_name(n)}" for n in orders))
-    rows = tuple(
-        (
-            number(length.of(float(z))),
-            size_cell(peak.value, unit, digits=None),
-            degrees(float(np.degrees(peak.theta))) if peak.value else "",
-            *(number(unit.of(float(size))) for size in along.at(k).major[:ORDERS_SHOWN]),
-        )
-        for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True))
-    )
-    return Grid(f"{title}, {unit.name}", heads, rows, note)
+    rows = []
+    for k, (z, peak) in enumerate(zip(along.z_m, along.peaks, strict=True)):
+        at = degrees(float(np.degrees(peak.theta))) if peak.value else ""
+        largest = size_cell(peak.value, unit, digits=None), at
+        sizes = (number(unit.of(float(size))) for size in along.at(k).major[:ORDERS_SHOWN])
+        rows.append((number(length.of(float(z))), *largest, *sizes))
+    return Grid(f"{title}, {unit.name}", heads, tuple(rows), note)
 
 
 def _tell_largest(bending: AlongCrank, system: System) -> str:
-    most = bending.largest
-    moment = size_text(bending.peaks[most].value, system.moment, 5)
-    place = number(system.length.of(float(bending.z_m[most])))
-    return f"{moment} at {place} {system.length.name}"
+    moment, place_mm = bending.highest
+    place = number(system.length.of(place_mm / 1e3))
+    return f"{size_text(moment, system.moment, 5)} at {place} {system.length.name}"
 
 
 _ALONE = "of inertia only, without gas"
@@ -212,22 +208,16 @@ def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
         travel: Strokes and dead centres of the cylinders.
         system: System of units.
     """
-    length = system.length
-    return Grid(
-        "Strokes and dead centres",
-        ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg"),
-        tuple(
-            (
-                str(one.cylinder),
-                number(length.of(one.stroke_m), 7),
-                f"{one.top_deg:.3f}",
-                f"{one.bottom_deg:.3f}",
-            )
-            for one in travel
-        ),
-        note="Dead centres: top in crank degrees after the pin lies along the cylinder's axis, "
-        "bottom from half a turn later.",
+    length, rows = system.length, []
+    for one in travel:
+        dead_centres = f"{one.top_deg:.3f}", f"{one.bottom_deg:.3f}"
+        rows.append((str(one.cylinder), number(length.of(one.stroke_m), 7), *dead_centres))
+    heads = ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg")
+    note = (
+        "Dead centres: top in crank degrees after the pin lies along the cylinder's axis, bottom "
+        "from half a turn later."
     )
+    return Grid("Strokes and dead centres", heads, tuple(rows), note)
 
 
 def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow]:

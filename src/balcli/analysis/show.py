@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import replace
-from types import ModuleType
 from typing import TypeAlias
 
 import numpy as np
@@ -15,7 +14,7 @@ from ..forces.curves import find_constant_inertia
 from ..forces.kinds import COUPLE, EVERY_KIND, GAS, GAS_KINDS, TORQUE, VECTORS
 from ..forces.spectrum import Spectra
 from ..show.engine_facts import engine_facts, speed_facts, tell_pivot
-from ..show.figures import FigureRow, figure_rows
+from ..show.figures import FigureRow, figure_rows, record_rows
 from ..show.formats import Columns, Renderer, Rows
 from ..show.sheet import (
     IN_BRIEF,
@@ -29,7 +28,7 @@ from ..show.sheet import (
     sentence,
 )
 from ..show.units import System
-from . import sections
+from . import crank_drive, sections
 from .answer import EXTRAS, Analysis, Sizing
 from .devices_show import device_grid, device_rows, ladder_grid, list_ladder, number_devices
 from .order_tables import (
@@ -50,6 +49,7 @@ from .overview import (
     vectors_grid,
     verdict,
 )
+from .parts import lay_out_parts, list_part_rows
 
 _UNCOUNTED = (
     "Couple and torque count pistons, rods and throw masses only; give [crank] inertia and "
@@ -107,26 +107,17 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
     if result.guide is not None:
         yield sections.lay_out_guide(result.guide, system)
     if result.journals is not None:
-        yield from import_seldom().lay_out_journals(result.journals, result.engine, system)
+        yield from crank_drive.lay_out_journals(result.journals, result.engine, system)
     if result.masses is not None:
-        yield import_seldom().lay_out_masses(result.masses, system)
+        yield crank_drive.lay_out_masses(result.masses, system)
     if result.power_related_unbalance is not None:
-        yield import_seldom().lay_out_related(result.power_related_unbalance, system)
+        yield crank_drive.lay_out_related(result.power_related_unbalance, system)
     if result.parts is not None:
-        yield from import_seldom("parts").lay_out_parts(result.parts, system)
+        yield from lay_out_parts(result.parts, system)
     if result.why is not None:
         yield sections.lay_out_symmetry(result.why)
     if result.stars:
         yield sections.lay_out_stars(result.stars, system)
-
-
-def import_seldom(name: str = "crank_drive") -> ModuleType:
-    """Return a module of parts that are seldom asked for: `crank_drive` (journals, masses, power
-    related unbalance), or `parts`.
-    """
-    from . import crank_drive, parts
-
-    return {"crank_drive": crank_drive, "parts": parts}[name]
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
@@ -279,14 +270,15 @@ def _further_rows(result: Analysis, system: System) -> Iterator[FigureRow]:
         yield from sections.rows(result.inner, system)
     if result.guide is not None:
         yield from sections.list_guide(result.guide, system)
-    if result.journals is not None:
-        yield from import_seldom().list_journal_rows(result.journals)
-    if result.masses is not None:
-        yield from import_seldom().list_mass_rows(result.masses)
+    for journal in result.journals or ():
+        yield from record_rows(0, journal.place, None, journal, "place")
+    for one in result.masses or ():
+        yield from record_rows(one.cylinders[0], "masses", None, one, "cylinders")
     if result.power_related_unbalance is not None:
-        yield from import_seldom().list_related(result.power_related_unbalance)
+        for moment in result.power_related_unbalance.orders:
+            yield from record_rows(0, "pru", moment.order, moment, "order")
     if result.parts is not None:
-        yield from import_seldom("parts").list_part_rows(result.parts)
+        yield from list_part_rows(result.parts)
     if result.why is not None:
         yield from sections.list_symmetry(result.why)
 

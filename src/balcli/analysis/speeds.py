@@ -49,6 +49,7 @@ from .comparison import (
     make_line,
     show_sizes,
 )
+from .crank_drive import lay_out_related
 from .devices_show import ladder_grid
 from .records import Includes, PowerRelatedUnbalance, name_included
 from .sections import define_guide_moments
@@ -389,7 +390,7 @@ def lay_out_marine(one: NamedResult[MarineSheet], system: System) -> Sheet:
             parts.append(_kind_part(kind, lines, speeds, system, whole=whole))
         parts.append(Text("", (f"Guide-force moments and torque are {of_what}.",)))
     if result.related is not None:
-        parts.append(analysis_show.import_seldom().lay_out_related(result.related, system))
+        parts.append(lay_out_related(result.related, system))
     notes = (_AXES, define_guide_moments(result.height_m, system))
     return Sheet(result.engine.name or NAMELESS, (*parts, Text("", notes)))
 
@@ -405,16 +406,11 @@ def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
     heads = (
         f"{k.name}_{unit.name.replace('·', '')}" for k, unit in zip(FIGURES, units, strict=True)
     )
-    lines = (
-        (
-            name_cell(one.name),
-            speed.speed_rpm,
-            order,
-            *(clean(unit.of(value)) for unit, value in zip(units, figures, strict=True)),
-        )
-        for speed in one.result.speeds
-        for order, *figures in map(astuple, speed.orders)
-    )
+    lines = []
+    for speed in one.result.speeds:
+        for order, *figures in map(astuple, speed.orders):
+            values = (clean(unit.of(v)) for unit, v in zip(units, figures, strict=True))
+            lines.append((name_cell(one.name), speed.speed_rpm, order, *values))
     return Rows(("engine", "speed_rpm", "order", *heads), lines)
 
 

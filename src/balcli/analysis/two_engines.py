@@ -9,21 +9,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
-from ..core.peaks import Peak
 from ..core.records import HIDDEN, INLINE, WrittenAs
 from ..engine.engine import Engine, Placed, check_engine, place_in_mm, refuse_geared
 from ..engine.placed import gear_engines
 from ..errors import BalcliError, check_number, check_type
 from ..file.edit import format_value
 from ..file.fields import counted
-from ..forces.kinds import Kind
 from ..forces.spectrum import Spectra
 from ..limits import FARTHEST_DEG, FARTHEST_M
 from ..shell.arguments import read_position, tell_arguments
-from ..show.engine_facts import tell_pivot, tell_place, tell_speed
+from ..show.engine_facts import tell_pivot, tell_place, tell_reference, tell_speed
 from ..show.figures import (
     EngineSize,
     EngineState,
+    OrdersAndPeaks,
     Peaks,
     describe_state,
     figure_rows,
@@ -108,12 +107,11 @@ class Arrangement:
         senses = {"first": (1, 1), "second": (ratio, ratio), "both": (1, ratio)}[self.load]
         leader = Placed(first, "first", load=self.load != "second", load_sense=senses[0])
         stands = ratio, self.phase_deg, self.turn_deg, self.at_m, self.load != "first", senses[1]
-        other = Placed(second, "second", "", *stands)
-        return leader, other
+        return leader, Placed(second, "second", "", *stands)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Combined(Result):
+class Combined(OrdersAndPeaks, Result):
     """Forces and moments of two engines on their common frame, about the first one's point of
     reference.
 
@@ -152,11 +150,6 @@ class Combined(Result):
     def moments_known(self) -> bool:
         """Whether both engine files give the positions of their throws."""
         return all(engine.places_known for engine in self.engines)
-
-    @property
-    def peaks(self) -> list[tuple[Kind, Peak]]:
-        """Force and moment, with their peaks."""
-        return self.peak.items()
 
 
 def combine_engines(
@@ -320,10 +313,8 @@ def _list_facts(result: Combined, system: System) -> Iterator[tuple[str, str]]:
         yield "gas", f"of the {' and the '.join(fired)}{' alone' * (len(fired) == 1)}"
     if result.assumed:
         yield "assumed", tell_assumed(result.assumed)
-    if result.moments_known:
-        yield "reference", f"moments about {tell_place(first.reference_m, system)}"
-    else:
-        yield "reference", "moments are not known: crank.spacing is missing"
+    known = result.moments_known
+    yield "reference", tell_reference(first.reference_m, system, known=known)
 
 
 RENDERER = Renderer(sheet=sheet, rows=rows)

@@ -10,17 +10,19 @@ import tomllib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from types import NoneType
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.answer import Analysis, analyze
+from ..analysis.answer import Analysis, analyze, shorten
+from ..analysis.comparison import analyze_alike
 from ..analysis.parts import find_parts
-from ..analysis.records import BalanceParts
+from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.cylinders import Travel, find_travel
 from ..core.mechanisms.linkage import Articulated
 from ..core.phasors import Array, unit
-from ..core.records import Node
+from ..core.records import HIDDEN, INLINE, Node, WrittenAs
 from ..core.unbalance import find_permitted_unbalance
 from ..engine.build import build
 from ..engine.engine import CylinderNumber, Engine, check_engine, refuse_geared
@@ -29,8 +31,8 @@ from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import BalcliError, InputError, check_type, list_values
 from ..file.edit import format_value, remove_tables, rewrite, set_keys
-from ..file.model import Counterweight, EngineFile, Sector, Shaft
-from ..forces.spectrum import merge_orders
+from ..file.model import EngineFile, Sector
+from ..forces.crankshaft import find_crank_loads
 from ..limits import SMALL
 from ..shell.arguments import tell_arguments
 from ..show.result import Result
@@ -42,7 +44,6 @@ from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
 
-SHAPES = ("name", "bearings", "sector")  # keys that describe the shape of new devices
 _UNEVEN = "sized for steady speed; before and after are at uneven speed"
 
 
@@ -62,34 +63,80 @@ class PermittedUnbalance:
     each_g_mm: float
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, kw_only=True)
+class FittedRemedy:
+    """A remedy as documents show it.
+
+    Attributes:
+        scheme: Name of the scheme.
+        step: Step of the ladder; only for the schemes auto and step.
+        order: Order that the scheme balances; null if there is no single one.
+        devices: New devices.
+        reasons: Reasons for the devices.
+    """
+
+    scheme: str
+    step: str | None = None
+    order: int | None
+    devices: Annotated[Devices, INLINE]
+    reasons: tuple[str, ...]
+
+
+def describe_remedy(remedy: Remedy) -> FittedRemedy:
+    """Return the devices of a remedy and the reasons for them."""
+    return FittedRemedy(
+        scheme=remedy.scheme,
+        step=remedy.step or None,
+        order=remedy.order,
+        devices=describe_devices(remedy),
+        reasons=remedy.reasons,
+    )
+
+
+def list_details(remedy: Remedy) -> Node:
+    """Return the further figures of a scheme, with its card, planes, range of factors and note."""
+    further: Node = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
+    further["note"] = remedy.note
+    return {**remedy.details, **{key: value for key, value in further.items() if value}}
+
+
+def shorten_with_bearings(analysis: Analysis) -> PeaksAndOrders:
+    """Return only peaks, orders and the largest loads within the crankshaft."""
+    return replace(shorten(analysis), bearings=find_crank_loads(analysis.engine))
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Balance(Result):
-    """A remedy, and the analyses of the engine without and with it.
+    """A remedy, and the free forces of the engine without and with it.
 
     Attributes:
         remedy: New devices and the reasons for them.
+        practical: Figures of each device for the workshop, in the order of `remedy.devices`.
+        details: Further figures of the scheme, under names that end in the unit.
+        assumed: Values that are used because the engine file leaves them out.
         before: Analysis of the engine without the new devices.
         after: Analysis with the new devices, for the same orders.
-        practical: Figures of each device for the workshop, in the order of `remedy.devices`.
-        tools: Tools of the workshop.
-        speed_note: Difference in speed between remedy and analyses, in words; empty if they do not
-            differ.
-        permitted: Residual unbalance that a grade permits, if one was given.
-        every_order: Whether orders were given; then all of them are shown.
-        ladder: Ladder of the engine; None where articulated rods are changed.
+        permitted: Residual unbalance that a balance grade permits in each plane, if a grade was
+            given.
+        ladder: Devices that balance the engine, step by step; left out where articulated rods are
+            changed.
         parts: New shafts in their bearings and new counterweights as sectors, if shapes were given.
+        tools: Tools of the workshop.
+        every_order: Whether orders were given; then all of them are shown.
     """
 
-    remedy: Remedy
-    before: Analysis
-    after: Analysis
+    format: Literal["balcli.balance/1"] = "balcli.balance/1"
+    remedy: Annotated[Remedy, WrittenAs(describe_remedy), INLINE]
     practical: tuple[Practical, ...] = ()
-    tools: Tools = field(default_factory=Tools)
-    speed_note: str = ""
+    details: Node
+    assumed: tuple[str, ...] | None = None
+    before: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
+    after: Annotated[Analysis, WrittenAs(shorten_with_bearings)]
     permitted: PermittedUnbalance | None = None
-    every_order: bool = False
     ladder: Ladder | None = None
     parts: BalanceParts | None = None
+    tools: Annotated[Tools, HIDDEN] = field(default_factory=Tools)
+    every_order: Annotated[bool, HIDDEN] = False
 
     @property
     def summary(self) -> str:
@@ -188,23 +235,32 @@ def _answer(
     if shafts or any(weight.sector for weight in remedy.counterweights):
         parts = find_parts(engine, shafts, remedy.counterweights)
     practical = find_practical(engine, remedy, tools)
-    before, after = analyze_both(engine, fit_devices(engine, remedy), orders)
-    note = _UNEVEN if engine.ripple else ""
-    found = Balance(remedy, before, after, practical, tools, note, ladder=ladder, parts=parts)
-    return replace(found, every_order=orders is not None)
+    if engine.ripple:
+        remedy = remedy.add_details(speed=_UNEVEN)
+    return replace(
+        _analyze_both(engine, fit_devices(engine, remedy), remedy, orders),
+        practical=practical,
+        ladder=ladder,
+        parts=parts,
+        tools=tools,
+    )
 
 
-def analyze_both(
-    engine: Engine, changed: Engine, orders: Iterable[float] | None
-) -> tuple[Analysis, Analysis]:
-    """Analyze an engine without and with a remedy for the same orders: the given ones, by default
-    1, 2 and all that are not negligible in one of both.
+def _analyze_both(
+    engine: Engine, changed: Engine, remedy: Remedy, orders: Iterable[float] | None
+) -> Balance:
+    """Return a remedy, and the analyses of an engine without and with it for the same orders: the
+    given ones, by default 1, 2 and all that are not negligible in one of both.
     """
-    before, after = analyze(engine, orders), analyze(changed, orders)
-    if np.array_equal(before.orders, after.orders):
-        return before, after
-    both = merge_orders(before.orders, after.orders)
-    return analyze(engine, both), analyze(changed, both)
+    before, after = analyze_alike((engine, changed), orders, analyze)
+    return Balance(
+        remedy=remedy,
+        details=list_details(remedy),
+        assumed=before.assumed,
+        before=before,
+        after=after,
+        every_order=orders is not None,
+    )
 
 
 def permit_unbalance(
@@ -340,8 +396,7 @@ def balance_knuckles(
     old, new = build(model), build(found.model)
     if speed_rpm is not None:
         old, new = old.at_speed(speed_rpm), new.at_speed(speed_rpm)
-    before, after = analyze_both(old, new, orders)
-    return Balance(remedy, before, after, every_order=orders is not None)
+    return _analyze_both(old, new, remedy, orders)
 
 
 def _find_range(values: Array) -> dict[str, float]:
@@ -472,14 +527,9 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
 
 def _list_entries(device: DeviceTable) -> Node:
     """Return the keys and values of a device for TOML."""
-    given = {key: getattr(device, key) for key in FIELDS[type(device)]}
-    entries = {key: _write(value) for key, value in given.items() if value is not None}
-    shapes = {key: _write(getattr(device, key)) for key in SHAPES if device.has(key)}
-    if isinstance(device, Shaft) and device.role != "balancer":
-        shapes["role"] = device.role
-    if isinstance(device, Counterweight) and device.engine is not None:
-        shapes = {"engine": device.engine, **shapes}
-    return shapes | entries
+    keys = ("engine", "name", "bearings", "sector", "role", *FIELDS[type(device)])
+    given = {key: getattr(device, key, None) for key in keys}
+    return {k: _write(value) for k, value in given.items() if value not in (None, "", "balancer")}
 
 
 def _write(value: object) -> object:

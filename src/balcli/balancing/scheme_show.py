@@ -34,20 +34,11 @@ class _Figure(NamedTuple):
     value: Any
 
 
-def details_document(result: Balance) -> dict[str, object]:
-    """Return the `details` of `balcli.balance/1`, which `to_document` writes."""
-    remedy = result.remedy
-    lists = {"card": remedy.card, "planes": remedy.needs, "sweep": remedy.sweep}
-    texts = {"note": remedy.note, "speed": result.speed_note}
-    return {**remedy.details, **{key: v for key, v in chain(lists.items(), texts.items()) if v}}
-
-
 def details_parts(result: Balance, system: System) -> Iterator[Grid | Facts]:
     """Yield the further figures, tables and notes of a scheme."""
     remedy = result.remedy
-    if details := _choose_figures(result):
-        pairs = ((_name(each), _show(each, system)) for each in details)
-        yield Facts(tuple(pairs), "Details")
+    if details := tuple((_name(each), _show(each, system)) for each in _choose_figures(result)):
+        yield Facts(details, "Details")
     if compensators := tuple(_tell_compensators(result, system)):
         yield Facts(compensators, "Compensators")
     if remedy.needs:
@@ -116,14 +107,11 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
             yield from (_Figure(key, name, figure) for name, figure in value.items())
         elif key not in ("best", "optima", "change", "compensators"):
             yield _Figure("", key, value)
-    if result.speed_note:
-        yield _Figure("", "speed", result.speed_note)
 
 
-def _choose_figures(result: Balance) -> list[_Figure]:
-    """Return the figures that are shown to people; nan for those that are not known."""
+def _choose_figures(result: Balance) -> Iterator[_Figure]:
+    """Yield the figures that are shown to people; nan for those that are not known."""
     order, about_crank = result.remedy.order, {*chain(*_ROLLS)}
-    chosen = []
     for each in _list_figures(result):
         if each.key in _FOR_PROGRAMS:
             continue
@@ -135,8 +123,7 @@ def _choose_figures(result: Balance) -> list[_Figure]:
         states = {"left", "before", "after"}.intersection(each.key.split("_"))
         if states and order and not each.group:
             each = each._replace(group=f"order {order}")  # other orders may leave more
-        chosen.append(each)
-    return chosen
+        yield each
 
 
 def _name(figure: _Figure) -> str:
@@ -264,23 +251,19 @@ def percent(share: float) -> str:
 def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
     force, moment = system.force, system.moment
     unbalance = system.unbalance.fit(max(abs(row.counterweight_kg_m) for row in sweep))
-    weight = (f"bobweight, {system.scales.name}", f"weight, {unbalance.name}")
-    heads = ("factor", *weight, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
-    rows = tuple(
-        (
-            percent(row.factor),
-            number(system.scales.of(row.bobweight_g / 1e3)),
-            number(unbalance.of(row.counterweight_kg_m)),
-            *(number(force.of(v)) for v in (row.peak_force_N, row.along_N, row.across_N)),
-            number(moment.of(row.peak_moment_Nm)),
-        )
-        for row in sweep
-    )
+    masses = (f"bobweight, {system.scales.name}", f"weight, {unbalance.name}")
+    heads = ("factor", *masses, f"force, {force.name}", "along", "across", f"moment, {moment.name}")
+    rows = []
+    for row in sweep:
+        weights = system.scales.of(row.bobweight_g / 1e3), unbalance.of(row.counterweight_kg_m)
+        forces = map(force.of, (row.peak_force_N, row.along_N, row.across_N))
+        cells = map(number, (*weights, *forces, moment.of(row.peak_moment_Nm)))
+        rows.append((percent(row.factor), *cells))
     note = (
         "Bobweight of the first pin; weight: largest counterweight to add. The force that remains, "
         "all orders: its largest value, and those along and across the first bank."
     )
-    return Grid("Largest values by factor", heads, rows, note=note)
+    return Grid("Largest values by factor", heads, tuple(rows), note=note)
 
 
 def _optima_grid(optima: Sequence[Node]) -> Grid:

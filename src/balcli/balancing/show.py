@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..analysis.answer import Analysis, shorten
 from ..analysis.devices_show import (
     device_grid,
     device_rows,
@@ -22,9 +19,8 @@ from ..analysis.devices_show import (
 from ..analysis.order_tables import fit_largest
 from ..analysis.overview import name_column, name_orders, tell_couple
 from ..analysis.parts import lay_out_parts
-from ..analysis.records import BalanceParts, Devices, PeaksAndOrders, describe_devices
 from ..core.peaks import Peak
-from ..core.records import INLINE, Node, list_figures, remove_unit, to_document, write_each
+from ..core.records import Node, list_figures, remove_unit, to_document, write_each
 from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.crankshaft import CrankLoads, find_crank_loads
 from ..forces.kinds import FORCE, MOMENT, ROLL, ROLL_TOTAL
@@ -49,13 +45,11 @@ from ..show.sheet import (
 )
 from ..show.units import IMPERIAL, SI, ShownUnit, System
 from ..sizing.factor import name_one_cylinder
-from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS, Ladder
+from ..sizing.ladder import AS_DRAWN, WEIGHTS_AT_THROWS
 from ..sizing.planes import find_unbalance, name_kind
-from ..sizing.workshop import Practical
-from .answer import Balance, PermittedUnbalance
+from .answer import Balance
 from .scheme_show import (
     card_grids,
-    details_document,
     details_parts,
     percent,
     tell_best_factors,
@@ -185,13 +179,11 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
             return f"{size / each:.1%}, {'over' if size > each else 'within'}"
         return f"±{each / size:.2%}" if size else "–"
 
+    permitted = number(unit.of(each))
     yield Grid(
         f"Permitted residual unbalance, ISO 21940-11, G {result.permitted.grade:g}",
         (head, f"{what}, {unit.name}", f"permitted, {unit.name}", last),
-        tuple(
-            (name, number(unit.of(size)), number(unit.of(each)), judge(size))
-            for name, size in found
-        ),
+        tuple((name, number(unit.of(size)), permitted, judge(size)) for name, size in found),
         f"A crankshaft of {number(mass.of(result.permitted.mass_kg))} {mass.name} at "
         f"{result.before.engine.speed_rpm:g} rpm; all planes have equal shares.",
     )
@@ -264,17 +256,14 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         for k, kind in enumerate(kinds)
         if changed[k].any()
     ]
-    rows = tuple(
-        (
-            order_name(result.before.orders[n]),
-            *(
-                size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
-                for k, _, unit in columns
-                for s in (0, 1)
-            ),
+    rows = []
+    for n in np.flatnonzero(changed.any(axis=0)):
+        cells = (
+            size_cell(float(sizes[k, s, n]), unit, negligible=bool(small[k, s, n]))
+            for k, _, unit in columns
+            for s in (0, 1)
         )
-        for n in np.flatnonzero(changed.any(axis=0))
-    )
+        rows.append((order_name(result.before.orders[n]), *cells))
     unchanged = []
     for kind, after in zip(kinds, left, strict=True):
         if orders := result.before.orders[after > 0].tolist():
@@ -285,7 +274,7 @@ def _orders(result: Balance, system: System) -> Iterator[Grid]:
         yield Grid(
             "Largest value by order, before and after",
             ("order", *(head for pair in heads for head in pair)),
-            rows,
+            tuple(rows),
             _tell_unchanged(unchanged),
         )
 
@@ -344,67 +333,6 @@ def _peak(peak: Peak, unit: ShownUnit) -> tuple[str, str]:
 
 
 # ------------------------------------------------------------------ JSON and CSV
-@dataclass(frozen=True, kw_only=True)
-class BalanceDocument:
-    """Devices that a scheme fits, and the free forces without and with them.
-
-    Attributes:
-        scheme: Name of the scheme.
-        step: Step of the ladder; only for the schemes auto and step.
-        order: Order that the scheme balances; null if there is no single one.
-        devices: New devices.
-        reasons: Reasons for the devices.
-        practical: Figures of each device for the workshop.
-        details: Further figures of the scheme, under names that end in the unit.
-        assumed: Values that are used because the engine file leaves them out.
-        before: Peaks and orders without the devices.
-        after: Peaks and orders with the devices.
-        permitted: Residual unbalance that a balance grade permits in each plane.
-        ladder: Devices that balance the engine, step by step.
-        parts: New shafts in their bearings and new counterweights as sectors.
-    """
-
-    format: Literal["balcli.balance/1"] = "balcli.balance/1"
-    scheme: str
-    step: str | None = None
-    order: int | None
-    devices: Annotated[Devices, INLINE]
-    reasons: tuple[str, ...]
-    practical: tuple[Practical, ...]
-    details: Node
-    assumed: tuple[str, ...] | None = None
-    before: PeaksAndOrders
-    after: PeaksAndOrders
-    permitted: PermittedUnbalance | None = None
-    ladder: Ladder | None = None
-    parts: BalanceParts | None = None
-
-
-def _shorten(analysis: Analysis) -> PeaksAndOrders:
-    return replace(shorten(analysis), bearings=find_crank_loads(analysis.engine))
-
-
-def document(result: Balance) -> Node:
-    """Return the document `balcli.balance/1`."""
-    remedy = result.remedy
-    described = BalanceDocument(
-        scheme=remedy.scheme,
-        step=remedy.step or None,
-        order=remedy.order,
-        devices=describe_devices(remedy),
-        reasons=remedy.reasons,
-        practical=result.practical,
-        details=details_document(result),
-        assumed=result.before.assumed,
-        before=_shorten(result.before),
-        after=_shorten(result.after),
-        permitted=result.permitted,
-        ladder=result.ladder,
-        parts=result.parts,
-    )
-    return to_document(described)
-
-
 def columns(result: Balance) -> Columns:
     """Return the columns of a DataFrame with a row for each new device: its keys in an engine file,
     and its figures for the workshop. The remaining forces are in `after`, an analysis with its own
@@ -437,7 +365,7 @@ def _all_rows(result: Balance, system: System) -> Iterator[tuple[object, ...]]:
         for figure in device_rows(device, system):
             yield part, "", "", *figure
         yield from _rows_of(part, practical)
-    yield from _rows_of("details", details_document(result))
+    yield from _rows_of("details", result.details)
     if result.remedy.step:
         yield "step", "", "", "name", result.remedy.step, ""
     for step, name, value, unit in list_ladder(result.ladder) if result.ladder else ():
@@ -471,4 +399,4 @@ def _with_paths(value: object, path: str = "") -> Iterator[tuple[str, object]]:
         yield from _with_paths(part, f"{path}.{key}".lstrip("."))
 
 
-RENDERER = Renderer(sheet=sheet, document=document, rows=rows, columns=columns)
+RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)

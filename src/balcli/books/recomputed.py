@@ -50,11 +50,6 @@ class Explanation(NamedTuple):
     category: ErratumClass = "method"
 
 
-def name_class(category: ErratumClass) -> ErratumClass:
-    """Return the class of an erratum (its key in JSON, `class`, is a keyword of Python)."""
-    return category
-
-
 class Erratum(NamedTuple):
     """A printed figure that differs from the rounded exact one, or a wrong statement.
 
@@ -74,12 +69,7 @@ class Erratum(NamedTuple):
     exact: Cell
     kind: str
     label: str
-    category: Annotated[ErratumClass, WrittenAs(name_class, "class")]
-
-
-def name_rows(exact: tuple[Row, ...]) -> tuple[Row, ...]:
-    """Return the exact cells of a table (their key in JSON is `rows`)."""
-    return exact
+    category: Annotated[ErratumClass, WrittenAs(key="class")]
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,7 +92,7 @@ class Table(Result):
     title: str
     source: str
     columns: tuple[str, ...]
-    exact: Annotated[tuple[Row, ...], WrittenAs(name_rows, "rows")]
+    exact: Annotated[tuple[Row, ...], WrittenAs(key="rows")]
     printed: tuple[Words, ...]
     errata: tuple[Erratum, ...]
     stub: Annotated[int, HIDDEN] = 1
@@ -209,6 +199,19 @@ class Print(NamedTuple):
         nothing = (None,) * len(self.columns)
         found = [rows.get(identify(name), nothing) for name in stub]
         return [tuple(None if j is None else row[j] for j in places) for row in found]
+
+    def compare_columns(
+        self,
+        headings: Sequence[str],
+        body: Iterable[Iterable[float]],
+        explanations: Sequence[Explanation] = (),
+    ) -> Table:
+        """Return the table with a row of figures for each name in the first column of the print,
+        and a column for each heading.
+        """
+        stub, columns = self.column(self.columns[0]), (self.columns[0], *headings)
+        cells = self.align_cells(stub, columns)
+        return self.compare(columns, head_rows(stub, body), cells, explanations)
 
     def compare(
         self,

@@ -92,10 +92,8 @@ def _compare(
 def tabulate_vectors(printed: Print, ranges: Ranges) -> Table:
     """Return Table 2: the two rotating vectors."""
     headings = ranges.angle or printed.headings()
-    gamma, stub = as_numbers(headings), printed.column(printed.columns[0])
-    columns = (printed.columns[0], *headings)
-    rows = head_rows(stub, [_cos(gamma / 2), _cos(3 * gamma / 2)])
-    return printed.compare(columns, rows, printed.align_cells(stub, columns))
+    gamma = as_numbers(headings)
+    return printed.compare_columns(headings, [_cos(gamma / 2), _cos(3 * gamma / 2)])
 
 
 def tabulate_sliders(printed: Print, ranges: Ranges) -> Table:

@@ -47,9 +47,8 @@ GENERATED: dict[str, Generator] = {  # coefficients that are listed up to the re
     "rod angle": series.beta,
     "rod angular acceleration D_k": series.rod,
 }
-PRINTED: dict[
-    str, Generator
-] = {  # other forms of coefficients, listed only if a source prints them
+# Other forms of coefficients, listed only if a source prints them.
+PRINTED: dict[str, Generator] = {
     "displacement (from shaft)/r": series.from_shaft,
     "acceleration (l w^2)": lambda n, power: {
         p: n * n * c for p, c in series.cos_beta(n, power).items()
@@ -104,20 +103,11 @@ def tabulate_coefficients(printed: Print, ranges: Ranges, exact: Exact, terms: T
     headings = ranges.lam or printed.headings()
     lam, stub = as_numbers(headings), printed.column("coefficient")
     orders = [int(label.partition("_")[2]) for label in stub]
-    columns = (printed.columns[0], *headings)
-
-    def first(count: int) -> tuple[Row, ...]:
-        return head_rows(stub, [_sum(terms(n, n + 2 * count), lam, count) for n in orders])
-
-    return printed.compare(
-        columns,
-        head_rows(stub, exact(orders, lam)),
-        printed.align_cells(stub, columns),
-        [
-            Explanation("first term of the series alone", first(1), "approximation"),
-            Explanation("two terms of the series", first(2), "approximation"),
-        ],
-    )
+    supposed = []
+    for count, kind in enumerate(("first term of the series alone", "two terms of the series"), 1):
+        body = [_sum(terms(n, n + 2 * count), lam, count) for n in orders]
+        supposed.append(Explanation(kind, head_rows(stub, body), "approximation"))
+    return printed.compare_columns(headings, exact(orders, lam), supposed)
 
 
 def _sum(terms: series.Series, lam: Array, count: int) -> Array:

@@ -211,15 +211,10 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
     for chapter, source, title, verdict in ([str(row[k]) for k in places] for row in table.exact):
         problems = chapters.setdefault(chapter, {})
         problems.setdefault(f"{source}: {title}", Counter()).update([verdict])
-    grids = [
-        Grid(
-            chapter,
-            ("problem", "figures"),
-            tuple(map(_tell_verdicts, problems.items())),
-            words=(0, 1),
-        )
-        for chapter, problems in chapters.items()
-    ]
+    grids = []
+    for chapter, problems in chapters.items():
+        rows = tuple(map(_tell_verdicts, problems.items()))
+        grids.append(Grid(chapter, ("problem", "figures"), rows, words=(0, 1)))
     every = Counter(str(row[places[-1]]) for row in table.exact)
     note = (
         f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: "

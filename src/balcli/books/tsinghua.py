@@ -21,7 +21,6 @@ from .recomputed import (
     Table,
     as_cells,
     as_numbers,
-    head_rows,
     parse_number,
 )
 
@@ -49,13 +48,8 @@ def tabulate_extremes(printed: Print, ranges: Ranges) -> Table:
     """
     headings = ranges.lam or printed.headings()
     lam = as_numbers(headings)
-    columns = (printed.columns[0], *headings, *(f"exact {h}" for h in headings))
-    approximate, exact = (
-        _extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)
-    )
-    stub = printed.column(printed.columns[0])
-    rows = head_rows(stub, np.hstack([approximate, exact]))
-    return printed.compare(columns, rows, printed.align_cells(stub, columns))
+    both = [_extreme(lam, *fastest(lam)) for fastest in (sc.fastest_two_term, sc.fastest)]
+    return printed.compare_columns((*headings, *(f"exact {h}" for h in headings)), np.hstack(both))
 
 
 def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
@@ -65,15 +59,13 @@ def tabulate_two_terms(printed: Print, ranges: Ranges) -> Table:
     180 degrees).
     """
     headings = ranges.lam or printed.headings()
-    lam, stub = as_numbers(headings), printed.column(printed.columns[0])
+    lam = as_numbers(headings)
     psi = np.radians(np.arange(1, 3600) / 20)[:, None]  # 0 and 180 degrees are exact
     first, second = np.cos(psi), np.cos(2 * psi)
     travel = _find_errors(1 + lam / 4 - first - lam / 4 * second, sc.displacement(psi, lam))
     speed = _find_errors(np.sin(psi) + lam / 2 * np.sin(2 * psi), sc.velocity(psi, lam))
     acceleration = _find_errors(first + lam * second, sc.acceleration(psi, lam))[:-1]
-    columns = (printed.columns[0], *headings)
-    rows = head_rows(stub, [*travel, *speed, *acceleration])
-    return printed.compare(columns, rows, printed.align_cells(stub, columns))
+    return printed.compare_columns(headings, [*travel, *speed, *acceleration])
 
 
 def _find_errors(approximate: Array, exact: Array) -> list[Array]:

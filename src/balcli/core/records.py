@@ -104,11 +104,11 @@ class Reached(NamedTuple):
 
 
 class WrittenAs(NamedTuple):
-    """Mark of a value that a function turns into a record, or list of records, for documents. The
-    schema describes the function's return type.
+    """Mark of a value that a function turns into a record, or list of records, for documents, or
+    that has another key. The schema describes the function's return type.
     """
 
-    make: Callable[..., object]
+    make: Callable[..., object] | None = None  # None: the value is written as it is
     key: str = ""  # key in JSON; empty: the name of the attribute
 
 

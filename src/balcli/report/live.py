@@ -19,7 +19,7 @@ from typing import Any
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
 from ..engine.build import build
-from ..engine.engine import Engine
+from ..engine.engine import Engine, take_model
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
 from ..engine.load import SPEED
@@ -42,25 +42,21 @@ from ..file.units import (
     Dimension,
     convert,
 )
-from ..forces.kinds import FORCE
+from ..forces.kinds import FORCE, VECTORS
 from ..forces.spectrum import SHOWN
 from ..limits import SMALL
 from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
-from ..show.units import SI, System
-from ..studies.parameters import find_numbers
+from ..show.units import SI, ShownUnit, System
+from ..studies.parameters import find_places
 
 # tables with numbers to change
 _TABLES = ("crank", "rod", "piston", "crosshead", "layout", "operation", "cylinder")
 _DEVICES = ("counterweight", "shaft", "slider")
 # Numbers that have an effect only at an uneven speed.
 _UNUSED = r"crank\.inertia|operation\.speed_ripple|(counterweight|shaft)\..*(inertia|sector)"
-_MOVING = (
-    "crank.s",
-    "crank.throws",
-    "crank.positions",
-    "layout.",
-)  # numbers that move axes, pins or positions
+# Numbers that move axes, pins or positions.
+_MOVING = ("crank.s", "crank.throws", "crank.positions", "layout.")
 _UNITS = {  # further units that the page reads, by dimension
     LENGTH: ("um", "cm", "m", "in", "inch", "inches", "thou", "ft", "feet", "yd"),
     MASS: ("mg", "g", "gram", "grams", "t", "lb", "lbs", "pounds", "oz", "ounces"),
@@ -88,27 +84,22 @@ def explain_still(engine: Engine) -> str:
     """Return the reason why the page cannot compute an engine itself; empty if it can."""
     if engine.placed:
         return "it has several cranks"
-    if isinstance(engine.cylinders.linkage, Rotary):
-        return "its cylinders turn"
-    if engine.cylinders.linkage is not None:
-        return "it has articulated rods"
-    if engine.cylinders.harmonic:
-        return "its pistons have harmonic motion"
-    if engine.model is not None and engine.model.locomotive is not None:
-        return "it is a locomotive"
-    crank = None if engine.model is None else engine.model.crank
-    lists = crank is not None and isinstance(crank.stroke, tuple) | isinstance(
-        crank.throw_mass, tuple
-    )
-    if lists or len(engine.cylinders.radius) > 1:
-        return "its throws differ"
-    if engine.model is not None:
-        devices = (*engine.model.counterweight, *engine.model.shaft)
-        if any(one.unbalance is None and one.mass is None for one in devices):
-            return "a counterweight or shaft has no unbalance in the file"
-        if any(device.compensates for device in engine.devices):
-            return "it has moment compensators"
-    return "its speed is uneven" if engine.ripple else ""
+    c, model = engine.cylinders, take_model(engine)
+    of_throws = (model.crank.stroke, model.crank.throw_mass)
+    weights = (*model.counterweight, *model.shaft)
+    reasons = {
+        "its cylinders turn": isinstance(c.linkage, Rotary),
+        "it has articulated rods": c.linkage is not None,
+        "its pistons have harmonic motion": c.harmonic,
+        "it is a locomotive": model.locomotive is not None,
+        "its throws differ": len(c.radius) > 1 or any(isinstance(v, tuple) for v in of_throws),
+        "a counterweight or shaft has no unbalance in the file": any(
+            weight.unbalance is None and weight.mass is None for weight in weights
+        ),
+        "it has moment compensators": any(device.compensates for device in engine.devices),
+        "its speed is uneven": engine.ripple,
+    }
+    return next((reason for reason, there in reasons.items() if there), "")
 
 
 def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
@@ -127,7 +118,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
-    forms = _find_forms(model, parts, throws, [each["name"] for each in numbers])
+    forms = _find_forms(model, parts, throws, {each["name"]: each["value"] for each in numbers})
     reference = model.frame.reference
     return {
         "name": model.name,
@@ -195,7 +186,6 @@ def make_book(
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
         small: Share of one cylinder's first order below which a part is small.
     """
-    units = {"force": system.force, "moment": system.moment}
     return {
         "engines": engines,
         "file": file.removesuffix(".toml"),
@@ -215,14 +205,15 @@ def make_book(
             for dimension, others in _UNITS.items()
         },
         "show": {
-            kind: {
-                "name": unit.name,
-                "thousand": f"k{unit.name}" if unit.size == 1 else "",
-                "size": unit.size,
-            }
-            for kind, unit in units.items()
+            kind.name: {**name_unit(system.unit(kind)), "size": system.unit(kind).size}
+            for kind in VECTORS
         },
     }
+
+
+def name_unit(unit: ShownUnit) -> Node:
+    """Return the names of a unit and of a thousand of it; the latter is empty if it has none."""
+    return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
 def make_examples() -> Node:
@@ -247,13 +238,11 @@ def _describe_new(dimension: Dimension, usual: float) -> Node:
 
 def _list_numbers(model: EngineFile) -> Iterator[Node]:
     """Yield the numbers of the file that the page may change, with values, units and limits."""
-    tables = dict(model.tables())
-    for name, number in find_numbers(model).items():
-        value = _find_value(tables, name)
-        if value is None or not name.startswith((*_TABLES, *_DEVICES)) or re.match(_UNUSED, name):
-            continue
-        yield {"name": name, "value": value, **_describe_limits(number)}
-    for path, table in tables.items():
+    for name, place in find_places(model).items():
+        shown = name.startswith((*_TABLES, *_DEVICES)) and not re.match(_UNUSED, name)
+        if shown and isinstance(place.value, (int, float)):
+            yield {"name": name, "value": float(place.value), **_describe_limits(place.reader)}
+    for path, table in model.tables():
         for key in ("ratio", "order"):
             if path.startswith(_DEVICES) and hasattr(table, key):
                 yield {"name": f"{path}.{key}", "value": getattr(table, key), **_WHOLE}
@@ -264,17 +253,6 @@ def _describe_limits(number: Number) -> Node:
     limits = {"above": number.above, "least": number.least, "most": number.most}
     given = {key: value for key, value in limits.items() if value is not None}
     return {"unit": number.dimension.unit, **{k: v for k, v in given.items() if abs(v) < math.inf}}
-
-
-def _find_value(tables: Mapping[str, object], name: str) -> float | None:
-    """Return the value of a number (dotted name) in the unit of the file; None if not given."""
-    path, _, key = name.rpartition(".")
-    if path not in tables and key.isdigit():  # a member of a list
-        path, _, outer = path.rpartition(".")
-        value = getattr(tables[path], outer)[int(key) - 1] if path in tables else None
-    else:
-        value = getattr(tables[path], key) if path in tables else None
-    return float(value) if isinstance(value, (int, float)) else None
 
 
 # ------------------------------------------------------------------ the text of the file
@@ -341,7 +319,7 @@ def _free_throws(model: EngineFile, parts: Parts) -> Node | None:
 
 # ------------------------------------------------------------------ axes, pins and positions
 def _find_forms(
-    model: EngineFile, parts: Parts, throws: Mapping[int, int], names: list[str]
+    model: EngineFile, parts: Parts, throws: Mapping[int, int], numbers: Mapping[str, float]
 ) -> dict[str, list[Node]]:
     """Return the linear functions for axes and crank pins (deg) and positions (mm) of the
     cylinders, and for positions of the throws. Each has a constant, and coefficients by the names
@@ -351,16 +329,12 @@ def _find_forms(
     shift of top dead centre by the piston offset: the page adds it.
     """
     start = _measure(parts, throws)
-    moving = [
-        name
-        for name in names
-        if name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))
-    ]
     forms: dict[str, list[Node]] = {
         key: [{"value": value, "by": {}} for value in values] for key, values in start.items()
     }
-    for name in moving:
-        value = _find_value(dict(model.tables()), name) or 0.0
+    for name, value in numbers.items():
+        if not (name.startswith(_MOVING) or name.endswith((".bank", ".throw", ".position"))):
+            continue
         moved = _measure(Parts(model, {name: value + 1.0}), throws)
         for key, values in moved.items():
             for form, new, old in zip(forms[key], values, start[key], strict=True):

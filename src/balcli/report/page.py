@@ -11,7 +11,7 @@ from dataclasses import replace
 from html import escape
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 import tomli_w
@@ -47,7 +47,7 @@ from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
-from .live import describe_one, explain_still, make_examples
+from .live import describe_one, explain_still, make_examples, name_unit
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel, make_page
 from .study import Study, analyze_steps, compute_study
@@ -77,9 +77,8 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
         "variants": [_variant_entry(name, each, system, bore) for name, each in shown.items()],
         "units": {
             kind.name: {
-                "name": (unit := system.unit(kind)).name,
-                "thousand": f"k{unit.name}" if unit.size == 1 else "",
-                "least": unit.of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),  # not negligible
+                **name_unit(system.unit(kind)),
+                "least": system.unit(kind).of(NEGLIGIBLE * now.of_one_cylinder[kind.name]),
             }
             for kind in VECTORS
         },
@@ -193,6 +192,7 @@ _PICTURES = tuple(product(("force", "moment", "about"), ("spectrum", "curves")))
 _COMPARED = (("force", "spectrum"), ("moment", "spectrum"))
 # Pictures for a browser without JavaScript.
 _STILL = (("force", "polar"), ("moment", "polar"))
+Panel: TypeAlias = tuple[PageSubject, str, str]  # subject, picture and quantity
 
 
 class Answers(NamedTuple):
@@ -204,7 +204,6 @@ class Answers(NamedTuple):
     balanced: Balance
     mounted: MountReport | None = None
     twisted: TorsionAnalysis | None = None
-    turning: Engine | None = None
     cylinder: int | None = None
 
 
@@ -240,7 +239,7 @@ def find_answers(
         with _warning("torsion"):
             question = TorsionQuestion(choose_torsion_speeds(engine))
             twisted = answer_question(make_source(model, engine, name), question)
-    return Answers(result, balanced, mounted, twisted, None if engine.gas is None else engine)
+    return Answers(result, balanced, mounted, twisted)
 
 
 @contextmanager
@@ -267,7 +266,7 @@ def page(
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
     """
-    result, balanced, mounted, twisted, turning, cylinder = found
+    result, balanced, mounted, twisted, cylinder = found
     own, remedy = analysis.sheet(result, system, ON_A_PAGE), balance.sheet(balanced, system)
     told = ("force", "about", *(["moment"] if result.moments_known else []))
     compared = _COMPARED if balanced.remedy.reasons else ()
@@ -275,11 +274,11 @@ def page(
     after = PageSubject(Study(balanced.after, balanced.before, balanced.remedy), system)
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
-    drawn, still = None, _choose_panels(now, _STILL, told)
-    if result.engine.placed:  # no mechanism is shown
-        still = []
-    else:
+    drawn, stars, still = None, None, list[Panel]()
+    if not result.engine.placed:  # of several cranks, no mechanism is shown
         drawn = scene(result, _list_variants(result, balanced), system)
+        stars = PageSubject(compute_study(result.engine, "stars"), system)
+        still = _choose_panels(now, _STILL, told)
     panels = (*alone, *beside, *still)
     pictures = []
     for panel in panels:
@@ -297,11 +296,11 @@ def page(
         remedy=remedy.parts,
         scene=drawn,
         pictures=pictures[: len(alone)],
-        stars="" if result.engine.placed else _draw_stars(result.engine, system),
+        stars="" if stars is None else _draw_page(stars, "stars"),
         piston=None if cylinder is None else _draw_page(now, "piston", cylinder),
         compared=pictures[len(alone) : len(alone) + len(beside)],
         loci=pictures[len(alone) + len(beside) :],
-        running=running(turning, system) if turning and drawn else None,
+        running=running(result.engine, system) if result.engine.gas and drawn else None,
         mounts=None if mounted is None else mounts.sheet(mounted, system),
         rocking=None if mounted is None else rocking(mounted),
         torsion=None if twisted is None else torsion.sheet(twisted, system),
@@ -366,10 +365,6 @@ def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     return shown
 
 
-def _draw_stars(engine: Engine, system: System) -> str:
-    return _draw_page(PageSubject(compute_study(engine, "stars"), system), "stars")
-
-
 def _draw_page(subject: PageSubject, what: str, cylinder: int = 1) -> str:
     """Return a page of pictures as SVG."""
     figure = make_page(replace(subject, cylinder=cylinder), what, titled=False)
@@ -385,7 +380,7 @@ def _draw_torsion(twisted: TorsionAnalysis, system: System) -> Iterator[str]:
 
 def _choose_panels(
     subject: PageSubject, panels: Sequence[tuple[str, str]], told: Collection[str]
-) -> list[tuple[PageSubject, str, str]]:
+) -> list[Panel]:
     """Return the panels to draw. For a quantity without a picture, only its first panel is
     returned, at the end; it shows words in place of the picture.
     """

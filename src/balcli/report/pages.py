@@ -370,8 +370,7 @@ def _lay_out_factor(fig: Figure, subject: PageSubject) -> None:
 
 def _lay_out_bank(fig: Figure, subject: PageSubject) -> str:
     banks, unit = subject.study.banks, subject.system.force
-    if banks is None:
-        raise ValueError("a page of bank angles needs a study of them")
+    assert banks is not None
     largest = float(banks.force.major.max(initial=0))
     if largest < NEGLIGIBLE * subject.now.of_one_cylinder["force"]:
         size = size_text(largest, unit, 2)
@@ -420,14 +419,6 @@ def _lay_out_gas(fig: Figure, subject: PageSubject, *, what: str) -> None:
     draw_gas(fig, subject.now.engine, what, subject.system)
 
 
-def _lay_out_piston(fig: Figure, subject: PageSubject) -> None:
-    draw_piston(fig, subject.now.engine, subject.cylinder, subject.system)
-
-
-def _lay_out_journals(fig: Figure, subject: PageSubject) -> None:
-    draw_journals(fig.subplots(), subject.now.engine, subject.system.moment)
-
-
 def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
     """Draw star and polygons of the first orders."""
     engine = subject.now.engine
@@ -460,8 +451,8 @@ _LAYOUTS: dict[str, tuple[float, float, Callable[[Figure, PageSubject], str | No
     "factor": (7.2, 4.6, _lay_out_factor),
     "bank": (9.6, 5.4, _lay_out_bank),
     "inner": (7.5, 7.6, _lay_out_inner),
-    "piston": (7.2, 7.8, _lay_out_piston),
-    "journals": (8.4, 4.8, _lay_out_journals),
+    "piston": (7.2, 7.8, lambda fig, s: draw_piston(fig, s.now.engine, s.cylinder, s.system)),
+    "journals": (8.4, 4.8, lambda fig, s: draw_journals(fig, s.now.engine, s.system.moment)),
     "pressure": (7.2, 4.4, partial(_lay_out_gas, what="pressure")),
     "p-v": (6.4, 4.8, partial(_lay_out_gas, what="p-v")),
     "torque": (8.4, 4.8, partial(_lay_out_gas, what="torque")),

@@ -151,11 +151,7 @@ def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     return make_torsion(result, check_page(what, known))
 
 
-_SHOWN = {
-    "inner": "inner",
-    "bank": "force",
-    "ladder": "ladder",
-}  # the only results that pages need
+_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # the only results of pages
 
 
 class Asked(NamedTuple):

@@ -138,9 +138,8 @@ def compute_study(
         force = now.spectra["force"]
         free = force.orders[(force.orders >= 1) & ~force.balanced].tolist()
         order = asked.order or [*(orders or free), 2][0]
-        swung = (
-            with_reciprocating_only(engine) if pair else engine
-        )  # counterweights cancel the rest
+        # For a pair of shafts, counterweights cancel all but the reciprocating masses.
+        swung = with_reciprocating_only(engine) if pair else engine
         return Study(now, banks=swing_banks(swung, order), pair=pair)
     if scheme is not None:
         found = balance(engine, scheme, options, orders)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -51,64 +51,61 @@ def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
     """Return cylinders, crank, firing, speed, included masses, and devices. If the whole engine is
-    shown, highest order, reference of moments and source follow.
+    shown, highest order, reference of moments and source follow. Of several engines, each is in a
+    line, followed by what they have in common.
 
     Args:
         higher: Whether there may be orders above the default range.
         speeds_rpm: Ascending speeds of the figures, if there are several.
     """
-    if engine.placed:
-        return _geared_facts(engine, system, speeds_rpm, whole=whole)
-    about = ", ".join(number(system.length.of(float(v))) for v in engine.reference_m)
-    reference = f"moments about x, y, z = {about} {system.length.name}"
-    if not engine.places_known:
-        reference = "moments are not known: crank.spacing is missing"
+    single = not engine.placed
     orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
-    count = len(engine.devices)
-    devices = f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
-    cylinders = f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
-    plan = None if engine.model is None else plan_cylinders(engine.model)
-    numbering = write_rows(list_numbers(plan)) if plan is not None and plan.in_rows else ""
+    reference = tell_reference(engine.reference_m, system, known=engine.places_known)
     pairs = (
-        ("cylinders", cylinders),
-        ("numbering", numbering),
-        ("crank", _crank(engine, system)),
-        ("throws", _throws(engine)),
-        ("turning", _TURNING if engine.rotary else ""),
-        ("firing" if engine.fires_deg else "cycle", _firing(engine)),
+        *(_list_mechanism(engine, system) if single else _list_placed(engine, system)),
         *list_silent(engine.silent),
         ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
-        ("masses", _masses(engine, system, whole=whole)),
-        ("devices", devices),
-        ("orders", orders if whole else ""),
-        ("reference", reference if whole or any(engine.reference_m) else ""),
+        ("masses", _masses(engine, system, whole=whole) if single else ""),
+        ("devices", _tell_devices(engine)),
+        ("orders", orders if whole and single else ""),
+        ("reference", reference if whole or any(engine.reference_m) or not single else ""),
         ("assumed", _tell_inferred(engine)),
         ("source", engine.source if whole else ""),
     )
     return Facts(tuple((name, value) for name, value in pairs if value))
 
 
-def _geared_facts(
-    engine: Engine, system: System, speeds_rpm: Sequence[float], *, whole: bool
-) -> Facts:
-    """Return the facts of several engines: each in a line, then what they have in common."""
+def _list_mechanism(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
+    """Yield cylinders, crank and firing of a single engine."""
+    yield "cylinders", f"{engine.cylinders.count}{_banks(engine)}{_bore(engine, system)}"
+    plan = None if engine.model is None else plan_cylinders(engine.model)
+    yield "numbering", write_rows(list_numbers(plan)) if plan is not None and plan.in_rows else ""
+    yield "crank", _crank(engine, system)
+    yield "throws", _throws(engine)
+    yield "turning", _TURNING if engine.rotary else ""
+    yield "firing" if engine.fires_deg else "cycle", _firing(engine)
+
+
+def _list_placed(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
+    """Yield the cylinders of several engines together, then a line for each engine."""
     volume = "" if math.isnan(engine.displacement_m3) else f", {_volume(engine, system)}"
-    cylinders = f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
-    own = sum(len(one.engine.devices) for one in engine.placed) + len(engine.devices)
-    reference = f"moments about {tell_place(engine.reference_m, system)}"
-    if not engine.places_known:
-        reference = "moments are not known: crank.spacing is missing"
-    pairs = (
-        ("cylinders", cylinders),
-        *((one.name, _tell_placed(one, system)) for one in engine.placed),
-        *list_silent(engine.silent),
-        ("speed", _speeds(engine, speeds_rpm) if len(speeds_rpm) > 1 else tell_speed(engine)),
-        ("devices", f"{own} of the files included" if own else ""),
-        ("reference", reference),
-        ("assumed", tell_assumed(engine.list_assumed("gas") or ())),
-        ("source", engine.source if whole else ""),
-    )
-    return Facts(tuple((name, value) for name, value in pairs if value))
+    yield "cylinders", f"{len(engine.numbers)} on {len(engine.placed)} cranks{volume}"
+    yield from ((one.name, _tell_placed(one, system)) for one in engine.placed)
+
+
+def _tell_devices(engine: Engine) -> str:
+    """Return how many devices are included; empty if there are none."""
+    count = len(engine.devices) + sum(len(one.engine.devices) for one in engine.placed)
+    if engine.placed:
+        return f"{count} of the files included" if count else ""
+    return f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
+
+
+def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> str:
+    """Return the point of reference of moments in words, or that they are not known."""
+    if not known:
+        return "moments are not known: crank.spacing is missing"
+    return f"moments about {tell_place(point, system)}"
 
 
 def _tell_placed(one: Placed, system: System) -> str:
@@ -130,10 +127,10 @@ def tell_place(point: Iterable[Figure], system: System) -> str:
 
 
 def _tell_inferred(engine: Engine) -> str:
-    """Return the assumed values of keys that the file leaves out. Throws and intervals are named
-    without values, because other lines show these.
+    """Return the assumed values of keys that the file leaves out. Throws and intervals of a single
+    engine are named without values, because other lines show these.
     """
-    shown = {"crank.throws", "layout.firing_intervals"}
+    shown = set() if engine.placed else {"crank.throws", "layout.firing_intervals"}
     pairs = (line.split(" = ") for line in engine.list_assumed("gas") or ())
     return tell_assumed(key if key in shown else f"{key} = {value}" for key, value in pairs)
 

@@ -4,14 +4,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.peaks import Peak, find_peak
 from ..core.phasors import Array, Complex, Figure, Phasors
-from ..core.records import INLINE, Node, Reached, write_each
+from ..core.records import INLINE, Node, Reached, list_figures, to_document, write_each
 from ..engine.engine import CylinderNumber, Engine, Placed, SilentCylinders, place_in_mm
 from ..file.fields import order_number
 from ..file.model import EngineFile
@@ -190,19 +190,21 @@ class EngineState:
     reference_mm: tuple[float, ...]
 
 
-class OrdersAndPeaks(Protocol):
-    """A result with orders and peaks: an analysis, or the sum of two engines. Its moments are known
-    if the file gives the positions of the throws.
-    """
+class OrdersAndPeaks:
+    """A result with orders and peaks: an analysis, or the sum of two engines."""
+
+    spectra: Spectra
+    peak: Peaks | None
 
     @property
-    def moments_known(self) -> bool: ...
+    def moments_known(self) -> bool:
+        """Whether moments are known: if the file gives the positions of the throws."""
+        raise NotImplementedError
 
     @property
-    def spectra(self) -> Spectra: ...
-
-    @property
-    def peaks(self) -> list[tuple[Kind, Peak]]: ...
+    def peaks(self) -> list[tuple[Kind, Peak]]:
+        """Each kind whose peak was computed, with its peak."""
+        return [] if self.peak is None else self.peak.items()
 
 
 class FigureRow(NamedTuple):
@@ -375,6 +377,16 @@ def figure_rows(
     for kind, peak in result.peaks:
         if kind not in unknown:
             yield from peak_rows(kind.name, peak, system.unit(kind))
+
+
+def record_rows(
+    cylinder: CylinderNumber, quantity: str, order: float | None, record: object, *without: str
+) -> Iterator[FigureRow]:
+    """Yield every figure of a record in SI units, without those of some keys; other arguments as
+    for `FigureRow`.
+    """
+    for figure in list_figures(to_document(record), without):
+        yield FigureRow(cylinder, quantity, order, *figure)
 
 
 def peak_rows(quantity: str, peak: Peak, unit: ShownUnit) -> Iterator[FigureRow]:

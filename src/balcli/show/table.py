@@ -72,7 +72,7 @@ def _lines(sheet: Sheet, width: int, *, divided: bool = False) -> Iterator[list[
 
 def _divide(grid: Grid, width: int) -> Iterator[Grid]:
     """Yield tables with as many columns as fit the width, each with the first column."""
-    least = [_narrow(grid, k) for k in range(len(grid.columns))]
+    least = [_measure(grid, k)[1] for k in range(len(grid.columns))]
     pieces = [[0]]
     for k in range(1, len(least)):
         wider = [*pieces[-1], k]
@@ -92,8 +92,7 @@ def _divide(grid: Grid, width: int) -> Iterator[Grid]:
 def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
     """Yield headings, a rule, and the rows; words are left-aligned, figures right-aligned."""
     every = range(len(grid.columns))
-    natural = [_measure(grid, k) for k in every]
-    narrow = [_narrow(grid, k) for k in every]
+    natural, narrow = zip(*(_measure(grid, k) for k in every), strict=True)
     whole = [natural[0], *narrow[1:]]  # headings of rows are not folded
     for gap, least in ((GAP, natural), (2, whole), (1, whole), (2, narrow)):
         if sum(least) + gap * (len(least) - 1) <= width:
@@ -106,32 +105,17 @@ def _grid_lines(grid: Grid, width: int) -> Iterator[list[Piece]]:
         yield from _row_lines(grid, row, styles, widths, gap)
 
 
-def _measure(grid: Grid, k: int) -> int:
-    """Return the preferred width of a column."""
-    widest = max(map(count_places, column_texts(grid, k)))
-    return min(widest, PROSE) if k and k in grid.words else widest
+def _measure(grid: Grid, k: int) -> tuple[int, int]:
+    """Return the preferred and the least width of a column; figures are never folded."""
+    texts = [grid.columns[k], *(row[k] for row in grid.rows)]
+    widths = [*map(count_places, texts)]
+    if k not in grid.words:
+        return max(widths), max([_longest_word(texts[:1]), *widths[1:]])
+    natural = min(max(widths), PROSE) if k else max(widths)
+    return natural, max(_longest_word(texts), 0 if k else min(natural, LABEL))
 
 
-def _narrow(grid: Grid, k: int) -> int:
-    """Return the least width of a column; figures are never folded."""
-    head, *cells = column_texts(grid, k)
-    if k in grid.words:
-        return max(longest_word([head, *cells]), min(_measure(grid, k), LABEL) if not k else 0)
-    return max([longest_word([head]), *map(count_places, cells)])
-
-
-def column_texts(grid: Grid, k: int) -> list[str]:
-    """Return all texts in a column, beginning with its head.
-
-    Args:
-        grid: Table.
-        k: Index of the column.
-    """
-    return [grid.columns[k], *(row[k] for row in grid.rows)]
-
-
-def longest_word(texts: Iterable[str]) -> int:
-    """Return the width of the longest word."""
+def _longest_word(texts: Iterable[str]) -> int:
     return max((count_places(word) for text in texts for word in text.split()), default=1)
 
 
