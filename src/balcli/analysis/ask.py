@@ -24,7 +24,7 @@ from ..shell.output import show
 from ..show.formats import Format, Renderer, Rows, Units, name_cell, write_named
 from ..show.sheet import NamedResult, Sheet, View
 from ..show.units import System
-from . import show as chapter, speeds
+from . import show as chapter
 from .answer import Analysis, analyze, list_usual_quantities
 
 if TYPE_CHECKING:
@@ -100,6 +100,8 @@ def _choose_result(
     """Return the function that computes the result for an engine, and its renderer."""
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
+    from . import speeds
+
     if asked.marine:
         sheets = partial(
             speeds.find_marine_sheet,
