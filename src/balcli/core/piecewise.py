@@ -353,13 +353,11 @@ class Panels:
                 orders that the period does not have, the vectors are 0.
         """
         weighed = (samples * quadrature(self.breaks)[1].reshape(-1)).T
-        step = max(_AT_ONCE // len(self.angles), 1)
-        forward, backward = [], []
-        for k in range(0, len(orders), step):
-            turned = np.exp(-1j * orders[k : k + step, None] * self.angles)
-            forward.append(turned @ weighed)
-            backward.append(np.conj(turned) @ weighed)
-        ahead, against = np.concatenate(forward), np.concatenate(backward)
+        both = np.hstack([weighed, weighed.conj()])
+        parts = np.array_split(orders, len(orders) * len(self.angles) // _AT_ONCE + 1)
+        found = [np.exp(-1j * some[:, None] * self.angles) @ both for some in parts]
+        ahead, against = np.hsplit(np.concatenate(found), 2)
+        against = against.conj()
         against[orders == 0] = 0.0  # only the other vector holds the mean
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
         there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has

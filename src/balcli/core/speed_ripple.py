@@ -240,13 +240,11 @@ class Surplus(NamedTuple):
         energy: Largest rise of the running integral of torque above load, J.
         start: First angle of the lowest speed at constant inertia, rad, in [0, period).
         end: First angle of the highest speed at constant inertia, rad, in [0, period).
-        work: Work of the torque over a period, J.
     """
 
     energy: float
     start: float
     end: float
-    work: float
 
 
 class SpeedVariation(NamedTuple):
@@ -271,7 +269,7 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
     """
     lowest, highest = energy(torque).extremes()
     start, end = (angle % torque.period for angle in (lowest.angle, highest.angle))
-    return Surplus(highest.value - lowest.value, start, end, torque.integral)
+    return Surplus(highest.value - lowest.value, start, end)
 
 
 def energy(torque: PiecewiseCurve) -> PiecewiseCurve:

@@ -17,7 +17,7 @@ on throw and head. So in every section, the loads of shaft and block add up to t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -26,7 +26,7 @@ import numpy as np
 from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peak
-from ..core.phasors import Array, Complex, Phasors, unit
+from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
@@ -133,7 +133,9 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     loads, z = compute_loads(engine, every)
     sections = list_places(z)
     ahead = find_ahead(z, sections)
-    shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
+    sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
+    shear = _sum_weighted(loads, ahead, ahead)
+    bending = 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:
@@ -181,22 +183,13 @@ def list_places(z: Array) -> Array:
     return np.array(sorted(set(np.ravel(z).tolist())))
 
 
-def compute_bending(loads: Phasors, z: Array) -> Phasors:
-    """Return the bending moments at each position of a load, N m, phasors of shape (orders,
-    sections).
+def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
+    """Return the forces on main bearings, N, phasors of shape (orders, bearings).
 
     Args:
         loads: Forces, shape (orders, loads).
         z: Positions of the forces, m, shape (loads,).
-    """
-    sections = list_places(z)
-    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # for rounding
-    return 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
-
-
-def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
-    """Return the forces on main bearings at positions from `place_bearings`, N, phasors of shape
-    (orders, bearings); other arguments as for `compute_bending`.
+        bearings_m: Positions of the bearings, from `place_bearings`.
     """
     shares = share_by_lever(z, bearings_m)
     return _sum_weighted(loads, shares, shares)
@@ -213,17 +206,7 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
-    return join_loads([each, *more]), np.array(places, float)
-
-
-def join_loads(loads: Sequence[Phasors]) -> Phasors:
-    """Return several forces, phasors of shape (orders, loads) or (orders,), as one of shape
-    (orders, loads).
-    """
-    orders = loads[0].orders
-    vectors = [force.vectors.reshape(2, len(orders), -1) for force in loads]
-    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in loads]
-    return Phasors(orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
+    return join_places([each, *more]), np.array(places, float)
 
 
 def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
