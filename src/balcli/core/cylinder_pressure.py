@@ -219,8 +219,7 @@ def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
 
         return resolved(value, breaks)
 
-    known = first.pressure is not None and second.pressure is not None
-    pressure = mix(first.pressure, second.pressure) if known else None  # type: ignore[arg-type]
+    pressure = first.pressure and second.pressure and mix(first.pressure, second.pressure)
     curve = mix(first.curve, second.curve)
     return replace(first, breaks=breaks, curve=curve, pressure=pressure)
 

@@ -34,9 +34,8 @@ _WIDEST = 0.5  # rad, largest width of a panel before halving
 _TERMS = 16
 _RESOLVED = 1e-12  # limit of the last terms of a series, relative to the function's largest value
 _HALVINGS = 48
-_EVERYWHERE = (
-    16  # halving ends at this multiple of the initial number of panels: the rest is rounding error
-)
+# Halving ends at this multiple of the initial number of panels: the rest is rounding error.
+_EVERYWHERE = 16
 _REACH = 16.0  # rad; phase of a harmonic over a panel up to which _NODES nodes integrate it
 _NODES = 32
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint

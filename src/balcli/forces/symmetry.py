@@ -283,10 +283,8 @@ def _find_reasons(
     engine: Engine, orders: Array, groups: Mapping[str, tuple[str, ...]]
 ) -> Iterator[Reason]:
     parts = [part for own in groups.values() for part in own]
-    book, each = (
-        find_textbook(engine, orders, parts),
-        compute_spectra(engine, orders, parts, each=True),
-    )
+    book = find_textbook(engine, orders, parts)
+    each = compute_spectra(engine, orders, parts, each=True)
     redrawn = [compute_spectra(other, orders, parts) for other in _draw(engine)]
     for group, own in groups.items():
         for row, order in enumerate(orders.tolist()):

@@ -60,9 +60,8 @@ def compute_spectra_in_time(
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(
-        math.log2(32 * len(fastest) / slowest)
-    )  # the samples have to suffice where the crank is slowest
+    # The samples have to suffice where the crank is slowest.
+    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "

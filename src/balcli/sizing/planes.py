@@ -64,12 +64,6 @@ def find_length(engine: Engine) -> tuple[float, float]:
     return _find_reach([z for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))])
 
 
-def find_crank_middle(engine: Engine) -> float:
-    """Return z half-way between the first and the last throw, m."""
-    low, high = _find_reach(engine.throws_m)
-    return (low + high) / 2
-
-
 def locate_force(residual: Residual, sense: int) -> float:
     """Return the z (m) at which the force in this sense (not 0) would cause as much of the moment
     as possible: `z_ref + Re(M / iV)`.

@@ -82,9 +82,7 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    course = resolved(
-        moving or np.zeros_like, torque.breaks
-    )  # quicker to evaluate than the mechanism
+    course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:

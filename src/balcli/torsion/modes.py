@@ -31,9 +31,7 @@ from .chain import (
 from .system import Excitation, TorsionalSystem
 
 _AT_REST = 1e-9  # a node that moves less than this share of the largest counts as at rest
-_SIGMA = np.exp(
-    0.25j * np.pi
-)  # shift of the eigenvalues; a pole there would grow, so none is there
+_SIGMA = np.exp(0.25j * np.pi)  # shift of the eigenvalues; a pole there would grow: none does
 _INFINITE = 1e-6  # eigenvalues below this share of the largest are (double) zeros
 
 
