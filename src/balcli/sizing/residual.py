@@ -212,10 +212,9 @@ def choose_residual(
     residual = find_residual(engine, options.order)
     if any(residual.has(kind, senses) for kind in kinds):
         return residual
-    rest = _tell_rest(residual, kinds, senses)
     with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: {'; '.join(['nothing to balance', *rest])}",
+        f"order {options.order} has no free {what}: nothing to balance",
         **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
@@ -294,19 +293,3 @@ def _turning(part: ResidualPart) -> str:
 
 def _tell_size(residual: Residual, part: ResidualPart) -> str:
     return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
-
-
-def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
-    """Return the other parts of an order, and the schemes that cancel them."""
-    if 1 in senses:
-        far = "couple-shaft, or compensator with --order and --position far from the engine"
-        takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
-        others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
-        return [f"it has a free {kind}: {takes[kind]}" for kind in others]
-    rest = []
-    if forward := [part.kind for part in FORWARD if residual.parts[part]]:
-        cure = "the scheme counterweights" if residual.order == 1 else "two-shaft, couple-shaft"
-        rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
-    if "moment" not in kinds and residual.has("moment", senses):
-        rest.append("its moment turning against the crank: eccentrics in two planes")
-    return rest

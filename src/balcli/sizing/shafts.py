@@ -28,7 +28,6 @@ from .options import SchemeOptions
 from .planes import (
     as_millimetres,
     choose_plane,
-    find_length,
     locate_force,
     read_two_planes,
 )
@@ -149,10 +148,7 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     if not moment:
         raise NothingToBalanceError(f"Order {order} has no moment; nothing to compensate")
     forces = _place_forces(-moment, places, residual.reference.z)
-    low, high = find_length(engine)
-    inside = [f"z = {1e3 * z:g} mm" for z in places if low <= z <= high]
-    note = f"Compensators are usually far from the engine; {' and '.join(inside)} is within it"
-    fitting = Fitting.start(engine, "compensator", order, note * (len(inside) == len(places)))
+    fitting = Fitting.start(engine, "compensator", order)
     for z, force in forces.items():
         slots = [
             Slot("shaft", order, sense, z, options.read_place(), role="compensator")

@@ -355,11 +355,11 @@ def parse_question(
     Raises:
         BalcliError: An option cannot be read.
     """
-    heavy = damper_inertia
-    inertia = None if heavy is None else read_inertia("--damper-inertia", heavy, units)
-    trials = [_parse_trial(each) for each in holzer]
+    inertia = None
+    if damper_inertia is not None:
+        inertia = read_inertia("--damper-inertia", damper_inertia, units)
     sized = DamperAsked(damper, damper_at, inertia)
-    return TorsionQuestion(parse_speeds(speeds), trials, sized)
+    return TorsionQuestion(parse_speeds(speeds), list(map(_parse_trial, holzer)), sized)
 
 
 def require_speeds(asked: TorsionQuestion, what: str) -> None:
@@ -373,9 +373,6 @@ def require_speeds(asked: TorsionQuestion, what: str) -> None:
 
 
 # ------------------------------------------------------------------ in Python
-
-
-_UNNAMED = "chain file"  # name in messages if the chain is a text or dict
 
 
 @tell_arguments(speeds="speeds_rpm")
@@ -435,7 +432,7 @@ def _read_source(source: object, orders: Array | None) -> Source:
     wanted = "give an Engine, or the path, text or dict of a chain of inertias and shafts"
     tables, name = take_tables("analyze_torsion", source, wanted)
     if describes_chain(tables):
-        name = name or _UNNAMED
+        name = name or "chain file"  # name in messages of a text or dict
         return make_chain_source(read_chain_tables(tables, name), name, orders)
     engine = build_tables(tables, name)
     return make_source(take_model(engine), engine, name or engine.name, orders)
