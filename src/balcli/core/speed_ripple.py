@@ -127,28 +127,26 @@ def find_reach(timetable: Timetable, order: float) -> float:
     return float(np.minimum(felt, len(wave) - felt).max() * timetable.step)
 
 
-def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Return the orders over the time (cycles per mean revolution) of curves over the crank angle.
+def count_in_time(curve: Phasors, timetable: Timetable, orders: Array) -> Phasors:
+    """Return the orders over the time (cycles per mean revolution) of a curve over the crank angle.
 
     Args:
-        curves: Curves without trailing axes, with all orders that contribute.
+        curve: Curve without trailing axes, with all orders that contribute.
         timetable: Times of the crank angles.
         orders: Wanted orders over the time, multiples of the step, shape (orders,).
     """
-    series = np.zeros((len(curves), len(timetable.clock)), complex)
-    for own, curve in zip(series, curves, strict=True):
-        rows = np.rint(curve.orders / timetable.step).astype(int)
-        np.add.at(own, rows, curve.forward)
-        np.add.at(own, -rows, curve.backward)
+    series = np.zeros(len(timetable.clock), complex)
+    rows = np.rint(curve.orders / timetable.step).astype(int)
+    np.add.at(series, rows, curve.forward)
+    np.add.at(series, -rows, curve.backward)
     felt = np.fft.ifft(series, norm="forward") * timetable.stay
-    found = np.empty((2, len(orders), len(curves)), complex)
+    found = np.zeros((2, len(orders)), complex)
     for k, order in enumerate(orders):
         wave = np.exp(1j * order * timetable.clock)
-        found[0, k] = np.mean(felt * wave.conj(), axis=1)
-        found[1, k] = np.mean(felt * wave, axis=1) if order else 0
-    sizes = [np.sum(np.abs(curve.vectors)) for curve in curves]
-    noises = [np.full(orders.shape, 8 * EPS * size) for size in sizes]
-    return [Phasors(orders, found[:, :, k], noise).drop_noise() for k, noise in enumerate(noises)]
+        found[0, k] = np.mean(felt * wave.conj())
+        found[1, k] = np.mean(felt * wave) if order else 0
+    noise = np.full(orders.shape, 8 * EPS * np.sum(np.abs(curve.vectors)))
+    return Phasors(orders, found, noise).drop_noise()
 
 
 def apply_to_force(

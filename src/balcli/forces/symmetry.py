@@ -343,10 +343,8 @@ def describe_firing(engine: Engine) -> str:
     gaps = [b - a for a, b in pairwise([*instants, instants[0] + cycle])]
     uneven = max(gaps) - min(gaps)
     least, most = f"{min(gaps):.6g}", f"{max(gaps):.6g}"
-    if uneven <= _EVEN * cycle:
+    if uneven <= _EVEN * cycle or least == most:
         return f"firing: even, every {cycle / len(gaps):.6g} deg"
-    if least == most:
-        return f"firing: even to {uneven:.1g} deg, every {least} deg"
     if uneven < NEARLY * cycle / len(gaps):
         return f"firing: nearly even, every {least} to {most} deg"
     return f"firing: uneven, at intervals of {', '.join(f'{gap:.6g}' for gap in gaps)} deg"

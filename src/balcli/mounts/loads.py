@@ -75,8 +75,7 @@ def compute_spectra_in_time(
     for name in kinds:  # the series of gas is infinite: all orders that reach the orders of time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
-        ((kind, phasors),) = found.items()
-        (in_time[kind.name],) = count_in_time([phasors], timetable, orders)
+        in_time[name] = count_in_time(found[name], timetable, orders)
     return Spectra(orders, None, **in_time), timetable.turns
 
 

@@ -240,13 +240,11 @@ class Fitting(NamedTuple):
     remedy: Remedy
 
     @classmethod
-    def start(
-        cls, engine: Engine, scheme: str, order: int | None = None, note: str = ""
-    ) -> Fitting:
+    def start(cls, engine: Engine, scheme: str, order: int | None = None) -> Fitting:
         """Return a fitting without devices. `order` is the order that the scheme balances if it has
-        only one; `note` explains this choice.
+        only one.
         """
-        return cls(hold_steady(engine), Remedy(scheme, order, note=note))
+        return cls(hold_steady(engine), Remedy(scheme, order))
 
     def find_residual(self, order: int) -> Residual:
         """Return the residual of an order with the devices so far."""

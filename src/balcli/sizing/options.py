@@ -196,9 +196,10 @@ def _are(values: object, kind: type, finite: bool) -> bool:
     if not isinstance(values, tuple) or not all(isinstance(one, kind) for one in values):
         return False
     try:
-        return bool(values) and (not finite or max(abs(complex(one)) for one in values) < math.inf)
+        sizes = [abs(complex(one)) for one in values]
     except OverflowError:
         return False
+    return bool(sizes) and (not finite or all(size < math.inf for size in sizes))
 
 
 def find_taken(scheme: str) -> tuple[str, ...]:

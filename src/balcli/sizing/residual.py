@@ -79,11 +79,6 @@ class Residual(NamedTuple):
         """
         return self.parts[ResidualPart("moment", sense)]
 
-    @property
-    def roll(self) -> complex:
-        """Amplitude of the roll, kg m^2."""
-        return self.parts[ROLL]
-
     def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
         """Return whether a part of this kind turns in one of these senses."""
         return any(self.parts[ResidualPart(kind, sense)] for sense in senses)

@@ -36,6 +36,7 @@ from .residual import (
     BACKWARD,
     FORCE,
     MOMENT,
+    ROLL,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
@@ -253,7 +254,7 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         return {-1: (at[0],), 1: (at[1],)}
     here = residual.reference.place  # the roll to cancel is that about the crank axis
     moved = here.conjugate() * forward - here * backward.conjugate()
-    wanted = 1j * residual.roll + moved if options.roll else 0j
+    wanted = 1j * residual.parts[ROLL] + moved if options.roll else 0j
     against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
     with_crank = (wanted + against * backward.conjugate()) / forward
     return {-1: (against,), 1: (with_crank.conjugate(),)}

@@ -106,8 +106,6 @@ def torque(
     require_ending(write, ".toml", "--write")
     if (path is None) == (curve is None):
         raise BalcliError("give an engine file, or --curve with a torque")
-    if path is not None and path.lower().endswith(".csv"):
-        raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
     misplaced: dict[str, object] = {"--load": load, "--inertia": inertia}
     needed = "--curve; an engine file gives the inertia itself: [crank] inertia, [flywheel]"
     if curve is not None:
