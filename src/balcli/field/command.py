@@ -13,19 +13,12 @@ from ..shell.file_names import picture_form, text_format
 from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Output, UnitsOption
 from ..shell.output import refuse_overwriting, show, write_figure
-from ..shell.values import optional
+from ..shell.values import argument, optional
 from ..show.formats import Units
 
 
 def field(
-    path: Annotated[
-        str,
-        typer.Argument(
-            metavar="RUNS",
-            help="Readings of all runs (TOML); - reads standard input.",
-            show_default=False,
-        ),
-    ],
+    path: Annotated[str, argument("Readings of all runs (TOML); - reads standard input.", "RUNS")],
     minimise: Annotated[
         Literal["squares", "max"],
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),

@@ -194,11 +194,6 @@ class Reason(NamedTuple):
     unit: str
 
     @property
-    def subject(self) -> str:
-        """Name of the group, in words."""
-        return _WORDS.get(self.quantity, self.quantity)
-
-    @property
     def finding(self) -> str:
         """The verdict in words, with the remaining amplitude in the textbook's unit if there is
         one.
@@ -236,7 +231,8 @@ class Symmetry(NamedTuple):
         """All findings in words; orders with the same finding share a sentence."""
         orders: dict[tuple[str, str], list[str]] = {}
         for reason in sorted(self.reasons, key=lambda reason: [*_GROUPS].index(reason.quantity)):
-            orders.setdefault((reason.subject, reason.finding), []).append(f"{reason.order:g}")
+            subject = _WORDS.get(reason.quantity, reason.quantity)
+            orders.setdefault((subject, reason.finding), []).append(f"{reason.order:g}")
         findings = (
             f"order{'s' * (len(names) > 1)} {', '.join(names)} {subject}: {finding}"
             for (subject, finding), names in orders.items()

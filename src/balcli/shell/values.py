@@ -194,6 +194,16 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
     return typer.Option(*names, metavar=metavar, help=text, **{"show_default": False, **more})
 
 
+def argument(text: str, metavar: str = "FILE") -> object:
+    """Return an argument whose help shows no default.
+
+    Args:
+        text: Help of the argument.
+        metavar: Placeholder of its value in help.
+    """
+    return typer.Argument(metavar=metavar, help=text, show_default=False)
+
+
 def parse_cylinder(text: str) -> int | str:
     """Return a cylinder as an engine names it: `3`, or of geared engines `upper.3`."""
     return int(text) if text.isascii() and text.isdecimal() and len(text) < 6 else text

@@ -19,7 +19,7 @@ from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
@@ -276,15 +276,10 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     if not reciprocating:
         raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
-    told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
-            f"{told}: would balance {factor:.3g} times the reciprocating mass; {turning} g on a "
-            "pin rotate; is the unit right?"
-        )
-    if factor < 0:
-        warn(
-            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
+            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
+            f"mass; {rotating / len(card):.5g} g on a pin rotate; is the unit right?"
         )
     return factor
 

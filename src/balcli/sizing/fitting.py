@@ -55,6 +55,7 @@ from .residual import (
     find_residual,
     hold_steady,
     list_parts,
+    tell_sense,
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
@@ -383,7 +384,7 @@ def explain_shaft(
     kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
     kind = "one eccentric" if count == 1 else kind
     both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
-    turns = f"turning {_turning(sense)} the crank"
+    turns = f"turning {tell_sense(sense)}"
     return f"{what} {turns}: {why}; {kind} {_on_shaft(residual, sense)} can{both}{stays}"
 
 
@@ -398,7 +399,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
     """Return the reason for two opposite eccentrics against the moment that turns in one sense."""
     needless = "; the scheme counterweights would do so without a shaft"
     return (
-        f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
+        f"Order {residual.order} moment turning {tell_sense(sense)}: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
         f"the shaft is{needless * (sense * residual.order == 1)}"
     )
@@ -412,7 +413,3 @@ def _name(residual: Residual, sense: int) -> str:
 
 def _on_shaft(residual: Residual, sense: int) -> str:
     return f"on a shaft at {sense * residual.order:+d} times crank speed"
-
-
-def _turning(sense: int) -> str:
-    return "with" if sense > 0 else "against"

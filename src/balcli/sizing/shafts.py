@@ -198,8 +198,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     least = options.read_small()
     forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
     if not forces and any(sizes):
-        largest = residuals[sizes.index(max(sizes))]
-        raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
+        raise OnlySmallError(tell_small(FORCE, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:

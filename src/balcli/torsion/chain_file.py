@@ -29,10 +29,7 @@ class _HalfOrder(Number):
     def read(self, value: object) -> float:
         order = super().read(value)
         if 2 * order != round(2 * order):
-            raise ValueError(
-                f"{order:g} is no order that can be added up over two turns of the first node; "
-                "give a multiple of 0.5"
-            )
+            raise ValueError(f"{order:g} is no order; give a multiple of 0.5")
         return order
 
 
