@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -289,11 +290,10 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     span = place_main_bearings(engine)
     shown = list_gas_orders(engine) if orders is None else orders
 
-    def compute(angles: Array) -> Complex:
-        return compute_in_pieces(
-            engine, lambda degrees: np.concatenate(compute_forces_along(engine, degrees)), angles
-        )
+    def add_up(crank_deg: Array) -> Complex:
+        return np.concatenate(compute_forces_along(engine, crank_deg))
 
+    compute = partial(compute_in_pieces, engine, add_up)
     panels = find_panels(compute, find_breaks(engine), float(shown.max()))
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)

@@ -106,9 +106,8 @@ class Scales(NamedTuple):
 def find_scales(engine: Engine) -> Scales:
     """Return the scales of an engine at its speed; of geared engines the largest."""
     if engine.placed:
-        return Scales(
-            *map(max, zip(*(find_scales(one.engine) for one in engine.cranks), strict=True))
-        )
+        each = (find_scales(one.engine) for one in engine.cranks)
+        return Scales(*map(max, zip(*each, strict=True)))
     radius = np.ravel(engine.cylinders.radius).astype(float)
     masses = np.array([float(each.reciprocating) for each in engine.weighed])
     z = np.ravel(engine.cylinders.z)

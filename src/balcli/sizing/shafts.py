@@ -70,12 +70,10 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
         fitting = add_at_ends(fitting, residual)
-    planes: tuple[float, ...]
-    if two:
-        planes, stays = read_two_planes(engine, options), ""
-    else:
-        planes = (choose_plane(engine, options, residual, -1),)
-        stays = tell_moment(residual, -1, planes[0], "eccentrics in two planes cancel")
+    planes: tuple[float, ...] = read_two_planes(engine, options) if two else ()
+    planes = planes or (choose_plane(engine, options, residual, -1),)
+    cure = "eccentrics in two planes cancel"
+    stays = "" if two else tell_moment(residual, -1, planes[0], cure)
     slots = [Slot("shaft", residual.order, -1, z, options.read_place()) for z in planes]
     reason = explain_shaft(residual, -1, len(slots), stays)
     fitting = fitting.cancel(slots, BACKWARD[: len(slots)], reason)

@@ -243,7 +243,7 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Excitation | None:
     if not file.excitation:
         return None
-    given, row = np.unique([each.order for each in file.excitation], return_inverse=True)
+    given, row = np.unique([float(each.order) for each in file.excitation], return_inverse=True)
     nodes = [index[each.node] for each in file.excitation]
     sources, column = np.unique(nodes, return_inverse=True)
     steady = np.zeros((len(given), len(sources)), complex)
