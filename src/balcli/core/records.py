@@ -81,10 +81,8 @@ class Polar(NamedTuple):
 
     def split(self, value: complex) -> Node:
         """Return the JSON object of a value."""
-        return {
-            self.magnitude: float(abs(value)),
-            self.angle: angle_deg(value) if value else None,
-        }
+        angle = angle_deg(value) if value else None
+        return {self.magnitude: float(abs(value)), self.angle: angle}
 
 
 class Reached(NamedTuple):

@@ -132,7 +132,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
-    sections = list_places(z)
+    sections = np.unique(z)
     ahead = find_ahead(z, sections)
     sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
     shear = _sum_weighted(loads, ahead, ahead)
@@ -172,16 +172,11 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Return positions of main bearings, half-way between throws and as far outside the end throws,
     m, shape (bearings,); None if all throws have the same position.
     """
-    places = list_places(throws_m)
+    places = np.unique(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
-
-
-def list_places(z: Array) -> Array:
-    """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
-    return np.array(sorted(set(np.ravel(z).tolist())))
 
 
 def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
@@ -298,7 +293,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = list_places(np.concatenate([on_shaft, on_block, span]))
+    sections = np.unique(np.concatenate([on_shaft, on_block, span]))
     reach = 2 * float(np.abs(sections).max())  # bound of the terms of the arms
 
     largest = float(np.abs(samples).max(axis=1).sum())

@@ -267,8 +267,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
     auto = steps[-1].step
-    carried = list_senses(engine)
-    others = tuple(sense for sense in (-1,) if sense not in carried)
+    others = tuple(sense for sense in (-1,) if sense not in list_senses(engine))
     for name, residual, senses in ((SHAFT, first, others), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
         if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:

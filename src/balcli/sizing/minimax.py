@@ -84,9 +84,7 @@ def enclose_curve(curve: Phasors) -> Circle:
         theta = np.concatenate([theta[fixing], trial.theta])
     on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
     excess = best.radius - lower
-    return Circle(
-        best.centre, best.radius, best.theta[on], max(excess, 0.0) * (excess > noise), noise
-    )
+    return best._replace(theta=best.theta[on], excess=excess * (excess > noise), noise=noise)
 
 
 def enclose_points(points: Complex) -> tuple[complex, list[int]]:
