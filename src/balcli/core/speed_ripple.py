@@ -265,16 +265,9 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
     """Return the surplus energy of a torque (N m) over a constant load equal to its mean, from the
     extremes of the running integral.
     """
-    lowest, highest = energy(torque).extremes()
+    lowest, highest = torque.antiderivative(torque.mean).extremes()
     start, end = (angle % torque.period for angle in (lowest.angle, highest.angle))
     return Surplus(highest.value - lowest.value, start, end)
-
-
-def energy(torque: PiecewiseCurve) -> PiecewiseCurve:
-    """Return the running integral of the torque (N m) above its mean, from the first breakpoint on,
-    J.
-    """
-    return torque.antiderivative(torque.mean)
 
 
 def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: float) -> float:
@@ -303,7 +296,8 @@ def speed_variation(
     Raises:
         StallError: The shaft would stop.
     """
-    parts, done, wanted = _as_function(inertia), energy(torque), mean_speed**2
+    parts, wanted = _as_function(inertia), mean_speed**2
+    done = torque.antiderivative(torque.mean)  # energy above the load
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
 

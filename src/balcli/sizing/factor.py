@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import replace
 from itertools import compress
 from typing import NamedTuple
 
@@ -420,7 +419,7 @@ def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
             remedy = remedy.add_devices([weight], f"{one.name}: {reason}")
         names = {number: f"{one.name}.{number}" for number in one.engine.numbers}
         cards += (
-            replace(pin, cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
+            pin._replace(cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
         )
         needs += own.needs
     details = {key: own.details[key] for key in ("factor", "definition")}

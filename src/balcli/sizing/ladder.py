@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,7 @@ _AT_THROWS = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scale:
+class Scale(NamedTuple):
     """Force and moment of one cylinder, with which parts of orders are compared.
 
     Attributes:
@@ -93,8 +92,7 @@ class Step:
     remedy: Annotated[Remedy, HIDDEN]
 
 
-@dataclass(frozen=True, kw_only=True)
-class LeftOut:
+class LeftOut(NamedTuple):
     """A step that is not listed because its effect is small.
 
     Attributes:
