@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,8 +78,7 @@ def compute_spectra_in_time(
     return Spectra(orders, None, **in_time), timetable.turns
 
 
-@dataclass(frozen=True, eq=False)
-class BodyLoads:
+class BodyLoads(NamedTuple):
     """Load of an engine on the body, by order.
 
     Attributes:
@@ -191,4 +189,4 @@ def find_loads(
     if orders is not None or not kept.any():
         return loads
     by_speed = by_speed and by_speed.select_orders(kept)
-    return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)
+    return loads._replace(orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)

@@ -10,13 +10,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, NamedTuple
 
+import numpy as np
+
+from ..core.phases import RPM
 from ..core.records import HIDDEN, Axes
 from ..core.vibration import Complex, Real
 from ..engine.engine import CylinderNumber
+from ..file.fields import printable
 from ..show.result import Result
 from ..sizing.remedy import Remedy
 from .build import BodyMode, MountedBody
 from .loads import BodyLoads
+
+TRAVEL_MOST = 0.05  # m; a warning is given if a mount has a larger amplitude
 
 
 class MountAtRest(NamedTuple):
@@ -277,6 +283,25 @@ class MountReport(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of speeds for which the file gives no gas."""
-        law = self.response and self.response.loads.law
-        return tuple(law.list_doubts(self.response.speeds_rpm)) if self.response and law else ()
+        """Warnings of speeds for which the file gives no gas, and about the mount that travels
+        most, if no mount travels as far.
+        """
+        if self.response is None:
+            return ()
+        law = self.response.loads.law
+        of_gas = tuple(law.list_doubts(self.response.speeds_rpm)) if law else ()
+        stiffness, loss, damping = self.mounted.dynamic[2:]
+        worst = [mount.worst for mount in self.response.mounts]
+        frequency = np.array([[each.order * each.speed_rpm * RPM] for each in worst])
+        springs = np.abs(stiffness * (1 + 1j * loss) + 1j * frequency * damping).max(axis=1)
+        travels = np.array([each.force_N for each in worst]) / springs
+        farthest = int(travels.argmax())
+        if (travel := travels[farthest]) <= TRAVEL_MOST:
+            return of_gas
+        told = (
+            f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
+            f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, where stops "
+            "hold others at 10 to 20; are loss and damping right, and does it run at that speed, "
+            "or pass it?"
+        )
+        return (*of_gas, told)

@@ -109,8 +109,7 @@ class LeftOut(NamedTuple):
     main_bearing_N: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ladder:
+class Ladder(NamedTuple):
     """Devices that balance an engine, step by step.
 
     Attributes:

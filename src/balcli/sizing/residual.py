@@ -80,10 +80,6 @@ class Residual(NamedTuple):
         """
         return self.parts[ResidualPart("moment", sense)]
 
-    def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
-        """Return whether a part of this kind turns in one of these senses."""
-        return any(self.parts[ResidualPart(kind, sense)] for sense in senses)
-
     def size(self, *parts: ResidualPart) -> float:
         """Return the sum of the amplitudes of these parts at the engine's speed, N or N m."""
         return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m

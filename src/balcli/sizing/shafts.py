@@ -124,7 +124,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
-        if not residual.has("force", (1, -1)):  # no reciprocating mass: counterweights suffice
+        if not residual.size(*FORCE):  # no reciprocating mass: counterweights suffice
             return fitting.remedy
     return _add_pair(fitting, residual, options).remedy
 

@@ -134,4 +134,3 @@ def analyze_torque_of_engine(
 
 analyze_torque = tell_arguments()(analyze_torque_of_engine)
 analyze_torque.__name__ = analyze_torque.__qualname__ = "analyze_torque"
-analyze_torque.__module__ = __name__  # where pickle finds it
