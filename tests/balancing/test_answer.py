@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -200,7 +199,7 @@ def test_as_many_holes_as_the_depth_asks_for():
     assert holes.holes == 3
     assert removed(holes, 0.02, STEEL) == pytest.approx(20_000, rel=1e-9)
     assert holes.drill_depth_mm <= 50
-    assert removed(replace(holes, holes=2, drill_depth_mm=50), 0.02, STEEL) < 20_000
+    assert removed(holes._replace(holes=2, drill_depth_mm=50), 0.02, STEEL) < 20_000
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 50])

@@ -118,7 +118,7 @@ TORQUE = press(slider_crank_piston(*LENGTHS), CYCLE.pressure, CYCLE.breaks)
 
 @pytest.mark.parametrize("fires", [0.3, 5.0, -2.0, 30.0])
 def test_a_cylinder_that_fires_later_has_its_harmonics_turned_back(fires):
-    found = crank_torque([(TORQUE, fires, 1.0)]).harmonics(np.arange(49))
+    found = crank_torque([(TORQUE, fires, 1.0)], TORQUE.curve.period).harmonics(np.arange(49))
     expected = TORQUE.harmonics(HALVES) * np.exp(-0.5j * HALVES * fires)
     assert np.abs(found - expected).max() <= OF_THE_LARGEST * np.abs(expected).max()
 

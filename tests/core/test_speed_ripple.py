@@ -209,7 +209,7 @@ def test_orders_of_the_time(lines, step):
     backward[0] = 0
     phasors = Phasors.of(over_angle, forward, backward, np.zeros(1))
     timetable = ripple.find_timetable(ripple.find_speed(list(lines), step), step, 1 << 10)
-    (found,) = ripple.count_in_time([phasors], timetable, orders)
+    found = ripple.count_in_time(phasors, timetable, orders)
 
     theta, period = run_in_time(partial(speed, lines), turns)
     curve = phasors.values(theta)
@@ -231,7 +231,7 @@ def test_no_order_beyond_reach_is_felt():
     def find_share(order):
         """Of an order over the angle in order 12 of the time: by steps, and as counted."""
         one = Phasors.of(np.array([order]), np.ones(1, complex), np.zeros(1, complex), np.zeros(1))
-        (found,) = ripple.count_in_time([one], timetable, np.array([12.0]))
+        found = ripple.count_in_time(one, timetable, np.array([12.0]))
         return [abs(np.fft.fft(one.values(theta), norm="forward")[12]), abs(found.forward[0])]
 
     assert find_share(reach + 2) == pytest.approx([0, 0], abs=2e-13)

@@ -219,8 +219,7 @@ def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
 
         return resolved(value, breaks)
 
-    known = first.pressure is not None and second.pressure is not None
-    pressure = mix(first.pressure, second.pressure) if known else None  # type: ignore[arg-type]
+    pressure = first.pressure and second.pressure and mix(first.pressure, second.pressure)
     curve = mix(first.curve, second.curve)
     return replace(first, breaks=breaks, curve=curve, pressure=pressure)
 
@@ -236,19 +235,18 @@ def find_highest(pressure: PiecewiseCurve) -> Extreme:
 
 
 def crank_torque(
-    cylinders: Sequence[tuple[GasTorque, float, float]], period: float | None = None
+    cylinders: Sequence[tuple[GasTorque, float, float]], period: float
 ) -> PiecewiseCurve:
-    """Return the torque of several cylinders over one cycle, N m, at crank angles in [0, period].
+    """Return the torque of several cylinders, N m, at crank angles in [0, period].
 
     Args:
         cylinders: Gas torque of each cylinder, crank angle (rad) of its firing dead centre, and the
             factor of its torque (0 for a misfire).
-        period: Angle after which the sum repeats itself, rad; None: one cycle.
+        period: Angle after which the sum repeats itself, rad.
     """
-    span = cylinders[0][0].curve.period if period is None else period
 
     def total(angle: Array) -> Array:
         each = (share * gas.curve.at(angle - fires) for gas, fires, share in cylinders)
         return sum(each, np.zeros(angle.shape))
 
-    return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], span))
+    return resolved(total, merged_breaks([(g.breaks, fires) for g, fires, _ in cylinders], period))

@@ -30,18 +30,17 @@ class Cylinders:
     Attributes:
         axis_deg: shape (banks, *trailing), angles of the cylinder axes from x.
         pin_deg: shape (cylinders, *trailing), angles of crank pins from cylinder 1's pin, in the
-            sense of
-        rotation.
+            sense of rotation.
         starts: shape (banks,), first row of each bank.
-    first: bank of cylinder 1.
-    z: shape (cylinders, *trailing), position of each cylinder along the crank, m.
+        first: bank of cylinder 1.
+        z: shape (cylinders, *trailing), position of each cylinder along the crank, m.
         radius, offset: shape (cylinders or 1, *trailing), crank radius and offset of the piston
-        pin's path, m.
+            pin's path, m.
         lam, eps: shape (cylinders or 1, *trailing), crank radius and offset over rod length; 0 in
-        harmonic motion (rod of infinite length).
+            harmonic motion (rod of infinite length).
         reciprocating, rotating: masses at the piston pin and at the crank pin, kg.
         couple: `H` of the rods, kg m2 (docs/theory.md: moment of inertia of two point masses less
-        that of the rod).
+            that of the rod).
         linkage: linkage of cylinders that are more than slider-cranks, with additional masses.
     """
 

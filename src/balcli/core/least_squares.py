@@ -103,8 +103,7 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
     _, s, vh = np.linalg.svd(directions)
     rank = np.count_nonzero(s > _DEPENDENT * s[0])
     combinations = np.abs(vh[rank:])  # combinations of columns that are 0
-    taking_part = np.any(combinations > _TAKES_PART, axis=0)
-    return [int(k) for k in np.flatnonzero(taking_part)]
+    return np.flatnonzero(np.any(combinations > _TAKES_PART, axis=0)).tolist()
 
 
 _ROUNDS = 1000  # largest number of rounds of Lawson's iteration

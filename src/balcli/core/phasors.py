@@ -22,10 +22,6 @@ Numbers: TypeAlias = NDArray[Any]  # real or complex
 Figure: TypeAlias = float | Array  # a number, or an array of variants
 
 EPS = float(np.finfo(float).eps)
-# numpy is quicker with an array without axes than with a number of Python.
-_STEP = np.array(15.0)  # step of the table of cosines, degrees
-_STEPS_A_TURN = np.array(24)
-_RADIANS_A_DEGREE = np.array(np.pi / 180)
 _COSINES = (1, (6**0.5 + 2**0.5) / 4, 0.75**0.5, 0.5**0.5, 0.5, (6**0.5 - 2**0.5) / 4, 0)
 
 
@@ -46,13 +42,9 @@ def unit(degrees: ArrayLike) -> Complex:
     remainder, which floating point computes exactly.
     """
     x = np.asarray(degrees, float)
-    steps = np.rint(x / _STEP)
-    rest: Array = x - _STEP * steps
-    turned: Complex = _UNITS.take(steps.astype(np.intp) % _STEPS_A_TURN)
-    if not np.count_nonzero(rest):
-        return turned
-    rest = rest * _RADIANS_A_DEGREE
-    return turned * compose(np.cos(rest), np.sin(rest))
+    steps = np.rint(x / 15)
+    rest = np.radians(x - 15 * steps)
+    return _UNITS[steps.astype(np.intp) % 24] * compose(np.cos(rest), np.sin(rest))
 
 
 def compose(real: Array, imaginary: Array) -> Complex:
@@ -74,9 +66,7 @@ def put_together(forward: Array | Complex, backward: Array | Complex) -> Complex
         forward: Vectors that turn with the crank.
         backward: Vectors that turn against it.
     """
-    if forward.shape != backward.shape:
-        forward, backward = np.broadcast_arrays(forward, backward)
-    return np.array((forward, backward))
+    return np.array(np.broadcast_arrays(forward, backward))
 
 
 def wrap_degrees(degrees: ArrayLike, turn: float) -> Array:
@@ -130,8 +120,6 @@ class Phasors:
             noise: Bound of the rounding error of each vector.
         """
         half = coefficients / 2
-        if np.count_nonzero(orders) == len(orders):
-            return cls.of(orders, half, half.conj(), noise)
         mean = _column(orders, half) == 0
         forward, backward = np.where(mean, coefficients.real, half), np.where(mean, 0, half.conj())
         return cls.of(orders, forward, backward, noise)
@@ -168,11 +156,7 @@ class Phasors:
         """Return these phasors with each vector that lies within its rounding error set to exactly
         0.
         """
-        nothing = self._sizes <= self.noise
-        if not np.count_nonzero(nothing):
-            return self
-        vectors = self.vectors.copy()
-        vectors[nothing] = 0
+        vectors = np.where(self._sizes <= self.noise, 0, self.vectors)
         return Phasors(self.orders, vectors, self.noise)
 
     def select_orders(self, orders: ArrayLike) -> Phasors:
@@ -264,10 +248,12 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
 
 
 def join_places(parts: Sequence[Phasors]) -> Phasors:
-    """Return the places along the trailing axis of several, in their order."""
+    """Return the places along the trailing axis of several, in their order; phasors without this
+    axis are one place.
+    """
+    vectors = [p.vectors.reshape(2, len(p.orders), -1) for p in parts]
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]
-    vectors = np.concatenate([p.vectors for p in parts], axis=-1)
-    return Phasors(parts[0].orders, vectors, np.concatenate(noises, axis=-1))
+    return Phasors(parts[0].orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
 
 
 def _column(orders: Array, like: NDArray[np.generic]) -> Array:

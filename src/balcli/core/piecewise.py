@@ -34,9 +34,8 @@ _WIDEST = 0.5  # rad, largest width of a panel before halving
 _TERMS = 16
 _RESOLVED = 1e-12  # limit of the last terms of a series, relative to the function's largest value
 _HALVINGS = 48
-_EVERYWHERE = (
-    16  # halving ends at this multiple of the initial number of panels: the rest is rounding error
-)
+# Halving ends at this multiple of the initial number of panels: the rest is rounding error.
+_EVERYWHERE = 16
 _REACH = 16.0  # rad; phase of a harmonic over a panel up to which _NODES nodes integrate it
 _NODES = 32
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
@@ -353,13 +352,11 @@ class Panels:
                 orders that the period does not have, the vectors are 0.
         """
         weighed = (samples * quadrature(self.breaks)[1].reshape(-1)).T
-        step = max(_AT_ONCE // len(self.angles), 1)
-        forward, backward = [], []
-        for k in range(0, len(orders), step):
-            turned = np.exp(-1j * orders[k : k + step, None] * self.angles)
-            forward.append(turned @ weighed)
-            backward.append(np.conj(turned) @ weighed)
-        ahead, against = np.concatenate(forward), np.concatenate(backward)
+        both = np.hstack([weighed, weighed.conj()])
+        parts = np.array_split(orders, len(orders) * len(self.angles) // _AT_ONCE + 1)
+        found = [np.exp(-1j * some[:, None] * self.angles) @ both for some in parts]
+        ahead, against = np.hsplit(np.concatenate(found), 2)
+        against = against.conj()
         against[orders == 0] = 0.0  # only the other vector holds the mean
         waves = orders * (self.breaks[-1] - self.breaks[0]) / (2 * np.pi)
         there = np.abs(waves - np.rint(waves)) < 0.1  # orders that the period has

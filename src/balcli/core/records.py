@@ -67,7 +67,7 @@ UNITS = {
     "m3": "m³",
     **{unit: unit for unit in ("rpm", "deg", "mm", "Hz", "Pa", "kg", "N", "J", "W", "m")},
 }
-_IN_CSV = str.maketrans("·²³", " 23")  # units in plain characters
+IN_CSV = str.maketrans("·²³", " 23")  # units in plain characters
 
 
 class Polar(NamedTuple):
@@ -81,10 +81,8 @@ class Polar(NamedTuple):
 
     def split(self, value: complex) -> Node:
         """Return the JSON object of a value."""
-        return {
-            self.magnitude: float(abs(value)),
-            self.angle: angle_deg(value) if value else None,
-        }
+        angle = angle_deg(value) if value else None
+        return {self.magnitude: float(abs(value)), self.angle: angle}
 
 
 class Reached(NamedTuple):
@@ -236,7 +234,7 @@ def list_figures(document: Node, without: Collection[str] = (), path: str = "") 
                 if isinstance(item, dict):
                     yield from list_figures(item, (), f"{path}{key}.{k}.")
         else:
-            yield Figure(f"{path}{key}", value, find_unit(key).translate(_IN_CSV))
+            yield Figure(f"{path}{key}", value, find_unit(key).translate(IN_CSV))
 
 
 def list_series(document: Node, place: int) -> Iterator[Figure]:
@@ -248,7 +246,7 @@ def list_series(document: Node, place: int) -> Iterator[Figure]:
     """
     for key, value in document.items():
         if isinstance(value, list) and value and not isinstance(value[0], (dict, list)):
-            yield Figure(key, value[place], find_unit(key).translate(_IN_CSV))
+            yield Figure(key, value[place], find_unit(key).translate(IN_CSV))
 
 
 def find_unit(key: str) -> str:

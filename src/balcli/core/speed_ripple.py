@@ -127,28 +127,26 @@ def find_reach(timetable: Timetable, order: float) -> float:
     return float(np.minimum(felt, len(wave) - felt).max() * timetable.step)
 
 
-def count_in_time(curves: Sequence[Phasors], timetable: Timetable, orders: Array) -> list[Phasors]:
-    """Return the orders over the time (cycles per mean revolution) of curves over the crank angle.
+def count_in_time(curve: Phasors, timetable: Timetable, orders: Array) -> Phasors:
+    """Return the orders over the time (cycles per mean revolution) of a curve over the crank angle.
 
     Args:
-        curves: Curves without trailing axes, with all orders that contribute.
+        curve: Curve without trailing axes, with all orders that contribute.
         timetable: Times of the crank angles.
         orders: Wanted orders over the time, multiples of the step, shape (orders,).
     """
-    series = np.zeros((len(curves), len(timetable.clock)), complex)
-    for own, curve in zip(series, curves, strict=True):
-        rows = np.rint(curve.orders / timetable.step).astype(int)
-        np.add.at(own, rows, curve.forward)
-        np.add.at(own, -rows, curve.backward)
+    series = np.zeros(len(timetable.clock), complex)
+    rows = np.rint(curve.orders / timetable.step).astype(int)
+    np.add.at(series, rows, curve.forward)
+    np.add.at(series, -rows, curve.backward)
     felt = np.fft.ifft(series, norm="forward") * timetable.stay
-    found = np.empty((2, len(orders), len(curves)), complex)
+    found = np.zeros((2, len(orders)), complex)
     for k, order in enumerate(orders):
         wave = np.exp(1j * order * timetable.clock)
-        found[0, k] = np.mean(felt * wave.conj(), axis=1)
-        found[1, k] = np.mean(felt * wave, axis=1) if order else 0
-    sizes = [np.sum(np.abs(curve.vectors)) for curve in curves]
-    noises = [np.full(orders.shape, 8 * EPS * size) for size in sizes]
-    return [Phasors(orders, found[:, :, k], noise).drop_noise() for k, noise in enumerate(noises)]
+        found[0, k] = np.mean(felt * wave.conj())
+        found[1, k] = np.mean(felt * wave) if order else 0
+    noise = np.full(orders.shape, 8 * EPS * np.sum(np.abs(curve.vectors)))
+    return Phasors(orders, found, noise).drop_noise()
 
 
 def apply_to_force(
@@ -240,13 +238,11 @@ class Surplus(NamedTuple):
         energy: Largest rise of the running integral of torque above load, J.
         start: First angle of the lowest speed at constant inertia, rad, in [0, period).
         end: First angle of the highest speed at constant inertia, rad, in [0, period).
-        work: Work of the torque over a period, J.
     """
 
     energy: float
     start: float
     end: float
-    work: float
 
 
 class SpeedVariation(NamedTuple):
@@ -269,16 +265,9 @@ def surplus(torque: PiecewiseCurve) -> Surplus:
     """Return the surplus energy of a torque (N m) over a constant load equal to its mean, from the
     extremes of the running integral.
     """
-    lowest, highest = energy(torque).extremes()
+    lowest, highest = torque.antiderivative(torque.mean).extremes()
     start, end = (angle % torque.period for angle in (lowest.angle, highest.angle))
-    return Surplus(highest.value - lowest.value, start, end, torque.integral)
-
-
-def energy(torque: PiecewiseCurve) -> PiecewiseCurve:
-    """Return the running integral of the torque (N m) above its mean, from the first breakpoint on,
-    J.
-    """
-    return torque.antiderivative(torque.mean)
+    return Surplus(highest.value - lowest.value, start, end)
 
 
 def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: float) -> float:
@@ -307,7 +296,8 @@ def speed_variation(
     Raises:
         StallError: The shaft would stop.
     """
-    parts, done, wanted = _as_function(inertia), energy(torque), mean_speed**2
+    parts, wanted = _as_function(inertia), mean_speed**2
+    done = torque.antiderivative(torque.mean)  # energy above the load
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
 

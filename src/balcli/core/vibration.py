@@ -136,13 +136,12 @@ def find_resonances(
     """
     load = np.broadcast_to(load, (len(orders), len(speeds), modes.shapes.shape[1]))
     undamped = (modes.omega > 0) & (loss <= UNDAMPED)
-    met = [
+    return tuple(
         Resonance(int(mode), float(order), float(modes.omega[mode] / order))
         for mode in np.flatnonzero(undamped)
         for row, order in enumerate(orders)
         if order > 0 and _drives(modes, mode, float(order), speeds, load[row])
-    ]
-    return tuple(met)
+    )
 
 
 def _drives(modes: Modes, mode: np.intp, order: float, speeds: Real, load: Complex) -> bool:

@@ -490,9 +490,6 @@ def _find_permitted(
     )
 
 
-_UNNAMED = "file of runs"  # name in messages if the runs are a text or dict
-
-
 @tell_arguments()
 def balance_rotor(
     runs: str | Path | Mapping[str, object],
@@ -529,4 +526,5 @@ def balance_rotor(
     planes = [without] if isinstance(without, str) else list_words("without", without, '["front"]')
     wanted = "give the path, text or dict of a file of runs"
     tables, name = take_tables("balance_rotor", runs, wanted)
-    return find_corrections(check_runs(tables, name), minimise, planes, name or _UNNAMED)
+    file = check_runs(tables, name)
+    return find_corrections(file, minimise, planes, name or "file of runs")  # of a text or dict

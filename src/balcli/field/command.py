@@ -8,24 +8,17 @@ from typing import Annotated, Literal
 import typer
 
 from ..errors import BalcliError, Exit
-from ..file.toml import name_file
+from ..file.toml import name_file, read_bytes
 from ..shell.file_names import picture_form, text_format
 from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Output, UnitsOption
 from ..shell.output import refuse_overwriting, show, write_figure
-from ..shell.values import optional
+from ..shell.values import argument, optional
 from ..show.formats import Units
 
 
 def field(
-    path: Annotated[
-        str,
-        typer.Argument(
-            metavar="RUNS",
-            help="Readings of all runs (TOML); - reads standard input.",
-            show_default=False,
-        ),
-    ],
+    path: Annotated[str, argument("RUNS", "Readings of all runs (TOML); - reads standard input.")],
     minimise: Annotated[
         Literal["squares", "max"],
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
@@ -59,7 +52,8 @@ def field(
     drawn = picture_form(plot, "--plot") if plot is not None else None
     from . import answer, runs_file, show as pages
 
-    file, name = runs_file.read_runs(path), name_file(path)
+    name = name_file(path)
+    file = runs_file.parse_runs(read_bytes(path), name)
     if check and (missing := answer.list_missing(file)):
         raise BalcliError(f"{name}: --check needs {', '.join(missing.values())}")
     result = answer.find_corrections(file, minimise, without or (), name)

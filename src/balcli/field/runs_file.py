@@ -13,7 +13,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from pydantic import Field
@@ -25,7 +24,7 @@ from ..file.fields import Label, Number, OneOf, counted, printable, shorten, sug
 from ..file.messages import RUNS, describe_finding, refuse_other_kind
 from ..file.read import TableReader
 from ..file.table import FileTable, Name, Size, Speed, Switch
-from ..file.toml import name_file, parse_toml, read_bytes
+from ..file.toml import parse_toml
 from ..file.units import ANGLE, BARE_FIGURE, MASS, PLAIN, UNBALANCE, Dimension, Unit, read_unit
 from ..limits import LONGEST_FIGURE, MOST_BALANCING_PLANES, MOST_PLACES, MOST_RUNS, MOST_SENSORS
 
@@ -265,14 +264,6 @@ RUNS_FILE = (
     "not a file of runs, which is TOML text with tables such as [[run]]: `balcli new field` writes "
     "one"
 )
-
-
-def read_runs(source: str | Path) -> RunsFile:
-    """Return the runs in a file, or on standard input for "-".
-
-    Raises BalcliError if the file cannot be read, and InputError with every mistake of the text.
-    """
-    return parse_runs(read_bytes(source), name_file(source))
 
 
 def parse_runs(text: str | bytes, file: str = "") -> RunsFile:

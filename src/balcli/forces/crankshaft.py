@@ -17,8 +17,9 @@ on throw and head. So in every section, the loads of shaft and block add up to t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +27,7 @@ import numpy as np
 from ..core.cylinders import DeviceKind
 from ..core.loads import find_ahead, find_arms, share_by_lever
 from ..core.peaks import Peak, find_peaks
-from ..core.phasors import Array, Complex, Phasors, unit
+from ..core.phasors import Array, Complex, Phasors, join_places, unit
 from ..core.piecewise import Vectors, cut, find_panels, merged_breaks, quadrature
 from ..engine.engine import Engine
 from ..engine.figures import find_first_largest
@@ -131,9 +132,11 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
-    sections = list_places(z)
+    sections = np.unique(z)
     ahead = find_ahead(z, sections)
-    shear, bending = _sum_weighted(loads, ahead, ahead), compute_bending(loads, z)
+    sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
+    shear = _sum_weighted(loads, ahead, ahead)
+    bending = 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
     if orders is None:
         orders = every[mark_considerable(bending) | (every <= 2)]
     if len(orders) * len(z) > MOST_RESULTS_ALONG_CRANK:
@@ -169,34 +172,20 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Return positions of main bearings, half-way between throws and as far outside the end throws,
     m, shape (bearings,); None if all throws have the same position.
     """
-    places = list_places(throws_m)
+    places = np.unique(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
     return np.array([2 * places[0] - between[0], *between, 2 * places[-1] - between[-1]])
 
 
-def list_places(z: Array) -> Array:
-    """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
-    return np.array(sorted(set(np.ravel(z).tolist())))
-
-
-def compute_bending(loads: Phasors, z: Array) -> Phasors:
-    """Return the bending moments at each position of a load, N m, phasors of shape (orders,
-    sections).
+def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
+    """Return the forces on main bearings, N, phasors of shape (orders, bearings).
 
     Args:
         loads: Forces, shape (orders, loads).
         z: Positions of the forces, m, shape (loads,).
-    """
-    sections = list_places(z)
-    sizes = find_ahead(z, sections) * (np.abs(z) + np.abs(sections[:, None]))  # for rounding
-    return 1j * _sum_weighted(loads, find_arms(z, sections), sizes)
-
-
-def compute_bearing_forces(loads: Phasors, z: Array, bearings_m: Array) -> Phasors:
-    """Return the forces on main bearings at positions from `place_bearings`, N, phasors of shape
-    (orders, bearings); other arguments as for `compute_bending`.
+        bearings_m: Positions of the bearings, from `place_bearings`.
     """
     shares = share_by_lever(z, bearings_m)
     return _sum_weighted(loads, shares, shares)
@@ -213,17 +202,7 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     each = compute_spectra(engine, orders, ["force"], each=True)["force"]
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
-    return join_loads([each, *more]), np.array(places, float)
-
-
-def join_loads(loads: Sequence[Phasors]) -> Phasors:
-    """Return several forces, phasors of shape (orders, loads) or (orders,), as one of shape
-    (orders, loads).
-    """
-    orders = loads[0].orders
-    vectors = [force.vectors.reshape(2, len(orders), -1) for force in loads]
-    noises = [np.broadcast_to(force.noise, force.forward.shape) for force in loads]
-    return Phasors(orders, np.concatenate(vectors, axis=2), np.column_stack(noises))
+    return join_places([each, *more]), np.array(places, float)
 
 
 def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
@@ -305,16 +284,15 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     span = place_main_bearings(engine)
     shown = list_gas_orders(engine) if orders is None else orders
 
-    def compute(angles: Array) -> Complex:
-        return compute_in_pieces(
-            engine, lambda degrees: np.concatenate(compute_forces_along(engine, degrees)), angles
-        )
+    def add_up(crank_deg: Array) -> Complex:
+        return np.concatenate(compute_forces_along(engine, crank_deg))
 
+    compute = partial(compute_in_pieces, engine, add_up)
     panels = find_panels(compute, find_breaks(engine), float(shown.max()))
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = list_places(np.concatenate([on_shaft, on_block, span]))
+    sections = np.unique(np.concatenate([on_shaft, on_block, span]))
     reach = 2 * float(np.abs(sections).max())  # bound of the terms of the arms
 
     largest = float(np.abs(samples).max(axis=1).sum())

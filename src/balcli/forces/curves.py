@@ -10,10 +10,8 @@ Gas: torque of all cylinders on the crank over the cycle, with and without the i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from functools import reduce
-from operator import add
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -70,12 +68,7 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
         crank_deg: Crank angles, deg, shape (angles,).
     """
     motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
-    return sum_curves(_torque_of_cylinders(motion).sum(axis=0) for motion in motions)
-
-
-def sum_curves(curves: Iterable[Array]) -> Array:
-    """Return the sum of curves, at least one."""
-    return reduce(add, curves)
+    return np.asarray(sum(_torque_of_cylinders(motion).sum(axis=0) for motion in motions))
 
 
 def compute_piecemeal(
@@ -267,10 +260,10 @@ def find_moving_inertia(engine: Engine) -> Function:
         cranks = [
             (find_moving_inertia(one.engine), np.radians(one.phase_deg)) for one in engine.cranks
         ]
-        return lambda angle: sum_curves(moving(angle + lead) for moving, lead in cranks)
+        return lambda angle: np.asarray(sum(moving(angle + lead) for moving, lead in cranks))
     if engine.crank_inertia is not None and not engine.rotary:
         c = engine.cylinders
-        throws = np.array([[weighed.share] for weighed in engine.weighed]).reshape(-1)
+        throws = np.array([float(weighed.share) for weighed in engine.weighed])
         engine = replace(engine, cylinders=replace(c, rotating=c.rotating - throws))
     return _at_radians(
         engine, lambda e, deg: _inertia_of_cylinders(EngineMotion(e, deg)).sum(axis=0)
@@ -301,9 +294,7 @@ def silence(engine: Engine, number: CylinderNumber) -> Engine:
     if not engine.placed and number not in (engine.fires_deg or {number}):
         raise BalcliError(f"cylinder {number} is a dummy piston, which never fires")
     each = [one._replace(share=one.share * (k != row)) for k, one in enumerate(gas.cylinders)]
-    model = engine.model
-    if model is not None:
-        model = _silence_in_file(model, number)
+    model = engine.model and _silence_in_file(engine.model, number)
     return replace(engine, gas=replace(gas, cylinders=tuple(each)), model=model)
 
 

@@ -80,9 +80,8 @@ def compute_guide_moments(
         due |= mark_considerable(x)
     if orders is None:
         orders = every[due]
-    chosen_x = None if x is None else x.select_orders(orders)
-    by_number = height[np.argsort(engine.numbers)]
-    return GuideMoments(h.select_orders(orders), chosen_x, by_number, engine.gas is not None)
+    h, x = h.select_orders(orders), x and x.select_orders(orders)
+    return GuideMoments(h, x, height[np.argsort(engine.numbers)], engine.gas is not None)
 
 
 def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:

@@ -19,7 +19,7 @@ crank pin. The crank pins, at c, make the torque `Im(conj(c) (-Q))`, which agree
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,9 +29,6 @@ from ..engine.engine import Engine
 from ..errors import BalcliError
 from .curves import EngineMotion, as_rows
 from .spectrum import take_gas
-
-if TYPE_CHECKING:
-    from ..core.mechanisms.linkage import Articulated, Rotary
 
 
 class RodForces(NamedTuple):
@@ -119,13 +116,9 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     are none.
     """
     linkage = engine.cylinders.linkage
-    if linkage is None:
-        return {}
-    turned = cast("Rotary", linkage).hung if engine.rotary else linkage
-    if turned is None:
-        return {}
+    rods = getattr(linkage, "hung", linkage)  # those of a rotary engine are part of its linkage
     found: dict[int, list[int]] = {}
-    for row, master in enumerate(cast("Articulated", turned).master.tolist()):
+    for row, master in enumerate(getattr(rods, "master", np.zeros(0)).tolist()):
         if row != master:
             found.setdefault(master, []).append(row)
     return found

@@ -111,8 +111,6 @@ class Spectra:
 
     def select_orders(self, orders: ArrayLike) -> Spectra:
         """Return the spectra of only these orders, shape (orders,)."""
-        if orders is self.orders:
-            return self
         wanted = np.asarray(orders, float)
         found = {kind.name: p.select_orders(wanted) for kind, p in self.items()}
         return Spectra(wanted, self.up_deg, **found)
@@ -306,10 +304,8 @@ def _compute_inertia(
         phases = (SeparatePhases if each else Phases)(c, dense[block])
         return Loads(c, engine.devices, place_in_plane(x, y), z, phases, series, engine.omega**2)
 
-    lowest, blocks = make_loads(0), []
-    for start in range(0, max(len(dense), 1), most):
-        loads = make_loads(start) if start else lowest
-        blocks.append([getattr(loads, name) for name in names])
+    starts = range(0, max(len(dense), 1), most)
+    blocks = [[getattr(loads, name) for name in names] for loads in map(make_loads, starts)]
     steady = {
         name: join_orders(pieces) if len(pieces) > 1 else pieces[0]
         for name, *pieces in zip(names, *blocks, strict=True)
@@ -318,7 +314,7 @@ def _compute_inertia(
         return steady
     scale = engine.omega**2 / (c.count if each else 1)
     momentum, energy = (scale * value for value in engine.find_turning_inertia(beyond_pins=True))
-    found = {}
+    found, lowest = {}, make_loads(0)
     for name, phasors in steady.items():
         if name == "torque":
             inertia = lowest.mean_inertia + energy

@@ -194,11 +194,6 @@ class Reason(NamedTuple):
     unit: str
 
     @property
-    def subject(self) -> str:
-        """Name of the group, in words."""
-        return _WORDS.get(self.quantity, self.quantity)
-
-    @property
     def finding(self) -> str:
         """The verdict in words, with the remaining amplitude in the textbook's unit if there is
         one.
@@ -236,7 +231,8 @@ class Symmetry(NamedTuple):
         """All findings in words; orders with the same finding share a sentence."""
         orders: dict[tuple[str, str], list[str]] = {}
         for reason in sorted(self.reasons, key=lambda reason: [*_GROUPS].index(reason.quantity)):
-            orders.setdefault((reason.subject, reason.finding), []).append(f"{reason.order:g}")
+            subject = _WORDS.get(reason.quantity, reason.quantity)
+            orders.setdefault((subject, reason.finding), []).append(f"{reason.order:g}")
         findings = (
             f"order{'s' * (len(names) > 1)} {', '.join(names)} {subject}: {finding}"
             for (subject, finding), names in orders.items()
@@ -283,10 +279,8 @@ def _find_reasons(
     engine: Engine, orders: Array, groups: Mapping[str, tuple[str, ...]]
 ) -> Iterator[Reason]:
     parts = [part for own in groups.values() for part in own]
-    book, each = (
-        find_textbook(engine, orders, parts),
-        compute_spectra(engine, orders, parts, each=True),
-    )
+    book = find_textbook(engine, orders, parts)
+    each = compute_spectra(engine, orders, parts, each=True)
     redrawn = [compute_spectra(other, orders, parts) for other in _draw(engine)]
     for group, own in groups.items():
         for row, order in enumerate(orders.tolist()):
@@ -345,10 +339,8 @@ def describe_firing(engine: Engine) -> str:
     gaps = [b - a for a, b in pairwise([*instants, instants[0] + cycle])]
     uneven = max(gaps) - min(gaps)
     least, most = f"{min(gaps):.6g}", f"{max(gaps):.6g}"
-    if uneven <= _EVEN * cycle:
+    if uneven <= _EVEN * cycle or least == most:
         return f"firing: even, every {cycle / len(gaps):.6g} deg"
-    if least == most:
-        return f"firing: even to {uneven:.1g} deg, every {least} deg"
     if uneven < NEARLY * cycle / len(gaps):
         return f"firing: nearly even, every {least} to {most} deg"
     return f"firing: uneven, at intervals of {', '.join(f'{gap:.6g}' for gap in gaps)} deg"

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,9 +59,8 @@ def compute_spectra_in_time(
     of_inertia, highest = find_relevant_orders(engine).max(), orders.max(initial=0)
     fastest = dense_orders(max(of_inertia, 2 * highest), mixed)
     slowest = find_slowest(engine.ripple).value
-    samples = 1 << math.ceil(
-        math.log2(32 * len(fastest) / slowest)
-    )  # the samples have to suffice where the crank is slowest
+    # The samples have to suffice where the crank is slowest.
+    samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
             f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
@@ -76,13 +74,11 @@ def compute_spectra_in_time(
     for name in kinds:  # the series of gas is infinite: all orders that reach the orders of time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
-        ((kind, phasors),) = found.items()
-        (in_time[kind.name],) = count_in_time([phasors], timetable, orders)
+        in_time[name] = count_in_time(found[name], timetable, orders)
     return Spectra(orders, None, **in_time), timetable.turns
 
 
-@dataclass(frozen=True, eq=False)
-class BodyLoads:
+class BodyLoads(NamedTuple):
     """Load of an engine on the body, by order.
 
     Attributes:
@@ -193,4 +189,4 @@ def find_loads(
     if orders is not None or not kept.any():
         return loads
     by_speed = by_speed and by_speed.select_orders(kept)
-    return replace(loads, orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)
+    return loads._replace(orders=loads.orders[kept], inertia=inertia[kept], gas=by_speed)

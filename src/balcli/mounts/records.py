@@ -288,8 +288,8 @@ class MountReport(Result):
         """
         if self.response is None:
             return ()
-        law, speeds = self.response.loads.law, self.response.speeds_rpm
-        of_gas = () if law is None else tuple(law.list_doubts(speeds))
+        law = self.response.loads.law
+        of_gas = tuple(law.list_doubts(self.response.speeds_rpm)) if law else ()
         stiffness, loss, damping = self.mounted.dynamic[2:]
         worst = [mount.worst for mount in self.response.mounts]
         frequency = np.array([[each.order * each.speed_rpm * RPM] for each in worst])

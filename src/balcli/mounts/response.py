@@ -142,11 +142,9 @@ class RunningBody(NamedTuple):
         try:
             motion = solve_response(own.stiffness, own.damping, own.mass, w, load)
         except UndampedResonanceError as error:  # true resonances were rejected before
-            raise BalcliError(
-                f"at {error.frequency / (2 * np.pi):.4g} Hz the motion of the body cannot be "
-                "computed: stiffness and damping of the mounts differ too much; is damping in "
-                "N s/mm?"
-            ) from None
+            hertz = error.frequency / (2 * np.pi)
+            told = f"at {hertz:.4g} Hz the body's motion cannot be computed"
+            raise BalcliError(f"{told}; is the damping of all mounts in N s/mm?") from None
         return _with_rate(motion, w)
 
     def read(self, motion: Complex, curve: Indices | slice = slice(None)) -> Complex:

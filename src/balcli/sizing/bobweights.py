@@ -5,7 +5,7 @@ rods and pistons. Define the records of the scheme `factor`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,7 @@ PISTON = (WHOLE_PISTON, *PISTON_PARTS)
 _RECIPROCATING = (*PISTON, "crosshead", "small end")
 
 
-@dataclass(frozen=True, kw_only=True)
-class CardLine:
+class CardLine(NamedTuple):
     """One line of a bobweight card.
 
     Attributes:
@@ -50,8 +49,7 @@ class CardLine:
         return sum(self.each_g)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Bobweight:
+class Bobweight(NamedTuple):
     """The bobweight of one crank pin, in grams as on the card and the scales of a balancing shop.
 
     Attributes:
@@ -149,8 +147,7 @@ class _FromPin(Polar):
         return {self.magnitude: abs(value), self.angle: angle}
 
 
-@dataclass(frozen=True, kw_only=True)
-class PlaneNeed:
+class PlaneNeed(NamedTuple):
     """Counterweight that a balance factor requires in one plane of the crankshaft.
 
     Attributes:

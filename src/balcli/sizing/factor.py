@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import replace
 from itertools import compress
 from typing import NamedTuple
 
@@ -19,7 +18,7 @@ from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
+from ..errors import MOMENTS_UNKNOWN, BalcliError
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
@@ -276,15 +275,10 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     if not reciprocating:
         raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
-    told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
-            f"{told}: would balance {factor:.3g} times the reciprocating mass; {turning} g on a "
-            "pin rotate; is the unit right?"
-        )
-    if factor < 0:
-        warn(
-            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
+            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
+            f"mass; {rotating / len(card):.5g} g on a pin rotate; is the unit right?"
         )
     return factor
 
@@ -425,7 +419,7 @@ def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
             remedy = remedy.add_devices([weight], f"{one.name}: {reason}")
         names = {number: f"{one.name}.{number}" for number in one.engine.numbers}
         cards += (
-            replace(pin, cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
+            pin._replace(cylinders=tuple(names[n] for n in pin.cylinders)) for pin in own.card
         )
         needs += own.needs
     details = {key: own.details[key] for key in ("factor", "definition")}

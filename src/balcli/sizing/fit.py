@@ -97,15 +97,11 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
             if np.abs(each).max() <= _LOST * largest:
                 notes.append(f"{name} has no effect on these targets: its unbalance is 0.")
             elif len(values) == 1 and values[0] < 0:
-                notes.append(
-                    f"{name} has to be on the opposite side: its angle is turned by 180 deg."
-                )
+                notes.append(f"{name} is on the opposite side: its angle is turned by 180 deg.")
     if undetermined := unknowns - rank:
-        notes.insert(
-            0,
-            f"{undetermined} unknown{'s are' if undetermined > 1 else ' is'} not determined by "
-            "these targets; the smallest weights are given.",
-        )
+        are = "unknowns are" if undetermined > 1 else "unknown is"
+        told = f"{undetermined} {are} not determined by these targets"
+        notes = [f"{told}; the smallest weights are given.", *notes]
     details = {"target": list(chosen), "unknowns": unknowns, "undetermined": undetermined}
     remedy = Remedy(FIT, note=" ".join(notes), details=details)
     fitted = [found[name] for name, _ in named]

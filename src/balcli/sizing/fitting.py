@@ -55,6 +55,7 @@ from .residual import (
     find_residual,
     hold_steady,
     list_parts,
+    tell_sense,
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
@@ -240,13 +241,11 @@ class Fitting(NamedTuple):
     remedy: Remedy
 
     @classmethod
-    def start(
-        cls, engine: Engine, scheme: str, order: int | None = None, note: str = ""
-    ) -> Fitting:
+    def start(cls, engine: Engine, scheme: str, order: int | None = None) -> Fitting:
         """Return a fitting without devices. `order` is the order that the scheme balances if it has
-        only one; `note` explains this choice.
+        only one.
         """
-        return cls(hold_steady(engine), Remedy(scheme, order, note=note))
+        return cls(hold_steady(engine), Remedy(scheme, order))
 
     def find_residual(self, order: int) -> Residual:
         """Return the residual of an order with the devices so far."""
@@ -385,7 +384,7 @@ def explain_shaft(
     kind = "eccentrics in two planes" if residual.force(sense) else "two opposite eccentrics"
     kind = "one eccentric" if count == 1 else kind
     both = ", in two halves on opposite sides of the crank so that no roll is added" * halves
-    turns = f"turning {_turning(sense)} the crank"
+    turns = f"turning {tell_sense(sense)}"
     return f"{what} {turns}: {why}; {kind} {_on_shaft(residual, sense)} can{both}{stays}"
 
 
@@ -400,7 +399,7 @@ def explain_couple(residual: Residual, sense: int) -> str:
     """Return the reason for two opposite eccentrics against the moment that turns in one sense."""
     needless = "; the scheme counterweights would do so without a shaft"
     return (
-        f"Order {residual.order} moment turning {_turning(sense)} the crank: two opposite "
+        f"Order {residual.order} moment turning {tell_sense(sense)}: two opposite "
         f"eccentrics {_on_shaft(residual, sense)} make the opposite moment and no force, wherever "
         f"the shaft is{needless * (sense * residual.order == 1)}"
     )
@@ -414,7 +413,3 @@ def _name(residual: Residual, sense: int) -> str:
 
 def _on_shaft(residual: Residual, sense: int) -> str:
     return f"on a shaft at {sense * residual.order:+d} times crank speed"
-
-
-def _turning(sense: int) -> str:
-    return "with" if sense > 0 else "against"

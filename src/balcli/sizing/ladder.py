@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,7 @@ _AT_THROWS = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scale:
+class Scale(NamedTuple):
     """Force and moment of one cylinder, with which parts of orders are compared.
 
     Attributes:
@@ -93,8 +92,7 @@ class Step:
     remedy: Annotated[Remedy, HIDDEN]
 
 
-@dataclass(frozen=True, kw_only=True)
-class LeftOut:
+class LeftOut(NamedTuple):
     """A step that is not listed because its effect is small.
 
     Attributes:
@@ -111,8 +109,7 @@ class LeftOut:
     main_bearing_N: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Ladder:
+class Ladder(NamedTuple):
     """Devices that balance an engine, step by step.
 
     Attributes:
@@ -268,8 +265,7 @@ def find_ladder(engine: Engine, small: float = SMALL) -> Ladder:
     first, second = drawn.find_residual(1), drawn.find_residual(2)
     steps, left_out, fitting = _list_weights(engine, drawn, first, scales, small)
     auto = steps[-1].step
-    carried = list_senses(engine)
-    others = tuple(sense for sense in (-1,) if sense not in carried)
+    others = tuple(sense for sense in (-1,) if sense not in list_senses(engine))
     for name, residual, senses in ((SHAFT, first, others), (SHAFTS, second, (1, -1))):
         sizes = {sense: find_size(residual, sense, scales) for sense in senses}
         if due := [sense for sense, size in sizes.items() if not is_small(size, small)]:

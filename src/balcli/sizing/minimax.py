@@ -27,7 +27,6 @@ from .fitting import Fitting, Slot, size_unbalances
 from .options import SchemeOptions
 from .planes import (
     SAME_PLACE,
-    find_crank_middle,
     measure_direction,
     read_planes,
     read_position,
@@ -85,9 +84,7 @@ def enclose_curve(curve: Phasors) -> Circle:
         theta = np.concatenate([theta[fixing], trial.theta])
     on = np.abs(_seen(curve, best.theta) - best.centre) >= best.radius * (1 - _TOUCHING) - noise
     excess = best.radius - lower
-    return Circle(
-        best.centre, best.radius, best.theta[on], max(excess, 0.0) * (excess > noise), noise
-    )
+    return best._replace(theta=best.theta[on], excess=excess * (excess > noise), noise=noise)
 
 
 def enclose_points(points: Complex) -> tuple[complex, list[int]]:
@@ -221,7 +218,8 @@ def _split(
     given planes such that they also cancel the forward moment of order 1.
     """
     if options.planes is None:
-        z = find_crank_middle(engine) if options.position is None else read_position(options)
+        middle = float(engine.throws_m.min() + engine.throws_m.max()) / 2
+        z = middle if options.position is None else read_position(options)
         return [Slot("counterweight", 1, 1, z)], [unbalance]
     slots = [Slot("counterweight", 1, 1, z) for z in read_planes(engine, options)]
     residual = fitting.find_residual(1)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from numbers import Complex, Integral, Real
 from types import NoneType
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 from ..errors import BalcliError, wrong_type
 from ..file.fields import nearest
@@ -193,14 +193,13 @@ def check_small(share: float) -> float:
 
 def _are(values: object, kind: type, finite: bool) -> bool:
     """Return whether there are values, and all are numbers of this kind (`finite`: and finite)."""
-    if not isinstance(values, tuple) or not values:
+    if not isinstance(values, tuple) or not all(isinstance(one, kind) for one in values):
         return False
     try:
-        sizes = [abs(complex(cast(Any, one))) for one in values if isinstance(one, kind)]
-        whole = all(size < math.inf for size in sizes) if finite else True
-        return len(sizes) == len(values) and whole
+        sizes = [abs(complex(one)) for one in values]
     except OverflowError:
         return False
+    return bool(sizes) and (not finite or all(size < math.inf for size in sizes))
 
 
 def find_taken(scheme: str) -> tuple[str, ...]:

@@ -64,12 +64,6 @@ def find_length(engine: Engine) -> tuple[float, float]:
     return _find_reach([z for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))])
 
 
-def find_crank_middle(engine: Engine) -> float:
-    """Return z half-way between the first and the last throw, m."""
-    low, high = _find_reach(engine.throws_m)
-    return (low + high) / 2
-
-
 def locate_force(residual: Residual, sense: int) -> float:
     """Return the z (m) at which the force in this sense (not 0) would cause as much of the moment
     as possible: `z_ref + Re(M / iV)`.
@@ -188,16 +182,13 @@ def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
     make a moment but no force, and no position is given.
     """
     shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
-    free = set[int]()
+    free: list[Shaft] = []
     for ratio in {shaft.ratio for shaft in shafts}:
         same = [shaft for shaft in shafts if shaft.ratio == ratio]
         vectors = [cmath.rect(find_unbalance(one), math.radians(one.angle)) for one in same]
         if len(same) > 1 and abs(sum(vectors)) <= _ROUNDING * max(map(abs, vectors)):
-            free.add(ratio)
-    return tuple(
-        isinstance(device, Shaft) and not any(device.at) and device.ratio in free
-        for device in devices
-    )
+            free += same
+    return tuple(any(device is one for one in free) for device in devices)
 
 
 def measure_direction(vector: complex, origin_deg: float = 0.0) -> float:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -79,15 +80,6 @@ class Residual(NamedTuple):
         """
         return self.parts[ResidualPart("moment", sense)]
 
-    @property
-    def roll(self) -> complex:
-        """Amplitude of the roll, kg m^2."""
-        return self.parts[ROLL]
-
-    def has(self, kind: PartKind, senses: Sequence[int]) -> bool:
-        """Return whether a part of this kind turns in one of these senses."""
-        return any(self.parts[ResidualPart(kind, sense)] for sense in senses)
-
     def size(self, *parts: ResidualPart) -> float:
         """Return the sum of the amplitudes of these parts at the engine's speed, N or N m."""
         return sum(abs(self.parts[part]) for part in parts) * self.newtons_per_kg_m
@@ -110,9 +102,8 @@ class Scales(NamedTuple):
 def find_scales(engine: Engine) -> Scales:
     """Return the scales of an engine at its speed; of geared engines the largest."""
     if engine.placed:
-        return Scales(
-            *map(max, zip(*(find_scales(one.engine) for one in engine.cranks), strict=True))
-        )
+        each = (find_scales(one.engine) for one in engine.cranks)
+        return Scales(*map(max, zip(*each, strict=True)))
     radius = np.ravel(engine.cylinders.radius).astype(float)
     masses = np.array([float(each.reciprocating) for each in engine.weighed])
     z = np.ravel(engine.cylinders.z)
@@ -207,40 +198,30 @@ def choose_residual(
     if "moment" in kinds and not engine.places_known:
         raise BalcliError(MOMENTS_UNKNOWN)
     what = f"{' or '.join(kinds)}{' turning against the crank' * (tuple(senses) == (-1,))}"
+    sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
     if options.order is None:
-        return _find_lowest(engine, options, kinds, senses, what)
+        return _find_lowest(engine, options, sought, what)
     residual = find_residual(engine, options.order)
-    if any(residual.has(kind, senses) for kind in kinds):
+    if any(residual.parts[part] for part in sought):
         return residual
-    rest = _tell_rest(residual, kinds, senses)
     with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: {'; '.join(['nothing to balance', *rest])}",
+        f"order {options.order} has no free {what}: nothing to balance",
         **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
 
 def _find_lowest(
-    engine: Engine,
-    options: SchemeOptions,
-    kinds: Sequence[PartKind],
-    senses: Sequence[int],
-    what: str,
+    engine: Engine, options: SchemeOptions, sought: Sequence[ResidualPart], what: str
 ) -> Residual:
-    """Return the residual of the lowest order with a part of these kinds that is not small."""
-    scales, least = find_scales(engine), options.read_small()
-    sought = [ResidualPart(kind, sense) for kind in kinds for sense in senses]
-    found = []
+    """Return the residual of the lowest order with a part of these that is not small."""
+    scales, least, found = find_scales(engine), options.read_small(), list[Residual]()
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
-        residual = find_residual(engine, order)
-        share = max(find_share(residual, part, scales) for part in sought)
-        if not is_small(share, least):
-            return residual
-        found.append((share, residual))
-    share, largest = max(found, key=lambda one: one[0])
-    if share:
-        residuals = [residual for _, residual in found]
-        raise OnlySmallError(tell_small(largest, sought, residuals, scales, least))
+        found.append(find_residual(engine, order))
+        if not is_small(max(find_share(found[-1], part, scales) for part in sought), least):
+            return found[-1]
+    if any(residual.parts[part] for residual in found for part in sought):
+        raise OnlySmallError(tell_small(sought, found, scales, least))
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
         "--order names a higher one"
@@ -248,39 +229,33 @@ def _find_lowest(
 
 
 def tell_small(
-    largest: Residual,
-    sought: Sequence[ResidualPart],
-    found: Sequence[Residual],
-    scales: Scales,
-    least: float,
+    sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
 ) -> str:
     """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
-    which scheme cancels the largest part of all.
+    which scheme cancels the largest part of all, if possible one that turns the same way.
 
     Args:
-        largest: Residual of the order with the largest part that the scheme cancels.
         sought: Parts that the scheme cancels.
         found: Residuals of all orders.
         scales: Force, moment and roll of one cylinder.
         least: Share of one cylinder below which a part is small.
     """
-    part = max(sought, key=lambda one: find_share(largest, one, scales))
+
+    def find_size_of(each: tuple[Residual, ResidualPart]) -> float:
+        return find_share(*each, scales)
+
+    one, part = max(product(found, sought), key=find_size_of)
     told = (
-        f"the largest {part.kind} {_turning(part)} is {_tell_size(largest, part)} "
-        f"(order {largest.order}), small compared with one cylinder's; "
-        f"--order {largest.order} fits it"
+        f"the largest {part.kind} {tell_sense(part.sense)} is {_tell_size(one, part)} "
+        f"(order {one.order}), small compared with one cylinder's; --order {one.order} fits it"
     )
-    every = [
-        (find_share(one, part, scales), one, part)
-        for one in found
-        for part in (*FORWARD, *BACKWARD)
-        if not is_small(find_share(one, part, scales), least)
-    ]
-    if not every:
+    every = product(found, (*FORWARD, *BACKWARD))
+    large = [each for each in every if not is_small(find_size_of(each), least)]
+    if not large:
         return told
     senses = {part.sense for part in sought}
-    alike = [each for each in every if each[2].sense in senses]
-    _, one, part = max(alike or every, key=lambda each: each[0])
+    alike = [each for each in large if each[1].sense in senses]
+    one, part = max(alike or large, key=find_size_of)
     ratio = part.sense * one.order
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes
@@ -288,25 +263,10 @@ def tell_small(
     return f"{told}. {takes} cancels the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
 
 
-def _turning(part: ResidualPart) -> str:
-    return "with the crank" if part.sense > 0 else "against the crank"
+def tell_sense(sense: int) -> str:
+    """Return a sense of rotation in words."""
+    return "with the crank" if sense > 0 else "against the crank"
 
 
 def _tell_size(residual: Residual, part: ResidualPart) -> str:
     return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
-
-
-def _tell_rest(residual: Residual, kinds: Sequence[PartKind], senses: Sequence[int]) -> list[str]:
-    """Return the other parts of an order, and the schemes that cancel them."""
-    if 1 in senses:
-        far = "couple-shaft, or compensator with --order and --position far from the engine"
-        takes: dict[PartKind, str] = {"moment": far, "force": "two-shaft"}
-        others = [kind for kind in takes if kind not in kinds and residual.has(kind, senses)]
-        return [f"it has a free {kind}: {takes[kind]}" for kind in others]
-    rest = []
-    if forward := [part.kind for part in FORWARD if residual.parts[part]]:
-        cure = "the scheme counterweights" if residual.order == 1 else "two-shaft, couple-shaft"
-        rest.append(f"its {' and '.join(forward)} turning with the crank: {cure}")
-    if "moment" not in kinds and residual.has("moment", senses):
-        rest.append("its moment turning against the crank: eccentrics in two planes")
-    return rest

@@ -28,7 +28,6 @@ from .options import SchemeOptions
 from .planes import (
     as_millimetres,
     choose_plane,
-    find_length,
     locate_force,
     read_two_planes,
 )
@@ -37,6 +36,7 @@ from .residual import (
     BACKWARD,
     FORCE,
     MOMENT,
+    ROLL,
     NothingToBalanceError,
     OnlySmallError,
     Residual,
@@ -70,12 +70,10 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "single-shaft", residual.order)
     if residual.order == 1:
         fitting = add_at_ends(fitting, residual)
-    planes: tuple[float, ...]
-    if two:
-        planes, stays = read_two_planes(engine, options), ""
-    else:
-        planes = (choose_plane(engine, options, residual, -1),)
-        stays = tell_moment(residual, -1, planes[0], "eccentrics in two planes cancel")
+    planes: tuple[float, ...] = read_two_planes(engine, options) if two else ()
+    planes = planes or (choose_plane(engine, options, residual, -1),)
+    cure = "eccentrics in two planes cancel"
+    stays = "" if two else tell_moment(residual, -1, planes[0], cure)
     slots = [Slot("shaft", residual.order, -1, z, options.read_place()) for z in planes]
     reason = explain_shaft(residual, -1, len(slots), stays)
     fitting = fitting.cancel(slots, BACKWARD[: len(slots)], reason)
@@ -126,7 +124,7 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     if residual.order == 1:
         fitting = fitting.balance_rotating()
         residual = fitting.find_residual(1)
-        if not residual.has("force", (1, -1)):  # no reciprocating mass: counterweights suffice
+        if not residual.size(*FORCE):  # no reciprocating mass: counterweights suffice
             return fitting.remedy
     return _add_pair(fitting, residual, options).remedy
 
@@ -149,10 +147,7 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     if not moment:
         raise NothingToBalanceError(f"Order {order} has no moment; nothing to compensate")
     forces = _place_forces(-moment, places, residual.reference.z)
-    low, high = find_length(engine)
-    inside = [f"z = {1e3 * z:g} mm" for z in places if low <= z <= high]
-    note = f"Compensators are usually far from the engine; {' and '.join(inside)} is within it"
-    fitting = Fitting.start(engine, "compensator", order, note * (len(inside) == len(places)))
+    fitting = Fitting.start(engine, "compensator", order)
     for z, force in forces.items():
         slots = [
             Slot("shaft", order, sense, z, options.read_place(), role="compensator")
@@ -201,8 +196,7 @@ def size_four_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     least = options.read_small()
     forces = [one for one, size in zip(residuals, sizes, strict=True) if not is_small(size, least)]
     if not forces and any(sizes):
-        largest = residuals[sizes.index(max(sizes))]
-        raise OnlySmallError(tell_small(largest, FORCE, residuals, scales, least))
+        raise OnlySmallError(tell_small(FORCE, residuals, scales, least))
     if not forces:
         raise NothingToBalanceError("there is no free force of orders 1 and 2: nothing to balance")
     for residual in forces:
@@ -257,7 +251,7 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
         return {-1: (at[0],), 1: (at[1],)}
     here = residual.reference.place  # the roll to cancel is that about the crank axis
     moved = here.conjugate() * forward - here * backward.conjugate()
-    wanted = 1j * residual.roll + moved if options.roll else 0j
+    wanted = 1j * residual.parts[ROLL] + moved if options.roll else 0j
     against = at[0] if at else -wanted * backward / (abs(forward) ** 2 + abs(backward) ** 2)
     with_crank = (wanted + against * backward.conjugate()) / forward
     return {-1: (against,), 1: (with_crank.conjugate(),)}

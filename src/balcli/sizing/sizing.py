@@ -48,10 +48,6 @@ from .shafts import (
 )
 from .single_cylinder import size_eccentric_slider, size_oldham
 
-_NO_CARRIER = (
-    "What turns against the cranks stays, for no crank turns so and could carry it: shafts (auto) "
-    "take it"
-)
 _OF_ONE_CRANK = ("minimax", "ellipse", "eccentric-slider", "oldham")
 
 
@@ -83,9 +79,6 @@ def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     remedy = fitting.remedy
     if not remedy.devices and not remedy.note:  # only negligible weights
         raise NothingToBalanceError(_tell_not_needed(engine))
-    against = any(residual.parts[part] for part in BACKWARD)
-    if engine.placed and against and find_carrier(engine, -1) is None:
-        return remedy._replace(note=_NO_CARRIER)
     return remedy
 
 

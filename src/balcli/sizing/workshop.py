@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import count
 from typing import NamedTuple
 
@@ -62,8 +61,7 @@ class Shapes(NamedTuple):
     sector: tuple[float, ...] | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class Practical:
+class Practical(NamedTuple):
     """The workshop's figures of a device.
 
     Attributes:

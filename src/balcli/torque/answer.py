@@ -88,7 +88,7 @@ def analyze_torque_of_engine(
     curves = find_torque_curves(steady)
     above, omega = surplus(curves.total), float(engine.omega)
     imep = gas.work / float(engine.displacement_m3)
-    efficiency, silent = engine.mechanical_efficiency, engine.silent
+    efficiency = engine.mechanical_efficiency
     pressures = (t.pressure for t, rows in gas.group_equal() if gas.shares[rows].any())
     tops = map(find_highest, filter(None, pressures))
     highest = max(tops, key=lambda extreme: extreme.value, default=None)
@@ -99,8 +99,8 @@ def analyze_torque_of_engine(
     each = zip(spectra.orders, list_torques(spectra), list_torques(single), strict=True)
     return TorqueAnalysis(
         speed_rpm=float(engine.speed_rpm),
-        no_gas_in=silent.without_gas or None,
-        no_burning_in=silent.without_burning or None,
+        no_gas_in=engine.silent.without_gas or None,
+        no_burning_in=engine.silent.without_burning or None,
         assumed=engine.list_assumed("gas", "flywheel", without=idle),
         cycle_deg=gas.cycle_deg,
         imep_Pa=imep,
@@ -134,4 +134,3 @@ def analyze_torque_of_engine(
 
 analyze_torque = tell_arguments()(analyze_torque_of_engine)
 analyze_torque.__name__ = analyze_torque.__qualname__ = "analyze_torque"
-analyze_torque.__module__ = __name__  # where pickle finds it

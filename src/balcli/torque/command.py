@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..errors import BalcliError, warn
 from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
@@ -32,7 +30,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
-from ..shell.values import optional, parse_cylinder, read_inertia
+from ..shell.values import argument, optional, parse_cylinder, read_inertia
 from ..show.formats import Units
 
 if TYPE_CHECKING:
@@ -42,11 +40,7 @@ if TYPE_CHECKING:
 _NOTE = "by balcli torque"
 EngineFile = Annotated[
     str | None,
-    typer.Argument(
-        metavar="FILE",
-        help="Engine file with [gas] (TOML); - reads standard input. Not with --curve.",
-        show_default=False,
-    ),
+    argument("FILE", "Engine file with [gas] (TOML); - reads standard input. Not with --curve."),
 ]
 Fluctuation = Annotated[
     str | None, optional("1/200", "Also compute the inertia for this speed fluctuation; or 0.5%.")
@@ -106,8 +100,6 @@ def torque(
     require_ending(write, ".toml", "--write")
     if (path is None) == (curve is None):
         raise BalcliError("give an engine file, or --curve with a torque")
-    if path is not None and path.lower().endswith(".csv"):
-        raise BalcliError(f"{path}: an engine file ends in .toml; is it a torque, for --curve?")
     misplaced: dict[str, object] = {"--load": load, "--inertia": inertia}
     needed = "--curve; an engine file gives the inertia itself: [crank] inertia, [flywheel]"
     if curve is not None:

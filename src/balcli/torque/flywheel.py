@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -25,8 +24,7 @@ from ..limits import FLUCTUATION, HIGHEST_RIPPLE_ORDER, MOST_RIPPLES, SMALLEST_F
 _WORTH = 1e-4  # orders of the speed below this share of the largest are left out
 
 
-@dataclass(frozen=True, kw_only=True)
-class Flywheel:
+class Flywheel(NamedTuple):
     """Inertia on the shaft and the resulting fluctuation of speed, as far as known.
 
     Attributes:
@@ -82,9 +80,7 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    course = resolved(
-        moving or np.zeros_like, torque.breaks
-    )  # quicker to evaluate than the mechanism
+    course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
@@ -92,19 +88,18 @@ def find_flywheel(
         if mean_speed is None:
             raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
         needed = needed_inertia(torque, mean_speed, fluctuation, course.at)
-        found = replace(found, needed_kg_m2=course.mean + needed)
+        found = found._replace(needed_kg_m2=course.mean + needed)
     if constant is None:
         return found
     mean = constant + course.mean
-    found = replace(found, inertia_kg_m2=mean)
+    found = found._replace(inertia_kg_m2=mean)
     if mean_speed is None:
         return found
     try:
         speed = speed_variation(torque, lambda angle: constant + course.at(angle), mean_speed)
     except StallError as error:
-        return replace(found, stall=str(error))
-    return replace(
-        found,
+        return found._replace(stall=str(error))
+    return found._replace(
         fluctuation=speed.fluctuation,
         fluctuation_small=small_fluctuation(surplus, mean, mean_speed),
         speed_max_rpm=speed.highest.value / RPM,

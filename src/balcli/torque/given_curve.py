@@ -68,10 +68,7 @@ def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
-        yield (
-            f"its period is {360 * turns:g} deg, neither whole turns nor an even share of two; the "
-            "last row closes the period: is it there?"
-        )
+        yield f"its period is {360 * turns:g} deg; is the last row there, which closes the period?"
 
 
 def analyze_curve(
@@ -147,10 +144,8 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
         )
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
         highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
-        raise BalcliError(
-            f"order {every[high[0]] / turns:g}: a period of {turns:g} turns has orders up to "
-            f"{highest:g}"
-        )
+        order = every[high[0]] / turns
+        raise BalcliError(f"order {order:g}: {turns:g} turns have orders up to {highest:g}")
     return every
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -48,8 +49,7 @@ class CycleLoad:
     pressure_Pa: float | None = None
 
 
-@dataclass(frozen=True, kw_only=True)
-class CycleLoads:
+class CycleLoads(NamedTuple):
     """Requested loads of pins and bearings.
 
     Attributes:

@@ -72,12 +72,6 @@ class PlannedNode(NamedTuple):
     damping: float = 0.0
     further: tuple[Damper, ...] = ()
 
-    @property
-    def dampers(self) -> tuple[Damper, ...]:
-        """All dampers of the node."""
-        own = self.table.damper
-        return self.further if own is None else (own, *self.further)
-
 
 class PlannedShaft(NamedTuple):
     """A shaft between two nodes (their indices) and its table, in the units of the file; `ratio` is
@@ -155,12 +149,10 @@ def _place_dampers(
 ) -> Iterator[tuple[int, Damper]]:
     """Yield the number of a node and a damper that it carries, for all dampers."""
     for k, node in enumerate(planned):
-        dampers: tuple[Damper | None, ...] = node.dampers
+        dampers = list(filter(None, (node.table.damper, *node.further)))
         if node.table.name in fitted:
-            dampers = fitted[node.table.name], *dampers[1:]
-        for damper in dampers:
-            if damper is not None:
-                yield k, damper
+            dampers[:1] = filter(None, [fitted[node.table.name]])
+        yield from ((k, damper) for damper in dampers)
 
 
 def _find_stress(table: ShaftKeys) -> float:
@@ -243,7 +235,7 @@ def _tell_apart(names: Sequence[str]) -> Iterator[str]:
 def _excite(file: ChainFile, index: dict[str, int], orders: Real | None) -> Excitation | None:
     if not file.excitation:
         return None
-    given, row = np.unique([each.order for each in file.excitation], return_inverse=True)
+    given, row = np.unique([float(each.order) for each in file.excitation], return_inverse=True)
     nodes = [index[each.node] for each in file.excitation]
     sources, column = np.unique(nodes, return_inverse=True)
     steady = np.zeros((len(given), len(sources)), complex)

@@ -12,28 +12,15 @@ from typing import Annotated
 from pydantic import Field
 
 from ..errors import Problem
-from ..file.fields import Number, printable, shorten, suggest_nearest
+from ..file.fields import Number, Whole, printable, shorten, suggest_nearest
 from ..file.messages import CHAIN
 from ..file.read import TableReader
 from ..file.table import FileTable, Name
 from ..file.torsion_tables import ChainKeys, Damping, NodeKeys, ShaftKeys, SpeedRatio
-from ..file.units import PLAIN, TORQUE
+from ..file.units import TORQUE
 from ..limits import HIGHEST_TORSION_ORDER, MOST_LIST_VALUES, MOST_TORSION_NODES
 
 Torque = Annotated[float, Number(TORQUE, most=1e18)]
-
-
-class _HalfOrder(Number):
-    """An order: a multiple of 1/2."""
-
-    def read(self, value: object) -> float:
-        order = super().read(value)
-        if 2 * order != round(2 * order):
-            raise ValueError(
-                f"{order:g} is no order that can be added up over two turns of the first node; "
-                "give a multiple of 0.5"
-            )
-        return order
 
 
 class Node(NodeKeys):
@@ -58,19 +45,16 @@ class Gear(FileTable):
         alias="from", examples=["pinion"], description="name of the node that drives"
     )
     to: Name = Field(examples=["wheel"], description="name of the node that is driven")
-    ratio: SpeedRatio = Field(
-        examples=[-0.5],
-        description="speed of `to` over speed of `from`; negative: they turn against each other",
-    )
+    ratio: SpeedRatio
+    """Speed of `to` over speed of `from`; negative: they turn against each other. Example: -0.5"""
 
 
 class Excitation(FileTable):
     """A torque on a node, `cos * cos(n t) + sin * sin(n t)`; t is the angle of the first node."""
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
-    order: Annotated[float, _HalfOrder(PLAIN, above=0, most=HIGHEST_TORSION_ORDER)] = Field(
-        examples=[1.5], description="how often in a turn of the first node; a multiple of 0.5"
-    )
+    order: Annotated[float, Whole(least=0.5, most=HIGHEST_TORSION_ORDER, halves=True)]
+    """How often in a turn of the first node; a multiple of 0.5. Example: 1.5"""
     cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
     sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
 
@@ -79,9 +63,8 @@ class ChainFile(ChainKeys):
     """Inertias on shafts and gears, and excitations."""
 
     name: Name | None = Field(None, examples=["pump drive"], description="what to call it")
-    fixed: tuple[Name, ...] = Field(
-        (), examples=[["hull"]], max_length=MOST_TORSION_NODES, description="nodes that are clamped"
-    )
+    fixed: Annotated[tuple[Name, ...], Field(max_length=MOST_TORSION_NODES)] = ()
+    """Nodes that are clamped. Example: ['hull']"""
     node: tuple[Node, ...] = Field(examples=[], description="the nodes; the first gives the speed")
     shaft: tuple[ChainShaft, ...] = Field((), examples=[], description="the shafts between them")
     gear: tuple[Gear, ...] = Field((), examples=[], description="meshes of gears between them")

@@ -14,7 +14,7 @@ from ..shell.inputs import warn_each
 from ..shell.options import FormatOption, Misfire, Output, UnitsOption
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_figure, write_file
 from ..shell.progress import reporting
-from ..shell.values import optional
+from ..shell.values import argument, optional
 from ..show.formats import Units
 from ..show.units import SYSTEMS
 
@@ -22,10 +22,8 @@ from ..show.units import SYSTEMS
 def torsion(
     path: Annotated[
         str,
-        typer.Argument(
-            metavar="FILE",
-            help="Engine file with [torsion], or a chain of shafts; - reads standard input.",
-            show_default=False,
+        argument(
+            "FILE", "Engine file with [torsion], or a chain of shafts; - reads standard input."
         ),
     ],
     speeds: Annotated[
@@ -92,8 +90,7 @@ def torsion(
     with reporting("work") as tell:
         result = answer.answer_question(source, asked, tell)
     sized = result.damper
-    if sized is not None:
-        warn_each(sized.doubts or (), "--damper")
+    warn_each((sized and sized.doubts) or (), "--damper")
     warn_each(result.doubts, name_file(path))
     if write is not None and sized is not None:
         refuse_leaving_files(source.text, path, write)

@@ -30,9 +30,8 @@ from .build import (
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .system import TorsionalSystem
 
-_SMALL = (
-    1.0  # kg mm2 or mm; smaller figures are unlikely (a 10 mm steel disc, 10 mm thick: 0.08 kg mm2)
-)
+# kg mm2 or mm; smaller figures are unlikely (a 10 mm steel disc, 10 mm thick: 0.08 kg mm2).
+_SMALL = 1.0
 
 
 class Source(NamedTuple):

@@ -262,22 +262,21 @@ def find_response(
     there, _ = compute_curves(system, at[: len(curves)])
     by_order = np.abs(there[:, curves, curves])  # of each curve where it is largest
     named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
-    shafts = []
-    for k, name in enumerate(system.shafts):
-        worst = WorstTorque(
-            speed_rpm=float(at[k]),
-            half_peak_to_peak_Nm=float(value[k]),
-            stress_Pa=float(value[k] * stress[k]) if stress[k] else None,
-            orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
-        )
-        shaft = ShaftResponse(
+    shafts = tuple(
+        ShaftResponse(
             name=name,
             half_peak_to_peak_Nm=swings[:, k],
             sum_of_amplitudes_Nm=sums[:, k],
             stress_Pa=swings[:, k] * stress[k] if stress[k] else None,
-            worst=worst,
+            worst=WorstTorque(
+                speed_rpm=float(at[k]),
+                half_peak_to_peak_Nm=float(value[k]),
+                stress_Pa=float(value[k] * stress[k]) if stress[k] else None,
+                orders=tuple(map(OrderTorque, named_orders, by_order[:, k].tolist())),
+            ),
         )
-        shafts.append(shaft)
+        for k, name in enumerate(system.shafts)
+    )
     degrees, worst_deg = np.degrees(swings), np.degrees(value).tolist()
     pendulums = []
     for k, each in enumerate(system.pendulums, end + 1):
@@ -290,7 +289,7 @@ def find_response(
     return TorsionResponse(
         speeds_rpm=speeds_rpm,
         imep_Pa=None if excitation.gas is None else excitation.gas.imep(speeds_rpm),
-        shafts=tuple(shafts),
+        shafts=shafts,
         free_end_deg=degrees[:, end],
         free_end_worst=WorstSwing(float(at[end]), worst_deg[end]),
         dampers=dampers or None,

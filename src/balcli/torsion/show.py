@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.records import Figure, Node, list_figures, list_series, remove_unit, to_document
+from ..core.records import IN_CSV, Figure, Node, list_figures, list_series, remove_unit, to_document
 from ..core.vibration import Real
 from ..show.engine_facts import list_silent
 from ..show.formats import Renderer, Rows, name_cell
@@ -58,17 +58,10 @@ def rows(result: TorsionAnalysis, system: System) -> Rows:
 
 
 def _choose_units(system: System) -> dict[str, ShownUnit]:
-    """Return the units of `system` that replace SI units in CSV."""
-    return {
-        "kg m2": system.inertia,
-        "N m s/rad": system.torsional_damping,
-        "N m/rad": system.torsional_stiffness,
-        "kg": system.mass,
-        "m": system.length,
-        "Pa": system.stress,
-        "N m": system.moment,
-        "W": system.heat,
-    }
+    """Return the units of `system` that replace SI units in CSV, by the names in CSV."""
+    names = (*System._fields, "torsional_damping", "torsional_stiffness")
+    units = {getattr(SI, name).name.translate(IN_CSV): getattr(system, name) for name in names}
+    return units | {"m": system.length}
 
 
 def _convert(line: Line, units: dict[str, ShownUnit]) -> Line:
