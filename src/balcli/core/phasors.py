@@ -201,7 +201,7 @@ class Phasors:
         angle = np.degrees((np.angle(self.forward) + np.angle(self.backward)) / 2)
         turned = wrap_degrees(angle, 180)
         # Rounding must not flip an axis from 90 to -90 degrees.
-        turned = np.where(turned < 1e-9 - 90, 90.0, turned)
+        turned = np.where(turned < 1e-6 - 90, 90.0, turned)
         there = (self.forward != 0) & (self.backward != 0)
         return np.where(there, turned, np.nan)
 

@@ -132,7 +132,7 @@ def compute_inner_loads(engine: Engine, orders: Array | None = None) -> InnerLoa
     """
     every = merge_orders(find_relevant_orders(engine), [1, 2] if orders is None else orders)
     loads, z = compute_loads(engine, every)
-    sections = np.unique(z)
+    sections = list_places(z)
     ahead = find_ahead(z, sections)
     sizes = ahead * (np.abs(z) + np.abs(sections[:, None]))  # of the terms of the arms
     shear = _sum_weighted(loads, ahead, ahead)
@@ -172,7 +172,7 @@ def place_bearings(throws_m: Array) -> Array | None:
     """Return positions of main bearings, half-way between throws and as far outside the end throws,
     m, shape (bearings,); None if all throws have the same position.
     """
-    places = np.unique(throws_m)
+    places = list_places(throws_m)
     if len(places) < 2:
         return None
     between = (places[1:] + places[:-1]) / 2
@@ -203,6 +203,11 @@ def compute_loads(engine: Engine, orders: Array) -> tuple[Phasors, Array]:
     more = [compute_device_force(engine, device, orders) for device in counterweights]
     places = [*np.ravel(engine.cylinders.z), *(device.z for device in counterweights)]
     return join_places([each, *more]), np.array(places, float)
+
+
+def list_places(z: Array) -> Array:
+    """Return the different positions, ascending (`numpy.unique` would load `numpy.ma`)."""
+    return np.array(sorted(set(z.tolist())))
 
 
 def _sum_weighted(loads: Phasors, weights: Array, size: Array) -> Phasors:
@@ -292,7 +297,7 @@ def compute_loads_with_gas(engine: Engine, orders: Array | None = None) -> Loads
     samples = compute(panels.angles)
     on_shaft, on_block = _place_forces(engine)
     shares = share_by_lever(on_shaft, span)
-    sections = np.unique(np.concatenate([on_shaft, on_block, span]))
+    sections = list_places(np.concatenate([on_shaft, on_block, span]))
     reach = 2 * float(np.abs(sections).max())  # bound of the terms of the arms
 
     largest = float(np.abs(samples).max(axis=1).sum())

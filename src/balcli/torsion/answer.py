@@ -38,6 +38,7 @@ from .response import TorsionResponse, find_barred, find_response
 from .system import TorsionalSystem
 
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
+BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
 _ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
 
 
@@ -173,8 +174,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of shafts without inertia, of speeds without gas, and of pendulums that swing
-        too far for the linear model.
+        """Warnings of shafts without inertia, of speeds without gas, of pendulums that swing too
+        far for the linear model, and of a stress that breaks a shaft.
         """
         if self.response is None:
             return self.system.doubts
@@ -200,6 +201,13 @@ def _find_doubts(response: TorsionResponse) -> Iterator[str]:
                 f"{wide / WIDE_SWING:.3g} times their mass would limit the swing to about "
                 f"{WIDE_SWING:.0f} deg"
             )
+    hardest = max(response.shafts, key=lambda each: each.worst.stress_Pa or 0.0, default=None)
+    if hardest is not None and (stress := hardest.worst.stress_Pa or 0.0) > BREAKING:
+        yield (
+            f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
+            f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; check the damping "
+            "(loss, damping) of all shafts and nodes"
+        )
 
 
 def answer_question(

@@ -22,9 +22,7 @@ from ..show.units import SYSTEMS
 def torsion(
     path: Annotated[
         str,
-        argument(
-            "FILE", "Engine file with [torsion], or a chain of shafts; - reads standard input."
-        ),
+        argument("FILE", "Engine file with [torsion], or a chain file; - reads standard input."),
     ],
     speeds: Annotated[
         str | None,
