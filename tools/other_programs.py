@@ -24,21 +24,23 @@ writes this page.
 
 ## Free forces and moments: Exudyn
 
-[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. Every example engine
-is built there of its parts: a crankshaft that a drive turns at constant speed, rods and pistons with
-their joints and guides, balancer shafts, all on a frame that one joint holds. Its motion is computed
-in {fewest} to {most} time steps a revolution and extrapolated to a step of zero. The orders 0 to
-{highest} of force and moment on that joint, and of the torque of the drive, are those of `balcli
-analyze`. The table has the largest difference, as a share of the largest order of its group (of a
-thousandth of one cylinder's force or moment, if that is larger), rounded up to a power of ten.
+[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. Every example
+engine is built there of its parts: a crankshaft that a drive turns at constant speed, rods and
+pistons with their joints and guides, balancer shafts, all on a frame that one joint holds. Its
+motion is computed in {fewest} to {most} time steps a revolution and extrapolated to a step of zero.
+Orders 0 to {highest} of force and moment on that joint, and of the torque of the drive, are
+compared with `balcli analyze`. The table has the largest difference, as a share of the largest
+order of its group (of a thousandth of one cylinder's force or moment, if that is larger), rounded
+up to a power of ten.
 
 {engines}
 
 ## Torsional vibration: openTorsion
 
-[openTorsion](https://github.com/Aalto-Arotor/openTorsion) {opentorsion} computes natural frequencies
-(differences relative to each), shapes of modes, damped poles, and the torque in every shaft over a
-range of speeds. A dash marks what a chain does not have: openTorsion has no poles with loss factors.
+[openTorsion](https://github.com/Aalto-Arotor/openTorsion) {opentorsion} computes natural
+frequencies (differences relative to each), shapes of modes, damped poles, and the torque in every
+shaft over a range of speeds. A dash marks what is not compared: openTorsion has no poles with loss
+factors.
 
 {chains}
 """
@@ -59,7 +61,7 @@ def _lay_out(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
 def write_page() -> str:
     """Return the page of the documentation."""
     engines = [
-        (each.file, *map(_write, each[2:5])) if not each.reason else (each.file, each.reason, "", "")
+        (each.file, *([each.reason, "", ""] if each.reason else map(_write, each[2:5])))
         for each in compare_engines()
     ]
     chains = [
