@@ -58,7 +58,7 @@ def test_a_bank_that_no_angle_makes_even():
 def test_an_engine_without_articulated_rods():
     with pytest.raises(BalcliError) as caught:
         even_knuckles(enginefile.parse(RADIAL[: RADIAL.index("[articulation]")]))
-    assert str(caught.value) == "knuckles: this engine has no articulated rods whose crank turns"
+    assert str(caught.value) == "knuckles: needs articulated rods, and a crank that turns"
 
 
 # ------------------------------------------------------------------ the command

@@ -52,7 +52,7 @@ GUIDES = (
 LEFT = {
     kind: kind._replace(
         name=f"{kind.name} with devices",
-        label=f"{kind.label} with the devices of auto",
+        label=f"{kind.label} with the devices of scheme auto",
         key=f"with_devices_{kind.key}",
     )
     for kind in VECTORS
@@ -270,7 +270,7 @@ def _list_sizes(
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
-    """Return guide moments of inertia and gas if all engines have gas, else of inertia only."""
+    """Return the guide moments by inertia and gas if all engines have gas, else by inertia."""
     found = [one.guide for one in analyses]
     known = [guide for guide in found if guide is not None]
     if len({guide.with_gas for guide in known}) < 2:
@@ -389,7 +389,8 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
     """Return the orders that are not small compared with the largest or with one cylinder, and the
-    peak; empty if all are 0. Low orders are kept if those of an engine are not known.
+    peak; empty if all are 0. Orders to 2 and the peak are kept if their values are not known for an
+    engine.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
     return [

@@ -343,10 +343,11 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     refuse_geared(engine)
     c, linkage = engine.cylinders, engine.cylinders.linkage
     if not isinstance(linkage, Articulated) or engine.rotary:
-        raise BalcliError("knuckles: this engine has no articulated rods whose crank turns")
+        raise BalcliError("knuckles: needs articulated rods, and a crank that turns")
     if len(set(Parts(model).find_master_places())) > 1:
         raise BalcliError(
-            "knuckles: one list of angles needs the master rods of all rows in the same bank"
+            "knuckles: the master rods of all rows must be in the same bank, because the file has "
+            "one list of knuckle angles for all rows"
         )
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
@@ -475,7 +476,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
     base = remedy.start or build(model)
     if remedy.start is not None and remedy.start.model is not None:
         weights = remedy.start.model.counterweight
-        first = Remedy(remedy.scheme).add_devices(weights, "what the measured mass stands for")
+        first = Remedy(remedy.scheme).add_devices(weights, "on the crank, by the measured mass")
         old = _insert_devices(remove_tables(old, "counterweight"), first)
     new = _insert_devices(old, remedy)
     if build(parse(new, file)).devices != fit_devices(base, remedy).devices:

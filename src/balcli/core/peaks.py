@@ -269,9 +269,9 @@ def find_highest(
     """Return place and height of the maximum of each function, shape (functions,). A maximum may
     lie between the given places.
 
-    An interval between neighbouring places is searched if it may contain the maximum: its higher
-    end is at least `near * level`, and the level is within reach: no farther above this end than
-    the function changes from place to place there.
+    An interval between neighbouring places is searched if its higher end is at least `near *
+    level`, and if the level is above this end by at most the largest change of the function over
+    this interval and the two beside it.
 
     Args:
         judge: The functions, as in `find_peaks_between`.
@@ -300,8 +300,8 @@ def find_peaks_between(
     interval no wider than the peak. The search ends early in intervals that do not contain it.
 
     Each interval is cut into eighths. Every peak among these places that may be the highest is
-    enclosed in a smaller interval, which is cut again; the last place is the vertex of a parabola.
-    A peak that is narrower than an eighth may be missed.
+    enclosed in a smaller interval, which is cut again. The vertex of a parabola through the last
+    three places is the peak. A peak that is narrower than an eighth may be missed.
 
     Args:
         judge: Function that returns the values of some functions. Its arguments are places, shape

@@ -65,7 +65,7 @@ class Influence(NamedTuple):
             without such a run.
         start: Readings to be corrected, shape (readings,): readings with the weights
             `weights_on`, computed from `latest` at speeds whose last run had other weights.
-        factors: Factor of each reading in the sum or maximum, shape (readings,).
+        factors: Factor of each reading in what is minimised, shape (readings,).
         trimmed: Name of the last correction run at any speed; empty if there is none.
         weights_on: Weights on the rotor in that run, shape (planes,); 0 if there is none.
     """
@@ -263,10 +263,10 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
         lacking.insert(0, "of the rotor as found, without weights")
     if not lacking:
         named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
-        lacking = [f"in which the trial weights in {join_words(named)} are apart"]
+        lacking = [f"in which the weights in {join_words(named)} differ in ratio, or one alone"]
     return Problem(
         "run",
-        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} that differ "
-        f"are needed, and {len(series.numbers)} are here: one as found, and one for each plane; "
-        "or give influence, or leave a plane out (--without)",
+        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} with "
+        "different weights are needed (one as found, and one for each plane), and there "
+        f"are {len(series.numbers)}; or give influence, or leave a plane out (--without)",
     )

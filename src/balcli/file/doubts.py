@@ -48,8 +48,8 @@ PRESSURES = {
 # with counterweights, weighs 4 to 10 times as much as the rods and pistons.
 THROW = 6.0
 BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
-# Doubtful range of the largest throw angle, deg. Cranks have 60 or more, or 0; lists such as
-# [1, 3, 4, 2] and angles in radians have 1 to 10.
+# Doubtful range of the largest difference of two throw angles, deg. Cranks have 60 or more, or 0;
+# lists such as [1, 3, 4, 2] and angles in radians have 1 to 10.
 THROWS = 1.0, 10.0
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
 # Least inertia of a crankshaft or flywheel, as a share of that of rods and pistons at the crank

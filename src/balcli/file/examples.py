@@ -132,8 +132,8 @@ ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "
 KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
 SCHEMA = (
     "#:schema balcli.schema.json\n"
-    "# Editors that know TOML check and complete what you type, with that file here: "
-    "`balcli schema -o balcli.schema.json`\n\n"
+    "# Editors for TOML check and complete what you type by that file; "
+    "`balcli schema -o balcli.schema.json` writes it\n\n"
 )
 _FOLDER = Path(__file__).with_name("starting_files")
 

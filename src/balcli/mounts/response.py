@@ -44,7 +44,7 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # speeds added around a resonance / its width
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds, from a resonance, in its widths
 RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
 _PART = 0.25  # a resonance is reported if it has this share of the largest order
 _AT = 1e-9  # relative difference below which speeds are equal

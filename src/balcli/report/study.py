@@ -51,12 +51,12 @@ class Banks(NamedTuple):
 
     def find_radii(self) -> tuple[Array, Array, Array]:
         """Return the radii at which a forward and a backward shaft cancel the force without a roll
-        moment, as shares of the longest radius, and their ratio; nan where no force turns with the
-        crank. Each has the shape (angles,).
+        moment, as shares of the longest radius, and their ratio, which is nan where no force turns
+        with the crank. Each has the shape (angles,).
 
         Radii are inversely proportional to the forces. Their sign is Liu's: above 0, one shaft is
-        above and one below the crank on the same side of the middle plane; below 0, both are at the
-        same height on opposite sides (docs/theory.md).
+        above and one below the crank on the same side of the middle plane; below 0, both are above
+        or both below it, on opposite sides (docs/theory.md).
         """
         forward, backward = self.force.forward[0], self.force.backward[0]
         alike = forward * backward * unit(-2 * self.middle_deg)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 FINE = np.radians(np.arange(361))  # crank angles at which one order is drawn
-_ORDER_ANGLE = 36  # order * crank angle, deg, at which both vectors are drawn apart
+_ORDER_ANGLE = 36  # order * crank angle, deg, at which both vectors are drawn
 _BOX: Look = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
@@ -226,7 +226,9 @@ def draw_order(
 _BANKS = (BLUE, RED, GREEN, SOFT)
 _WAYS = {"forward": "with the crank", "backward": "against it"}
 _SAME = 1e-6  # vectors whose directions differ by less are parallel
-_BESIDE = 0.07  # distance of a number from its vector, and of vectors that run back, over the side
+# Distance of a number from its vector, and of a vector that runs back from the one before it, as a
+# share of half the side of the picture.
+_BESIDE = 0.07
 
 
 def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
@@ -310,15 +312,15 @@ def _look(bank: int, banks: int) -> Look:
 
 
 def _set_up_square(ax: Axes, middle: complex, limit: float) -> None:
-    """Make the axes an invisible square about its middle, with half its side."""
+    """Make the axes an invisible square: its centre, and half its side."""
     ends = np.array([-limit, limit])
     ax.set(aspect="equal", xlim=middle.imag + ends, ylim=middle.real + ends)
     ax.set_axis_off()
 
 
 def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) -> None:
-    """Write each number beside its place, in the direction of its second figure; where places lie
-    close together, the numbers stand side by side.
+    """Write each number (place, shift and text) at its place plus its shift; where these lie close
+    together, the numbers stand side by side.
     """
     found: dict[complex, tuple[complex, list[str]]] = {}
     for place, out, name in numbers:

@@ -72,8 +72,8 @@ class Step:
         step: Name of the step.
         peak_force_N: Largest free force over a revolution, all orders added up.
         peak_moment_Nm: Largest free moment over a revolution; left out if positions are unknown.
-        main_bearing_N: Largest load of a main bearing by inertia; left out if all throws are in one
-            plane.
+        main_bearing_N: Largest load of a main bearing by inertia; left out if it is not known, or
+            if all throws have the same position along the crank.
         inner_moment_Nm: Largest bending moment of the crankshaft by inertia.
         counterweights: Number of new counterweights.
         shafts: Number of new shafts.

@@ -38,7 +38,8 @@ from .quantities import (
 )
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500  # default number of samples: as arrays, one by one
+# Default numbers of samples: of engines computed together as arrays, and one by one.
+RANDOM_ENGINES, RANDOM_SINGLES = 100_000, 500
 CHUNK, AT_ONCE = 8_192, 400_000  # largest numbers of samples and deviations computed at once
 _EQUAL = 1e-8  # effects that differ by less than this share of the largest are equal
 _ROUNDING = 1e-12  # changes below this share of a figure are rounding
@@ -335,7 +336,8 @@ def scatter(
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
     """Return the spread of free forces and moments when masses, rod lengths and throw angles vary,
-    and the tolerances that matter most. Quantities of mounts or torsion spread with stiffness.
+    and the tolerances that matter most. For quantities of mounts the stiffnesses of the mounts
+    vary; for torsion, those of shafts, and inertias and pistons.
 
     Args:
         engine: Engine, from `load`.

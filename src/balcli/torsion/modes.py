@@ -84,8 +84,8 @@ def _condense(
 def chain_loss(
     chain: Chain, damping: Damping, modes: Modes, attached: Complex | float = 0.0
 ) -> Real:
-    """Return the loss factor (modes,) of every mode: energy lost in a cycle over 2 pi times the
-    vibration energy; 0 for rigid modes.
+    """Return the loss factor (modes,) of every mode: energy lost in a cycle, divided by 2 pi
+    times the vibration energy; 0 for rigid modes.
 
     Args:
         attached: Complex inertias of dampers at the natural frequencies; they broadcast to (modes,
@@ -288,8 +288,8 @@ class Holzer(NamedTuple):
         angle: (nodes,) angle of each node, rad.
         torque: (nodes,) torque of its inertia, `J w^2 angle`, N m.
         total: (nodes,) torque of all inertias up to this node, carried by the shaft to the next.
-        stiffness: (nodes,) stiffness of the shaft to the next node at the node's own speed; 0 at
-            the last node.
+        stiffness: (nodes,) stiffness of the shaft to the next node, reduced to the speed of this
+            node; 0 at the last node.
         twist: (nodes,) twist of the shaft to the next node, total over stiffness.
         residual: torque that is left at the last node; 0 at a natural frequency. If the last node
             is clamped, the angle of the last row is 0 at a natural frequency instead.

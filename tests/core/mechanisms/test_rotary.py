@@ -88,7 +88,7 @@ def test_even_knuckles_are_not_for_rotary_engines():
     file = enginefile.parse(
         GNOME.format(layout="radial = 7", offset=0) + ARTICULATED.format(radius=48, length=184, cg=60)
     )
-    with pytest.raises(BalcliError, match="knuckles: this engine has no articulated rods whose crank turns"):
+    with pytest.raises(BalcliError, match="knuckles: needs articulated rods, and a crank that turns"):
         even_knuckles(file)
 
 
