@@ -14,6 +14,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from oracle.test_exudyn import HIGHEST, STEPS, compare_engines  # noqa: E402
 from oracle.test_torsion_programs import compare_chains  # noqa: E402
 
+WORDS = ("engine", "parts", "chain")  # columns of words; the others are numbers
 PAGE = ROOT / "docs" / "programs.md"
 TEXT = """\
 # How balcli compares with other programs
@@ -24,14 +25,14 @@ writes this page.
 
 ## Free forces and moments: Exudyn
 
-[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. Every example
-engine is built there of its parts: a crankshaft that a drive turns at constant speed, rods and
-pistons with their joints and guides, balancer shafts, all on a frame that one joint holds. Its
-motion is computed in {fewest} to {most} time steps a revolution and extrapolated to a step of zero.
-Orders 0 to {highest} of force and moment on that joint, and of the torque of the drive, are
-compared with `balcli analyze`. The table has the largest difference, as a share of the largest
-order of its group (of a thousandth of one cylinder's force or moment, if that is larger), rounded
-up to a power of ten.
+[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. Every example engine
+is built there of its parts: a crankshaft that a drive turns at constant speed, rods and pistons
+with their joints and guides, balancer shafts, all on a frame that one joint holds. Its motion is
+computed in {fewest} to {most} time steps a revolution and extrapolated to a step of zero. Orders 0
+to {highest} of force and moment on that joint, and of the torque of the drive, are compared with
+`balcli analyze`. Gas is left out: the comparison is of inertia. The table has the largest
+difference, as a share of the largest order of its group (of a thousandth of one cylinder's force or
+moment, if that is larger), rounded up to a power of ten.
 
 {engines}
 
@@ -40,7 +41,7 @@ up to a power of ten.
 [openTorsion](https://github.com/Aalto-Arotor/openTorsion) {opentorsion} computes natural
 frequencies (differences relative to each), shapes of modes, damped poles, and the torque in every
 shaft over a range of speeds. A dash marks what is not compared: openTorsion has no poles with loss
-factors.
+factors. The torques that excite the throws of engines are balcli's own.
 
 {chains}
 """
@@ -54,14 +55,14 @@ def _write(difference: float | None) -> str:
 
 
 def _lay_out(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    marks = ("---", *["---:"] * (len(heads) - 1))
+    marks = ["---" if head in WORDS else "---:" for head in heads]
     return "\n".join(f"| {' | '.join(row)} |" for row in (heads, marks, *rows))
 
 
 def write_page() -> str:
     """Return the page of the documentation."""
     engines = [
-        (each.file, *([each.reason, "", ""] if each.reason else map(_write, each[2:5])))
+        (each.file, each.reason or each.compared, *map(_write, each[2:5]))
         for each in compare_engines()
     ]
     chains = [
@@ -75,7 +76,7 @@ def write_page() -> str:
         fewest=STEPS[0],
         most=STEPS[-1],
         highest=HIGHEST,
-        engines=_lay_out(("engine", "force", "moment", "couple, torque, roll"), engines),
+        engines=_lay_out(("engine", "parts", "force", "moment", "couple, torque, roll"), engines),
         chains=_lay_out(("chain", "modes", "frequency", "shape", "pole", "torque"), chains),
     )
 

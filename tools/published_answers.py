@@ -12,11 +12,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from support.published import CHAPTERS, Figure, Problem, load_problems  # noqa: E402
+from support.published import CHAPTERS, VERDICTS, Figure, Problem, load_problems  # noqa: E402
 
 DATA = ROOT / "src" / "balcli" / "books" / "data" / "published.csv"
 PAGE = ROOT / "docs" / "published.md"
-HEADS = ("chapter", "source", "title", "figure", "unit", "verdict", "remark", "answer", "balcli")
+HEADS = (
+    *("chapter", "source", "title", "address", "figure", "unit"),
+    *("verdict", "class", "remark", "printed", "balcli"),
+)
 NAMES = {
     "forces": "Free forces and moments, motion of pistons",
     "balancing": "Balancing",
@@ -26,13 +29,33 @@ NAMES = {
     "mounts": "Mounts and isolation",
     "field": "Balancing rotors",
 }
+WORDS = {
+    "agrees": "in all digits",
+    "rounded": "within rounding",
+    "definition": "by another definition",
+    "wrong": "wrong in the source",
+}
 INTRODUCTION = """\
 # How balcli compares with {figures} published answers
 
 {problems} problems of {works} books, papers, guides and pages have printed answers that balcli was
-asked for. Of {figures} figures, {agrees} agree within the digits of the print, {definition} follow
-another definition, and {misprint} are wrong in print. For each figure of the last two kinds, a
-second calculation without balcli gives the print by the other definition, or the right value.
+asked for. Of {figures} figures
+
+- {agrees} agree in all printed digits,
+- {rounded} agree within what the source rounded, or measured in a drawing
+  ([reasons](#within-the-rounding-of-the-source)),
+- {definition} follow [another definition](#other-definitions), such as two terms of a series,
+- {wrong} are [wrong in the source](#wrong-in-the-source); {code} of these come from the code of a
+  companion, not from its book.
+
+For each figure of the last two kinds, a second calculation without balcli gives the print by the
+other definition, or the right value. A FOSSEE companion is code for the examples of a book, whose
+output its authors compared with the book; half of the problems are read there.
+
+No printed answers were found for: rotary, articulated and geared engines, dampers and pendulums of
+torsion, and most schemes of `balance` (shafts, minimax, ellipse, compensators, couplings). For
+these, tests compare with other calculations and [other programs](programs.md), and with the tables
+of five texts (`balcli tables`).
 
 The files with all data and commands are in `tests/published`, and tests run them. `balcli tables
 published` lists the problems, with `--format csv` every figure."""
@@ -40,9 +63,9 @@ published` lists the problems, with `--format csv` every figure."""
 
 def list_rows(problem: Problem) -> list[tuple[str, ...]]:
     """Return a row of the table for each figure of a problem; balcli's answer with six digits."""
-    about = problem.chapter, problem.source, problem.title
+    about = problem.chapter, problem.source, problem.title, problem.address
     return [
-        (*about, f.name, f.unit, f.verdict, f.remark, f.printed, f"{value:.6g}")
+        (*about, f.name, f.unit, f.verdict, f.category, f.remark, f.printed, f"{value:.6g}")
         for f, value in zip(problem.figures, problem.answer(), strict=True)
     ]
 
@@ -66,24 +89,26 @@ def write_page(problems: list[Problem]) -> str:
         problems=len(problems),
         works=len({problem.work for problem in problems}),
         figures=len(figures),
-        **every,
+        code=sum("companion" in figure.wrong for _, figure in figures),
+        **{verdict: every[verdict] for verdict in VERDICTS},
     )
     table = [
-        "| chapter | problems | figures | agree | other definition | wrong in print |",
-        "| --- | ---: | ---: | ---: | ---: | ---: |",
+        "| chapter | problems | figures | agree | rounded | other definition | wrong |",
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     for chapter in CHAPTERS:
         own = [problem for problem in problems if problem.chapter == chapter]
         count = Counter(figure.verdict for problem in own for figure in problem.figures)
-        verdicts = count["agrees"], count["definition"], count["misprint"]
+        verdicts = (count[verdict] for verdict in VERDICTS)
         cells = (NAMES[chapter], len(own), count.total(), *verdicts)
         table.append(f"| {' | '.join(map(str, cells))} |")
     parts = [introduction, "\n".join(table)]
-    parts += ["## Wrong in print", _list_differing(figures, "misprint", "right")]
+    parts += ["## Wrong in the source", _list_differing(figures, "wrong", "right")]
     parts += ["## Other definitions", _list_differing(figures, "definition", "balcli")]
+    parts += ["## Within the rounding of the source", _list_differing(figures, "rounded", "within")]
     for chapter in CHAPTERS:
         parts.append(f"## {NAMES[chapter]}")
-        lines = ["| problem | what | figures | verdict |", "| --- | --- | ---: | --- |"]
+        lines = ["| problem | what | figures |", "| --- | --- | --- |"]
         lines += [_list_problem(problem) for problem in problems if problem.chapter == chapter]
         parts.append("\n".join(lines))
     return "\n\n".join(parts) + "\n"
@@ -91,8 +116,8 @@ def write_page(problems: list[Problem]) -> str:
 
 def _list_problem(problem: Problem) -> str:
     count = Counter(figure.verdict for figure in problem.figures)
-    verdict = ", ".join(f"{n} {word}" if len(count) > 1 else word for word, n in count.items())
-    return f"| {_link(problem)} | {problem.title} | {len(problem.figures)} | {verdict} |"
+    verdict = ", ".join(f"{n} {WORDS[word]}" for word, n in count.items())
+    return f"| {_link(problem)} | {problem.title} | {verdict} |"
 
 
 def _list_differing(figures: list[tuple[Problem, Figure]], verdict: str, head: str) -> str:

@@ -5,9 +5,11 @@ from math import radians
 
 import numpy as np
 import pytest
+from support.commands import ask
 from support.engines import build_text, inline_engine
-from support.paths import ENGINE_FILES
+from support.paths import ENGINE_FILES, ENGINES
 
+import balcli
 from balcli.analysis.answer import analyze
 from balcli.core.records import to_document
 from balcli.engine.load import load
@@ -83,6 +85,38 @@ def test_sums_are_those_of_the_engine(path):
             for bank in star.banks:
                 own = sum(getattr(ray, kind) for ray in bank.cylinders)
                 assert getattr(bank, kind) == pytest.approx(own, abs=1e-12 * size)
+
+
+def test_cylinders_that_stand_alone():
+    """The two of a V-twin are banks; those of a radial count as one, which has no direction."""
+    twin, radial = (next(find_stars(load(ENGINES / name), [1])) for name in ("vtwin45.toml", "radial7.toml"))
+    assert [bank.axis_deg for bank in twin.banks] == [-22.5, 22.5]
+    assert [(bank.axis_deg, len(bank.cylinders)) for bank in radial.banks] == [(None, 7)]
+
+
+def test_the_table_lists_banks_and_sums():
+    """Of the same unit in each column; a dash where no cylinder has a moment."""
+    table = ask("analyze", ENGINES / "v8_crossplane.toml", "--why", "--orders", "1").partition("Phasor stars\n")[2]
+    lines = table.splitlines()[:8]
+    assert "force, N  moment, kN·m" in lines[0]
+    assert lines[2].split()[-2:] == ["closes", "6.361"]
+    assert lines[4].split() == ["all", "banks", "closes", "12.72"]
+    single = ask("analyze", ENGINES / "single.toml", "--why", "--orders", "1").partition("Phasor stars\n")[2]
+    assert single.splitlines()[2].split()[-2:] == ["24.22", "–"]
+
+
+def test_pages_say_which_orders_they_leave_out():
+    """Eight stars at most are drawn; the directions of the picture are turned as `frame.up` asks."""
+    v8 = load(ENGINES / "v8_crossplane.toml")
+    few, many = (balcli.plot(v8, "stars", orders=orders) for orders in ([1, 2], [1, 2, 4, 8, 12]))
+    assert len(few.axes) == 12
+    assert len(many.axes) == 24
+    assert "Not drawn" not in few.get_supxlabel()
+    assert many.get_supxlabel().endswith("Not drawn: orders 12.")
+    upright = balcli.load(V8 + "[frame]\nup = 90\n")
+    plain, turned = (balcli.plot(each, "stars", orders=[1]).axes[0] for each in (build_text(V8), upright))
+    before, after = (dict(arrows(ax)[0:1]) for ax in (plain, turned))
+    assert before != after
 
 
 def test_there_is_no_star_without_vectors():

@@ -6,6 +6,8 @@ import published_answers as tool
 import pytest
 from support.published import FOLDER, load_problem, load_problems
 
+from balcli.books.recomputed import CLASSES
+
 
 @pytest.mark.parametrize("path", sorted(FOLDER.glob("*.toml")), ids=lambda path: path.stem)
 def test_published_problem(path):
@@ -13,15 +15,20 @@ def test_published_problem(path):
     problem = load_problem(path)
     for figure, value in zip(problem.figures, problem.answer(), strict=True):
         where = f"{figure.name}: balcli {value:.8g}, printed {figure.printed}"
-        assert figure.agrees(value, figure.balcli or figure.printed), where
+        assert figure.agrees(value, figure.balcli or figure.printed, figure.within), where
         assert bool(figure.within) == bool(figure.why), f"{figure.name}: a tolerance and its reason"
-        assert bool(figure.balcli) == (figure.verdict != "agrees"), f"{figure.name}: what balcli says instead"
-        if figure.verdict == "agrees":
+        assert bool(figure.wrong) == (figure.category in CLASSES), f"{figure.name}: class of the error"
+        assert bool(figure.balcli) == (figure.verdict in ("definition", "wrong")), f"{figure.name}: balcli's figure"
+        if not figure.balcli:
+            needless = figure.within and figure.agrees(value, figure.printed)
+            assert not needless, f"{where}: agrees without a tolerance"
             continue
         assert not figure.agrees(value, figure.printed), f"{where}: it agrees"
         assert figure.check, f"{figure.name}: a second way"
-        proved = figure.balcli if figure.misprint else figure.printed
-        assert figure.agrees(figure.checked(), proved), f"{figure.name}: the second way gives {figure.checked():.8g}"
+        proved = figure.balcli if figure.wrong else figure.printed
+        assert figure.agrees(figure.checked(), proved, figure.within), (
+            f"{figure.name}: the second way gives {figure.checked():.8g}"
+        )
 
 
 def test_the_corpus_is_wide_and_written_down():

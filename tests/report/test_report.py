@@ -80,6 +80,11 @@ def test_a_moving_curve_has_no_second_picture(after):
     assert 'id="curves-force-figure_1"' in text
 
 
+def test_the_page_has_phasor_stars():
+    assert "<h2>Phasor stars</h2>" in (text := report(GOOD))
+    assert 'id="stars-' in text
+
+
 def test_a_hostile_name_stays_text():
     tame, wild = report(GOOD), report(changed(('"in-line four"', json.dumps(HOSTILE))))
     assert Outline(wild).tags == Outline(tame).tags

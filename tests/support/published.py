@@ -19,6 +19,7 @@ from .commands import run_here
 from .paths import ROOT
 
 FOLDER = ROOT / "tests" / "published"
+VERDICTS = ("agrees", "rounded", "definition", "wrong")
 CHAPTERS = ("forces", "balancing", "locomotive", "torque", "torsion", "mounts", "field")
 
 
@@ -36,11 +37,11 @@ class Figure:
         angle: whether it is modulo 360 deg.
         within: relative difference that the rounded intermediate figures of the source explain; `why` says which.
         why: reason of `within`.
-        balcli: what balcli says instead, for a misprint or another definition.
-        misprint: why the print is wrong.
+        balcli: what balcli says instead, for an error or another definition.
+        wrong: why the source is wrong.
+        category: class of that error, a key of `balcli.books.recomputed.CLASSES`; `class` in the file.
         definition: what the source computes instead.
-        check: Python expression of the second way: a misprint's right value, or the printed one by the source's
-            definition.
+        check: Python expression of the second way: the right value, or the printed one by the source's definition.
         command: number of the command that answers it, from 0.
     """
 
@@ -54,25 +55,29 @@ class Figure:
     within: float = 0.0
     why: str = ""
     balcli: str = ""
-    misprint: str = ""
+    wrong: str = ""
+    category: str = ""
     definition: str = ""
     check: str = ""
     command: int = 0
 
     @property
     def verdict(self) -> str:
-        return "misprint" if self.misprint else "definition" if self.definition else "agrees"
+        """Return one of `VERDICTS`."""
+        if self.wrong or self.definition:
+            return "wrong" if self.wrong else "definition"
+        return "rounded" if self.within else "agrees"
 
     @property
     def remark(self) -> str:
-        return self.misprint or self.definition or self.why
+        return self.wrong or self.definition or self.why
 
-    def agrees(self, value: float, text: str) -> bool:
+    def agrees(self, value: float, text: str, within: float = 0.0) -> bool:
         """Return whether a value rounds to this text, or lies within the tolerance about it."""
         expected = float(text)
         difference = abs((value - expected + 180) % 360 - 180) if self.angle else abs(value - expected)
         half = 0.5 * 10.0 ** int(Decimal(text).as_tuple().exponent)
-        return difference <= max(half * (1 + 1e-9), self.within * abs(expected))
+        return difference <= max(half * (1 + 1e-9), within * abs(expected))
 
     def checked(self) -> float:
         return float(eval(self.check, {"np": np, **vars(math)}))
@@ -105,11 +110,6 @@ class Problem:
     figures: tuple[Figure, ...]
     address: str = ""
     given: str = ""
-
-    @property
-    def verdict(self) -> str:
-        """Return the gravest verdict of its figures."""
-        return max((f.verdict for f in self.figures), key=("agrees", "definition", "misprint").index)
 
     def answer(self) -> list[float]:
         """Run the commands in an empty folder, and return balcli's figures in the unit of the print."""
@@ -156,7 +156,7 @@ def _is(value: Any, text: str) -> bool:
 
 def load_problem(path: Path) -> Problem:
     content = tomllib.loads(path.read_text(encoding="utf-8"))
-    figures = tuple(Figure(**each) for each in content.pop("figures"))
+    figures = tuple(Figure(category=each.pop("class", ""), **each) for each in content.pop("figures"))
     return Problem(name=path.stem, figures=figures, **{**content, "commands": tuple(content["commands"])})
 
 

@@ -292,7 +292,8 @@ def verdict(
             order may come from another order, and vanishes when that one is cancelled.
         devices: Devices of the file; a device that turns like one of these is a further one.
         omega: Crank speed, rad/s, for the force of compensators among the devices.
-        turning: Senses in which cranks turn, seen from the first: they carry counterweights.
+        turning: Senses in which cranks turn, seen from the first one (1, -1); counterweights can
+            cancel what turns like a crank.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [

@@ -243,9 +243,9 @@ UNITS = (
 
 _TURNS = {"forward": "with", "backward": "against"}
 _STARS = (
-    "Directions of the cylinders' forces at crank angle 0, which turn with the crank or against "
-    "it; sums of force and moment: where the polygon closes, they are balanced. As a picture: "
-    "balcli plot --what stars."
+    "Vectors of the cylinders without devices, at crank angle 0: directions from x, with the "
+    "numbers of the cylinders, and the sums. A polygon that closes leaves 0. As a picture: balcli "
+    "plot --what stars."
 )
 
 
@@ -256,27 +256,38 @@ def lay_out_symmetry(why: Symmetry) -> Text:
 
 
 def lay_out_stars(stars: Sequence[Star], system: System) -> Grid:
-    """Return a table of the stars: a row for each bank, and one for the sum of several banks."""
+    """Return a table of the stars: a row for each bank, and one for the sum of several banks.
 
-    def tell(one: Star | Bank) -> tuple[str, ...]:
-        force = size_text(abs(one.force), system.force) if one.force else "closes"
+    Args:
+        stars: Vectors of each order, of which there is at least one.
+        system: System of units.
+    """
+    every: list[Star | Bank] = [*stars, *(bank for star in stars for bank in star.banks)]
+    force = system.force.fit(max(abs(one.force) for one in every))
+    moment = system.moment.fit(max(abs(one.moment or 0.0) for one in every))
+
+    def tell(one: Star | Bank, moments: Sequence[complex | None]) -> tuple[str, ...]:
+        size = number(force.of(abs(one.force))) if one.force else "closes"
         if one.moment is None:
-            return (force,)
-        return force, size_text(abs(one.moment), system.moment) if one.moment else "closes"
+            return (size,)
+        there = number(moment.of(abs(one.moment))) if one.moment else "closes"
+        return size, there if any(moments) else UNKNOWN
 
     rows = []
     for star in stars:
         about = order_name(star.order), _TURNS[star.turns]
+        moments = [ray.moment for bank in star.banks for ray in bank.cylinders]
         for bank in star.banks:
             directions = (
-                f"{angle:.4g}: {', '.join(map(str, numbers))}"
+                f"{degrees(angle)}: {', '.join(map(str, numbers))}"
                 for angle, numbers in bank.directions.items()
             )
-            rows.append((*about, "; ".join(directions), *tell(bank)))
+            rows.append((*about, "; ".join(directions), *tell(bank, moments)))
             about = "", ""
         if len(star.banks) > 1:
-            rows.append(("", "", "all banks", *tell(star)))
-    heads = ("order", "turns", "directions, deg: cylinders", "force", "moment")
+            rows.append(("", "", "all banks", *tell(star, moments)))
+    sums = f"force, {force.name}", f"moment, {moment.name}"
+    heads = ("order", "turns", "directions, deg: cylinders", *sums)
     return Grid("Phasor stars", heads[: len(rows[0])], tuple(rows), _STARS, words=(0, 1, 2))
 
 

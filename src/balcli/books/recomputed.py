@@ -29,7 +29,7 @@ Row: TypeAlias = tuple[Cell, ...]
 Words: TypeAlias = tuple[str | None, ...]
 ErratumClass = Literal["misprint", "rounding", "approximation", "method", "error", "copy"]
 STATEMENT = "statement"  # column of errata that are equations or sentences
-ANSWER = "published answer"  # column of the answers of published problems
+ANSWER = "balcli"  # column of the answers to published problems
 CLASSES: dict[ErratumClass, str] = {
     "misprint": "the print contradicts its own formula",
     "rounding": "last digits are wrong: cut off, or computed from rounded figures",

@@ -216,17 +216,26 @@ def lay_out_published(table: Table, _system: System) -> Sheet:
         rows = tuple(map(_tell_verdicts, problems.items()))
         grids.append(Grid(chapter, ("problem", "figures"), rows, words=(0, 1)))
     every = Counter(str(row[places[-1]]) for row in table.exact)
+    told = _tell_verdicts(("", every))[1]
     note = (
-        f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: "
-        f"{every['agrees']} agree with the print, {every['definition']} follow another definition, "
-        f"{every['misprint']} are wrong in print (--errata). Every figure: --format csv."
+        f"{sum(map(len, chapters.values()))} problems, {len(table.exact)} figures: {told} "
+        "(--errata). Every figure: --format csv."
     )
     return Sheet(table.title, (*grids, Text("", (note,))))
 
 
+_VERDICTS = {
+    "agrees": "in all digits",
+    "rounded": "within rounding",
+    "definition": "by another definition",
+    "wrong": "wrong in the source",
+}
+
+
 def _tell_verdicts(problem: tuple[str, Counter[str]]) -> tuple[str, str]:
     name, verdicts = problem
-    return name, ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items())
+    told = (f"{verdicts[key]} {words}" for key, words in _VERDICTS.items() if verdicts[key])
+    return name, ", ".join(told)
 
 
 PUBLISHED = Renderer(sheet=lay_out_published, rows=rows)

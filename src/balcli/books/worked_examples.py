@@ -9,6 +9,7 @@ gravity is 2 in from the crank pin. The piston with pin and rings weighs 1 lb.
 from __future__ import annotations
 
 from math import floor, log10
+from typing import cast
 
 import numpy as np
 
@@ -67,18 +68,17 @@ def _round(value: float) -> float:
 
 
 def tabulate_published(printed: Print, ranges: Ranges) -> Table:
-    """Return the figures of published problems with balcli's answers, which tests recompute by the
-    command of each problem. Errata are misprints.
+    """Return the printed figures of published problems and balcli's, which tests recompute by the
+    command of each problem.
     """
-    heads = printed.columns[:-2]
-    told = [printed.column(name) for name in ("source", "figure", "verdict", "remark")]
-    rows, words, errata = [], [], []
-    lines = zip(printed.rows, *told, strict=True)
-    for i, ((*about, text, own), source, figure, verdict, remark) in enumerate(lines):
-        rows.append((*about, float(str(own))))
-        words.append((*about, text))
-        if verdict == "misprint":
-            label = f"{source}: {figure}"
-            errata.append(Erratum(i, ANSWER, str(text), float(str(own)), remark, label, "misprint"))
-    shape = (*heads, ANSWER), tuple(rows), tuple(words)
-    return Table(*printed[:3], *shape, tuple(errata), stub=len(heads))
+    named = [printed.column(name) for name in ("source", "figure", "class", "remark", "printed")]
+    own = [float(text) for text in printed.column(ANSWER)]
+    rows = [(*words[:-1], value) for words, value in zip(printed.rows, own, strict=True)]
+    errata = []
+    for i, (source, figure, kind, remark, text) in enumerate(zip(*named, strict=True)):
+        if kind:
+            label, category = f"{source}: {figure}", cast("ErratumClass", kind)
+            errata.append(Erratum(i, ANSWER, text, own[i], remark, label, category))
+    words = tuple((*line[:-1], None) for line in printed.rows)
+    shape = printed.columns, tuple(rows), words
+    return Table(*printed[:3], *shape, tuple(errata), stub=len(printed.columns) - 1)

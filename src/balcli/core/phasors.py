@@ -248,8 +248,8 @@ def join_orders(parts: Sequence[Phasors]) -> Phasors:
 
 
 def join_places(parts: Sequence[Phasors]) -> Phasors:
-    """Return the places along the trailing axis of several, in their order; phasors without this
-    axis are one place.
+    """Join several phasors along their trailing axis (places); phasors without this axis are one
+    place.
     """
     vectors = [p.vectors.reshape(2, len(p.orders), -1) for p in parts]
     noises = [np.broadcast_to(p.noise, p.vectors.shape[1:]) for p in parts]

@@ -36,7 +36,7 @@ from ..core.mechanisms.motion import Motion
 from ..core.phasors import Array, Figure
 from ..core.speed_ripple import RippleLine, find_slowest
 from ..errors import InputError, Problem
-from ..file.fields import counted, join_words
+from ..file.fields import counted
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
 from ..file.read import Draft
 from ..limits import MOST_SAMPLES, NEAREST_TO_LOCK
@@ -206,7 +206,7 @@ def check_cylinders(parts: Parts) -> Iterator[Problem]:
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
-        told = f"there is no cylinder {join_words(strangers)}"
+        told = f"there is no cylinder {', '.join(map(str, strangers))}"
         yield Problem(f"cylinder.{strangers[0]}", f"{told}: {made}; give every throw its angle")
 
 

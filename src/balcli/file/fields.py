@@ -423,7 +423,7 @@ class Choice(NamedTuple):
         return tuple(other for group in self.groups if key not in group for other in group)
 
     def for_overrides(self, prefix: str) -> Choice:
-        """Return this choice for keys with a prefix, without keys that must be given."""
+        """Return this choice for keys with a prefix; none of them has to be given."""
         return Choice(tuple(tuple(prefix + key for key in group) for group in self.groups))
 
 

@@ -166,7 +166,9 @@ class FileTable(BaseModel):
         """
         bore, diameter = getattr(self, inner), getattr(self, outer)
         if bore and (diameter is None or bore >= diameter):
-            around = "" if diameter is None else f" = {as_written(diameter, 'mm')}"
+            around = ", which is missing"
+            if diameter is not None:
+                around = f" = {as_written(diameter, 'mm')}"
             yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{around}"
 
     def has(self, key: str) -> bool:

@@ -46,13 +46,13 @@ class Bank(NamedTuple):
     """Vectors of the cylinders of one bank, and their sums.
 
     Attributes:
-        axis_deg: Direction of the bank, from x.
+        axis_deg: Direction of the bank, from x; null for cylinders that stand alone.
         force: Sum of the vectors of force.
         cylinders: Vectors of each cylinder, by number.
         moment: Sum of the vectors of moment; omitted if it is not known.
     """
 
-    axis_deg: float
+    axis_deg: float | None
     force: Force
     cylinders: tuple[Ray, ...]
     moment: Moment = None
@@ -77,7 +77,8 @@ class Star(NamedTuple):
         order: Order.
         turns: "forward": with the crank; "backward": against it.
         force: Sum of all vectors of force.
-        banks: Vectors of each bank. Cylinders that stand alone, as in a radial, count as one bank.
+        banks: Vectors of each bank. More than two cylinders that stand alone, as in a radial, count
+            as one bank.
         moment: Sum of all vectors of moment; omitted if it is not known.
     """
 
@@ -102,7 +103,7 @@ def find_stars(
     orders = np.array([order for order in asked if order > 0])
     alone = without_devices(engine)
     axes, row_of = engine.cylinders.axis_of_each_deg, engine.numbers.index
-    banks = _list_banks(engine)
+    banks, count = _list_banks(engine), len(engine.cylinders.starts)
     each = compute_spectra(alone, orders, kinds, each=True)
     total = compute_spectra(alone, orders, kinds)
     sums = [
@@ -115,7 +116,7 @@ def find_stars(
                 continue
             found = tuple(
                 Bank(
-                    axis_deg=float(axes[row_of(bank[0])]),
+                    axis_deg=float(axes[row_of(bank[0])]) if len(banks) == count else None,
                     cylinders=tuple(Ray(n, **_pick(each, way, k, row_of(n))) for n in bank),
                     **_pick(own, way, k),
                 )
@@ -125,10 +126,11 @@ def find_stars(
 
 
 def _list_banks(engine: Engine) -> list[list[CylinderNumber]]:
-    """Return the cylinders of each bank, by number; one list if each bank has only one."""
+    """Return the cylinders of each bank, by number; one list if more than two stand alone."""
     ends = [*engine.cylinders.starts, len(engine.numbers)]
     banks = [sorted(engine.numbers[slice(*pair)]) for pair in pairwise(ends)]
-    return banks if max(map(len, banks)) > 1 else [sorted(engine.numbers)]
+    alone = len(banks) > 2 and max(map(len, banks)) == 1
+    return [sorted(engine.numbers)] if alone else banks
 
 
 def _pick(found: Spectra, *place: int) -> dict[str, complex]:

@@ -54,7 +54,7 @@ from ..show.plot_style import (
     put_title,
     save_figure,
 )
-from ..show.sheet import NAMELESS, NEGLIGIBLE, size_text, small_text
+from ..show.sheet import NAMELESS, NEGLIGIBLE, order_name, size_text, small_text
 from ..show.units import SI, ShownUnit, System
 from ..torque.plot import draw_gas
 from .study import Banks, Study
@@ -65,11 +65,11 @@ if TYPE_CHECKING:
 
 
 _LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
-_JUMP = 0.5  # a radius that changes by more between neighbouring angles changes its side
+_JUMP = 0.5  # a larger change of a radius between neighbouring angles is a change of its sign
 _MOST_STARS = 8
 _STARS = (
     "Forces of the cylinders at crank angle 0, by number, without devices; then the polygons of\n"
-    "force and moment, bank by bank. Dashed: their sum; dot: 0."
+    "force and moment, bank by bank in a colour each. Dashed: their sum; dot: 0."
 )
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
@@ -112,9 +112,9 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
 
 
 def draw_radius_roses(ax: Any, banks: Banks) -> None:
-    """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks over a
-    whole turn: a circle, a rose, and for a flat-plane V8 the four-leaved rose of Liu (figure 8),
-    thick in the range of real bank angles.
+    """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks. For a
+    flat-plane V8 (Liu, figure 8), the backward radius is a circle, the forward one a rose of three
+    leaves, and the ratio a rose of four; the ratio goes on over a whole turn, thin beyond 180 deg.
     """
     half = np.radians(banks.angles_deg) / 2
     ax.set_theta_zero_location("N")
@@ -168,7 +168,7 @@ _TITLES = {"force": "Free force", "moment": "Free moment", ABOUT: "About the cra
 
 @dataclass(frozen=True)
 class PageSubject:
-    """Engine of a page, units in which it is drawn, and cylinder of the page piston."""
+    """Engine of a page, units in which it is drawn, and the cylinder of the page `piston`."""
 
     study: Study
     system: System = SI
@@ -423,9 +423,10 @@ def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
     """Draw star and polygons of the first orders."""
     engine = subject.now.engine
     kinds = ("force", "moment")[: 1 + subject.now.moments_known]
-    stars = list(find_stars(engine, subject.now.orders, kinds))[:_MOST_STARS]
-    if not stars:
+    every = list(find_stars(engine, subject.now.orders, kinds))
+    if not every:
         return "No cylinder has a force of these orders."
+    stars, left_out = every[:_MOST_STARS], [star.order for star in every[_MOST_STARS:]]
     rays = [ray for star in stars for bank in star.banks for ray in bank.cylinders]
     quantities = ("force", "moment")[: 1 + any(ray.moment for ray in rays)]
     fig.set_size_inches(2.9 * (1 + len(quantities)), 0.6 + 2.5 * len(stars))
@@ -435,7 +436,8 @@ def _lay_out_stars(fig: Figure, subject: PageSubject) -> str:
         draw_star(first, star, turn)
         for ax, quantity in zip(others, quantities, strict=True):
             draw_polygon(ax, star, quantity, turn, subject.unit(quantity))
-    return _STARS
+    told = ", ".join(dict.fromkeys(map(order_name, left_out)))
+    return f"{_STARS}\nNot drawn: orders {told}." if told else _STARS
 
 
 # Width and height in inches (some layouts change them), and the drawing function.

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import BalcliError
+from ..errors import BalcliError, warn
 from ..file.units import (
     ANGLE,
     FORTRAN,
@@ -244,6 +244,9 @@ def parse_speeds(
     if not all(SMALLEST_POSITIVE <= figure < 1e9 for figure in figures):
         wrong = "speeds and their step are" if ranged else "speeds are"
         raise BalcliError(f"{start}{wrong} above 0 and below 1e9 rpm; {right}")
+    if figure := re.fullmatch(r"([1-9]),(\d00)", text.strip()):
+        meant = f"{figure[1]}{figure[2]} rpm"
+        warn(f"{start}a comma separates speeds, not thousands: was {meant} meant?")
     if not ranged:
         return np.array(sorted(set(figures)))
     first, last, step = (*figures, (figures[1] - figures[0]) / 100)[:3]

@@ -226,9 +226,9 @@ def draw_order(
 _BANKS = (BLUE, RED, GREEN, SOFT)
 _WAYS = {"forward": "with the crank", "backward": "against it"}
 _SAME = 1e-6  # vectors whose directions differ by less are parallel
-# Distance of a number from its vector, and of a vector that runs back from the one before it, as a
-# share of half the side of the picture.
-_BESIDE = 0.07
+# Sideways shift of a number from its vector, and of a vector that runs back along the one before,
+# as a share of half the side of the picture.
+_GAP = 0.07
 
 
 def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
@@ -250,13 +250,13 @@ def draw_star(ax: Axes, star: Star, turn_deg: float) -> None:
             if ray.force:
                 tip = turn * ray.force / largest
                 _draw_arrow(ax, 0j, tip, **_look(k, len(star.banks)))
-                tips.append((tip, 2 * _BESIDE * tip / abs(tip), str(ray.cylinder)))
+                tips.append((tip, 2 * _GAP * tip / abs(tip), str(ray.cylinder)))
     _write_numbers(ax, tips)
 
 
 def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: ShownUnit) -> None:
     """Draw the vectors of force or moment one after the other, bank by bank, and their sum. In a
-    bank they follow each other by direction, so that the polygon is convex.
+    bank they follow each other by direction, so that a polygon that closes is convex.
 
     Args:
         ax: Axes to draw on.
@@ -276,24 +276,24 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     spans = np.ptp(corners.real), np.ptp(corners.imag)
     limit = 0.62 * float(max(spans)) or 1.0
     middle = complex(corners.real.min(), corners.imag.min()) + complex(*spans) / 2
-    left = turn * getattr(star, quantity)
-    ax.set(title=f"{quantity}: {size_text(abs(left), unit) if left else 'closes'}")
+    total = turn * getattr(star, quantity)
+    ax.set(title=f"{quantity}: {size_text(abs(total), unit) if total else 'closes'}")
     _set_up_square(ax, middle, limit)
-    aside, last = 0j, 0j
+    shift, last = 0j, 0j
     places = []
     for (vector, name, bank), start in zip(rays, corners, strict=False):
         way = vector / abs(vector)
         if abs(way + last) < _SAME:  # it runs back along the one before
-            aside += 1j * last * _BESIDE * limit
-        last, place = way, complex(start) + aside
+            shift += 1j * last * _GAP * limit
+        last, place = way, complex(start) + shift
         _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))
-        places.append((place + vector / 2, -1j * way * _BESIDE * limit, name))
+        places.append((place + vector / 2, -1j * way * _GAP * limit, name))
     _write_numbers(ax, places)
-    if left:
-        straight = all(abs((vector / left).imag) < _SAME for vector, _, _ in rays)
-        beside = straight * 1j * _BESIDE * limit * left / abs(left)
+    if total:
+        straight = all(abs((vector / total).imag) < _SAME for vector, _, _ in rays)
+        across = straight * 1j * _GAP * limit * total / abs(total)
         look: Look = {"color": INK, "linewidth": 1.6, "linestyle": (0, (4, 2))}
-        _draw_arrow(ax, beside, beside + left, mutation_scale=11, **look)
+        _draw_arrow(ax, across, across + total, mutation_scale=11, **look)
     else:
         ax.plot([0], [0], "o", color=INK, markersize=4)
 

@@ -18,7 +18,7 @@ from ..core.peaks import find_largest, find_least, find_peak
 from ..core.phasors import EPS, Array, Complex, Phasors, unit
 from ..core.records import Node
 from ..engine.engine import CylinderNumber, Engine
-from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..errors import MOMENTS_UNKNOWN, BalcliError, warn
 from ..forces.crankshaft import compute_bearing_forces, compute_loads, place_bearings
 from ..forces.spectrum import compute_spectra, find_relevant_orders
 from ..limits import LARGEST_FACTOR
@@ -28,7 +28,7 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # masses within this share of one cylinder's nearly cancel; pistons differ by less
+_NEARLY = 0.05  # masses nearly cancel below this share of the largest one; pistons differ by less
 _FLAT = 1e-9  # factors whose peaks differ by less than this share of the largest are equally good
 _ROUNDS = 32  # steps of the search, which narrow the range of factors to 2e-7
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
@@ -69,9 +69,9 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
 
     Counterweights of the file are subtracted, and the missing unbalance is fitted in the given
     planes; pins and weights are transferred to them by the lever rule. Default planes are those of
-    the file's counterweights, or, if these are in fewer than two planes, those of the pins. If the
-    file has a counterweight, the masses of pins at the same z are added; else each pin has its own
-    plane.
+    the file's counterweights, or, if these are in fewer than two planes, those of the pins. Pins at
+    the same z share a plane if the file has a counterweight, since it is not known to which of them
+    the weight belongs; otherwise each pin has its own plane.
 
     For several factors, the peaks of each are listed, and the factor with the smallest peak force
     is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
@@ -275,10 +275,15 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     if not reciprocating:
         raise BalcliError("--measured: this engine has no reciprocating mass and so no factor")
     factor = (1e3 * measured * len(card) - rotating) / reciprocating
+    told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
-            f"--measured {1e3 * measured:g} g: would balance {factor:.3g} times the reciprocating "
-            f"mass; {rotating / len(card):.5g} g on a pin rotate; is the unit right?"
+            f"{told}: would balance {factor:.3g} times the reciprocating mass; {turning} g on a "
+            "pin rotate; is the unit right?"
+        )
+    if factor < 0:
+        warn(
+            f"{told} is less than the {turning} g that rotate on a pin: the factor is {factor:.2%}"
         )
     return factor
 

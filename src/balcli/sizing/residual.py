@@ -14,6 +14,7 @@ import numpy as np
 
 from ..engine.engine import Engine
 from ..errors import MOMENTS_UNKNOWN, BalcliError
+from ..file.fields import join_words
 from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
@@ -206,7 +207,7 @@ def choose_residual(
         return residual
     with_crank = residual.size(FORWARD_FORCE) if 1 not in senses else 0.0
     raise NothingToBalanceError(
-        f"order {options.order} has no free {what}: nothing to balance",
+        f"order {options.order} has no free {what}: nothing to balance{_tell_rest(residual)}",
         **({"force_with_crank_left_N": with_crank} if with_crank else {}),
     )
 
@@ -270,3 +271,11 @@ def tell_sense(sense: int) -> str:
 
 def _tell_size(residual: Residual, part: ResidualPart) -> str:
     return f"{residual.size(part):.4g} {'N·m' if part.kind == 'moment' else 'N'}"
+
+
+def _tell_rest(residual: Residual) -> str:
+    """Return the parts that an order has, and the schemes that cancel them."""
+    parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
+    takes = {"force": "two-shaft", "moment": "couple-shaft"}
+    told = (f"{part.kind} {tell_sense(part.sense)} ({takes[part.kind]})" for part in parts)
+    return f"; it has {join_words(told)}" if parts else ""

@@ -1,10 +1,10 @@
 """Parse the names of quantities and evaluate them for variants of an engine file; list the numbers
 that can vary.
 
-Quantities of forces and moments (`force.2.major`) are evaluated for all variants as arrays.
-Quantities of chapters (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated
-one variant after the other; the module of a chapter is loaded when one of its quantities is
-requested. Gas torque is computed on demand, once for all variants with the same gas.
+Quantities of forces and moments (`force.2.major`) are evaluated for all variants as arrays. Other
+quantities (`mode.roll.Hz`, `torsion.1.Hz`, `torque.mean`, `guide.6.H`) are evaluated one variant
+after the other by the module of their subject, which is loaded when one is requested. Gas torque is
+computed on demand, once for all variants with the same gas.
 """
 
 from __future__ import annotations

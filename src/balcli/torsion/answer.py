@@ -39,6 +39,7 @@ from .system import TorsionalSystem
 
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
+ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
 _ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
 
 
@@ -174,8 +175,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of shafts without inertia, of speeds without gas, of pendulums that swing too
-        far for the linear model, and of a stress that breaks a shaft.
+        """Warnings of shafts without inertia, of speeds without gas, of pendulums that swing or a
+        free end that swing too far for the linear model, and of a stress that breaks a shaft.
         """
         if self.response is None:
             return self.system.doubts
@@ -207,6 +208,13 @@ def _find_doubts(response: TorsionResponse) -> Iterator[str]:
             f"{printable(hardest.name)} has {stress / 1e6:.4g} N/mm² at "
             f"{hardest.worst.speed_rpm:.5g} rpm, more than any steel bears; check the damping "
             "(loss, damping) of all shafts and nodes"
+        )
+    swing = response.free_end_worst
+    if swing.half_swing_deg > ASTOUNDING:
+        yield (
+            f"the free end swings by {swing.half_swing_deg:.4g} deg at {swing.speed_rpm:.5g} rpm, "
+            "but the computation assumes small swings; is an inertia or the damping missing, or "
+            "the speed too low?"
         )
 
 

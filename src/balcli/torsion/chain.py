@@ -1,9 +1,10 @@
 """Compute torsional chains: inertias (nodes) joined by shafts and gears; and dampers as complex
 inertias.
 
-A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A ratio other than 1
-means a gear mesh at its start; its stiffness refers to the speed of its end. A gear mesh is a rigid
-shaft (stiffness inf). Nodes and shafts usually form a tree; loops (split power) are allowed.
+A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A shaft with a ratio
+other than 1 has a gear mesh at its start, and its stiffness refers to the speed of its end. A mesh
+alone is a rigid shaft (stiffness inf). Nodes and shafts usually form a tree; loops (split power)
+are allowed.
 
 A damper adds a complex moment of inertia J (kg m2) to its node: when the node vibrates with the
 angle x, the damper takes the torque `-w^2 J x`. It absorbs energy if the imaginary part of J is
