@@ -132,7 +132,7 @@ ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "
 KINDS = (*ENGINE_KINDS, "locomotive", "field", "torsion")
 SCHEMA = (
     "#:schema balcli.schema.json\n"
-    "# Editors for TOML use that schema to check and complete what you type; "
+    "# TOML editors use that schema to check and complete what you type: "
     "`balcli schema -o balcli.schema.json` writes it\n\n"
 )
 _FOLDER = Path(__file__).with_name("starting_files")
