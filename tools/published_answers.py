@@ -41,7 +41,7 @@ INTRODUCTION = """\
 {problems} problems of {works} books, papers, guides and pages have printed answers that balcli was
 asked for. Of {figures} figures
 
-- {agrees} agree in all printed digits,
+- {agrees} agree in all printed digits (of 10 at most),
 - {rounded} agree within what the source rounded, or measured in a drawing
   ([reasons](#within-the-rounding-of-the-source)),
 - {definition} follow [another definition](#other-definitions), such as two terms of a series,
