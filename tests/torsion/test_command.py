@@ -288,5 +288,5 @@ def test_imperial_figures_are_the_metric_ones_in_other_units(kind):
 def test_more_torques_than_are_kept_are_refused_with_the_number(monkeypatch):
     monkeypatch.setattr("balcli.torsion.motion.MOST_TORSION_TORQUES", 800)
     assert refusal("torsion", "-", "--speeds", "1000:2000", stdin=CHAIN) == (
-        "808 torques by order, speed and shaft, and at most 800 are kept: take fewer speeds or orders"
+        "808 torques (orders x speeds x shafts), but at most 800 can be kept: take fewer speeds or orders"
     )

@@ -20,7 +20,7 @@ AnalysisFormatOption = Annotated[
     format_option(
         (*TEXTS.values(), Format.MARINE),
         "Format of the result; default: by the ending of -o, else table. marine: table of external "
-        "forces and moments, guide moments and torque by order; with -f csv as well, as CSV.",
+        "forces and moments, guide moments and torque by order; `-f marine -f csv`: as CSV.",
     ),
 ]
 SpeedsOption = Annotated[

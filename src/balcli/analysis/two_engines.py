@@ -257,7 +257,7 @@ def _name_beside(path: str, target: Path) -> str:
     """Return the name by which a file at `target` names an engine file."""
     home, place = target.parent.resolve(), Path(path).resolve()
     if path == "-" or not place.is_relative_to(home):
-        raise BalcliError(f"--write {target}: {path} is not in its folder; write it there")
+        raise BalcliError(f"--write {target}: {path} is not in the folder of {target} or below")
     return place.relative_to(home).as_posix()
 
 

@@ -200,7 +200,7 @@ def card_grids(card: Sequence[Bobweight], *units: ShownUnit) -> Iterator[Grid]:
 
     Args:
         card: Bobweights of all pins.
-        units: Units of mass, of a column each; terms are in the first.
+        units: Units of mass, one column for each; terms of the sums are in the first unit.
     """
     alike: dict[tuple[CardLine, ...], list[Bobweight]] = {}
     for bobweight in card:
@@ -260,8 +260,8 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         cells = map(number, (*weights, *forces, moment.of(row.peak_moment_Nm)))
         rows.append((percent(row.factor), *cells))
     note = (
-        "Bobweight of the first pin; weight: largest counterweight to add. The force that remains, "
-        "all orders: its largest value, and those along and across the first bank."
+        "Bobweight: of the first pin; weight: largest counterweight to add; force: largest value "
+        "of what remains in all orders, and of its components along and across the first bank."
     )
     return Grid("Largest values by factor", heads, tuple(rows), note=note)
 

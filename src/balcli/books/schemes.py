@@ -8,10 +8,10 @@ the vectors. Sliders cancel the components Z_x and Z_y.
 
 Table 1 of Wang Yongding, Methods of balancing single-cylinder engines: a counterweight k m_j r
 stands at an angle alpha ahead of the point opposite the crank. The remaining force of orders 1 and
-2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}), and the table lists the counterweight with
-the smallest largest |P|. The author searched k in steps of 0.1, alpha in steps of 5 degrees and
-theta in steps of 1 degree, but theta only over half a revolution. The best alpha is 0: the greatest
-|P| is convex in k e^{i alpha}, and changing the sign of alpha only mirrors the curve.
+2 is P = J (cos th + lam cos 2 th - k e^{i(th + alpha)}), and the table lists the counterweight for
+which the largest |P| is smallest. The author searched k in steps of 0.1, alpha in steps of 5
+degrees and theta in steps of 1 degree, but theta only over half a revolution. The best alpha is 0:
+the greatest |P| is convex in k e^{i alpha}, and changing the sign of alpha only mirrors the curve.
 """
 
 from __future__ import annotations
@@ -189,7 +189,7 @@ def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
 
 def _true(lam: float) -> Row:
     """Return the smallest peak, its k and alpha, and the direction and crank angle of one of its
-    three equal maxima, which is along the cylinder: both angles are 0.
+    three equal maxima: that at theta = 0, where P lies along the cylinder.
 
     At theta = 0, P = 1 + lam - k falls with k. The two other maxima, symmetric to the cylinder,
     rise with k. The best k makes all three equal.

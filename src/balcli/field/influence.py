@@ -213,8 +213,8 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
 
 
 def count_needed(series: Series, used: Collection[int]) -> int | None:
-    """Return the number of first runs that determine V0 and all coefficients; None if all runs
-    together do not determine them.
+    """Return how many runs, from the first on, determine V0 and all coefficients; None if all
+    runs together do not determine them.
 
     Args:
         series: Runs.
@@ -263,10 +263,10 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
         lacking.insert(0, "of the rotor as found, without weights")
     if not lacking:
         named = [plane for plane, weights in zip(file.planes, tried, strict=True) if weights]
-        lacking = [f"in which the weights in {join_words(named)} differ in ratio, or one alone"]
+        lacking = [f"with another ratio of the weights in {join_words(named)}, or with one alone"]
     return Problem(
         "run",
         f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} with "
         "different weights are needed (one as found, and one for each plane), and there "
-        f"are {len(series.numbers)}; or give influence, or leave a plane out (--without)",
+        f"are {len(series.numbers)}; or write `influence`, or leave a plane out (--without)",
     )

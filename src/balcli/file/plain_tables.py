@@ -193,7 +193,7 @@ def choose_assumed(
 
 
 def join_assumed(each: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return what several engines assume, by their names: first what all do, then single ones'."""
+    """Return what engines assume: first the lines that all share, then others after their name."""
     lists = [*each.values()]
     common = [line for line in lists[0] if all(line in lines for lines in lists)]
     own = (f"{name}.{x}" for name, lines in each.items() for x in lines if x not in common)

@@ -268,7 +268,7 @@ def describe_free_motion(motion: Real) -> str:
     return f"{'turning about' if turns else 'moving along'} {along}"
 
 
-_FLATTEST = 0.05  # smallest square of a drawn block's side, as a share of the largest
+_FLATTEST = 0.05  # smallest squared side of a drawn block, as a share of the largest
 # On the page, x points up, z to the right, y to the left and towards the reader.
 PROJECTION = np.array([[0.0, -0.62, 0.86], [1.0, -0.34, -0.28]])
 

@@ -214,7 +214,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
         with suppress(OSError):
             if (folder / name).read_bytes() == (target.parent / name).read_bytes():
                 continue
-        raise BalcliError(f'{target}: the engine file names "{name}", which is in {folder}')
+        raise BalcliError(f'{target}: "{name}" of the engine file must be copied from {folder}')
 
 
 def _list_named_files(source: Path) -> list[Path]:

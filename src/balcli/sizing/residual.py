@@ -58,8 +58,8 @@ class Residual(NamedTuple):
 
     Attributes:
         order: Order n.
-        parts: Complex amplitude of each part divided by `n^2 omega^2`: force in kg m, moment (over
-            i) and roll in kg m^2.
+        parts: Complex amplitude of each part divided by `n^2 omega^2`: force in kg m, moment
+            (also divided by the imaginary unit i) and roll in kg m^2.
         noise: Rounding error of each part, in the same units.
         reference: Point about which moments and roll are taken.
         newtons_per_kg_m: `n^2 omega^2`, in N/(kg m).
@@ -215,7 +215,7 @@ def choose_residual(
 def _find_lowest(
     engine: Engine, options: SchemeOptions, sought: Sequence[ResidualPart], what: str
 ) -> Residual:
-    """Return the residual of the lowest order with a part of these that is not small."""
+    """Return the residual of the lowest order in which a sought part is not small."""
     scales, least, found = find_scales(engine), options.read_small(), list[Residual]()
     for order in range(1, HIGHEST_ORDER_SOUGHT + 1):
         found.append(find_residual(engine, order))
@@ -233,7 +233,7 @@ def tell_small(
     sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
 ) -> str:
     """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
-    which scheme cancels the largest part of all, if possible one that turns the same way.
+    which scheme cancels the largest of all parts, if possible of those that turn the same way.
 
     Args:
         sought: Parts that the scheme cancels.

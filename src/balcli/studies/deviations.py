@@ -168,8 +168,8 @@ def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
-    """Return the angles of the devices as functions of the angle of cylinder 1's throw. All angles
-    count from this throw, so these lines keep the devices in place relative to the other throws.
+    """Return the angles of the devices as functions of the angle of cylinder 1's throw. Angles of
+    devices count from this throw; if it turns, the functions keep them in place on the crank.
     """
     lines = {}
     for path, table in model.tables():

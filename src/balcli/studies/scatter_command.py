@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 SHOWN = 6  # largest number of changes of each quantity in a table
-BOUND = "Bound: nominal value plus the changes by all tolerances; a variant may lie slightly beyond"
+BOUND = "Bound: nominal value plus the linear changes by all tolerances; variants may lie beyond it"
 _SHAPES = {
     "uniform": "evenly distributed",
     "normal": (

@@ -88,7 +88,7 @@ class TorqueAnalysis(Result):
     Attributes:
         speed_rpm: Mean speed.
         no_gas_in: Cylinders without gas force.
-        no_burning_in: Cylinders that compress and burn nothing.
+        no_burning_in: Cylinders that compress and expand their charge without burning it.
         assumed: Values assumed because the engine file leaves them out.
         cycle_deg: Cycle of the engine, or period of the curve.
         imep_Pa: Indicated mean effective pressure: work of all cylinders over their swept volume.

@@ -45,8 +45,8 @@ class Twist(NamedTuple):
 
     Attributes:
         angle: (*frequency, nodes) angle of each node, rad.
-        torque: (*frequency, shafts) torque of each shaft at the speed of its end, N m, with its
-            damping part; positive if it drives the end forward.
+        torque: (*frequency, shafts) torque of each shaft, referred to the speed of its node `end`,
+            N m, damping included; positive if it drives that node forward.
     """
 
     angle: Complex
@@ -107,7 +107,7 @@ def _find_flexibilities(
 
 
 def _find_roots(chain: Chain, shafts: NDArray[np.bool_]) -> list[int]:
-    """Return for every piece the free node with the largest inertia, referred to a common speed."""
+    """Return the free node of each connected piece with the largest inertia at a common speed."""
     pieces = find_pieces(chain, shafts)
     weight = np.where(chain.clamped, -1, chain.inertia * pieces.pace**2)
     return [
@@ -278,8 +278,8 @@ def refuse_unbounded(system: TorsionalSystem, rpm: Real) -> None:
     excitation = system.require_excitation()
     count = len(excitation.orders) * len(rpm) * len(system.shafts)
     if count > MOST_TORSION_TORQUES:
-        text = f"{count} torques by order, speed and shaft, and at most {MOST_TORSION_TORQUES} are"
-        raise BalcliError(f"{text} kept: take fewer speeds or orders")
+        text = f"{count} torques (orders x speeds x shafts), but at most {MOST_TORSION_TORQUES}"
+        raise BalcliError(f"{text} can be kept: take fewer speeds or orders")
     lossy = (system.damping.loss > 0) | (system.damping.dashpots > 0)
     if np.all(lossy | np.isinf(system.chain.stiffness)):  # every elastic shaft has losses
         return
