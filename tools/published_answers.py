@@ -125,8 +125,9 @@ def _list_differing(figures: list[tuple[Problem, Figure]], verdict: str, head: s
     for problem, f in figures:
         if f.verdict == verdict:
             unit = f" {_write_unit(f.unit)}" if f.unit else ""
+            shown = f.balcli or f"{100 * f.within:.2g} %"
             lines.append(
-                f"| {_link(problem)} | {f.name} | {f.printed}{unit} | {f.balcli} | {f.remark} |"
+                f"| {_link(problem)} | {f.name} | {f.printed}{unit} | {shown} | {f.remark} |"
             )
     return "\n".join(lines)
 

@@ -71,13 +71,15 @@ def tabulate_published(printed: Print, ranges: Ranges) -> Table:
     """Return the printed figures of published problems and balcli's, which tests recompute by the
     command of each problem.
     """
-    named = [printed.column(name) for name in ("source", "figure", "class", "remark", "printed")]
+    wanted = "source", "figure", "unit", "class", "remark", "printed"
+    named = [printed.column(name) for name in wanted]
     own = [float(text) for text in printed.column(ANSWER)]
     rows = [(*words[:-1], value) for words, value in zip(printed.rows, own, strict=True)]
     errata = []
-    for i, (source, figure, kind, remark, text) in enumerate(zip(*named, strict=True)):
+    for i, (source, figure, measure, kind, remark, text) in enumerate(zip(*named, strict=True)):
         if kind:
-            label, category = f"{source}: {figure}", cast("ErratumClass", kind)
+            name = f"{figure}, {measure}" if measure else figure
+            label, category = f"{source}: {name}", cast("ErratumClass", kind)
             errata.append(Erratum(i, ANSWER, text, own[i], remark, label, category))
     words = tuple((*line[:-1], None) for line in printed.rows)
     shape = printed.columns, tuple(rows), words

@@ -65,8 +65,7 @@ class Bank(NamedTuple):
         found: dict[float, list[CylinderNumber]] = {}
         for ray in self.cylinders:
             if ray.force:
-                angle = round(angle_deg(ray.force), 6) % 360
-                found.setdefault(angle, []).append(ray.cylinder)
+                found.setdefault(find_direction(ray.force), []).append(ray.cylinder)
         return dict(sorted(found.items()))
 
 
@@ -123,6 +122,11 @@ def find_stars(
                 for bank, own in zip(banks, sums, strict=True)
             )
             yield Star(order, turns, banks=found, **_pick(total, way, k))
+
+
+def find_direction(vector: complex) -> float:
+    """Return the direction of a vector, deg from 0 to 360, without rounding errors."""
+    return round(angle_deg(vector), 6) % 360
 
 
 def _list_banks(engine: Engine) -> list[list[CylinderNumber]]:

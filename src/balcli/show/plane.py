@@ -13,8 +13,7 @@ import numpy as np
 
 from ..core.peaks import find_largest
 from ..core.phasors import Array, Complex, Phasors, unit as unit_vector
-from ..core.records import angle_deg
-from ..forces.stars import Star
+from ..forces.stars import Star, find_direction
 from .plot_style import BLUE, GREEN, INK, PAPER, RED, SOFT, Look, put_legend_above
 from .sheet import NOTHING, VISIBLE, number, order_name, size_text
 from .units import ShownUnit
@@ -269,7 +268,7 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     rays = [
         (turn * getattr(ray, quantity), str(ray.cylinder), bank)
         for bank, own in enumerate(star.banks)
-        for ray in sorted(own.cylinders, key=lambda ray: _find_direction(getattr(ray, quantity)))
+        for ray in sorted(own.cylinders, key=lambda ray: find_direction(getattr(ray, quantity)))
         if getattr(ray, quantity)
     ]
     corners = np.cumsum([0j, *(vector for vector, _, _ in rays)])
@@ -296,11 +295,6 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
         _draw_arrow(ax, across, across + total, mutation_scale=11, **look)
     else:
         ax.plot([0], [0], "o", color=INK, markersize=4)
-
-
-def _find_direction(vector: complex) -> float:
-    """Return the direction of a vector, deg from 0 to 360, without rounding errors."""
-    return round(angle_deg(vector), 6) % 360
 
 
 def _look(bank: int, banks: int) -> Look:
