@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..core.cylinders import Device, DeviceKind
-from ..core.phasors import Figure, unit
+from ..core.phasors import Complex, Figure, unit
 from ..errors import InputError, Problem
 from ..file.fields import shorten
 from ..file.model import Counterweight, Sector, Shaft, Slider
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 def build_devices(parts: Parts) -> Iterator[Device]:
-    """Yield the coupling masses of a locomotive, and the counterweights, shafts and sliders of a
-    file, in this order, as `build_device` does.
+    """Yield all devices of a file in SI units: first the coupling masses of a locomotive, then
+    counterweights, shafts and sliders.
 
     Args:
         parts: Parts of the engine, whose figures may vary.
@@ -48,7 +48,7 @@ def _build_coupling_pins(parts: Parts, first_axis_deg: Figure) -> Iterator[Devic
         path = f"axle.{label_table(axle, k)}.coupling_mass"
         masses = figures.take_for_each(path, axle.coupling_mass, 2)
         for mass, z, angle in zip(masses, planes, angles, strict=True):
-            turning, kind = mass * radius * unit(angle + first_axis_deg), DeviceKind.COUNTERWEIGHT
+            turning, kind = _turn(mass * radius, angle + first_axis_deg), DeviceKind.COUNTERWEIGHT
             if np.any(mass):
                 yield Device(1, turning, 0j, 0j, z / 1e3, kind, axle=axle.name)
 
@@ -70,7 +70,7 @@ def build_device(
     """
     take = figures.take
     start = first_axis_deg if isinstance(table, Counterweight) else 0.0
-    turning = _unbalance(figures, path, table) * unit(take(f"{path}.angle", table.angle) + start)
+    turning = _turn(_unbalance(figures, path, table), take(f"{path}.angle", table.angle) + start)
     z = take(f"{path}.position", table.position) / 1e3
     if isinstance(table, Counterweight):
         spin = take(f"{path}.inertia", table.inertia) / 1e6
@@ -89,13 +89,18 @@ def build_device(
         return Device(order, forward, backward, place, z, kind, compensates, spin)
     # The displacement `U cos(n theta + angle)` is the sum of two vectors of half the size, which
     # turn in opposite directions.
-    half = unit(take(f"{path}.direction", table.direction)) / 2
+    half = _turn(0.5, take(f"{path}.direction", table.direction))
     forward, backward = half * turning, half * np.conj(turning)
     return Device(table.order, forward, backward, place, z, DeviceKind.SLIDER)
 
 
+def _turn(size: Figure, angle_deg: Figure) -> Complex:
+    """Return the vector of a size and a direction at crank angle 0, deg."""
+    return size * unit(angle_deg)
+
+
 def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | Slider) -> Figure:
-    """Return mass x radius, kg m.
+    """Return the unbalance of a device (mass x radius), kg m.
 
     Raises:
         InputError: The unbalance is "fit".
@@ -111,7 +116,7 @@ def _unbalance(figures: FileFigures, path: str, device: Counterweight | Shaft | 
 def find_given_unbalance(
     device: Counterweight | Shaft | Slider, figures: FileFigures = AS_GIVEN, path: str = ""
 ) -> Figure | None:
-    """Return mass x radius, kg m; None where the file gives neither it nor mass and radius.
+    """Return the unbalance, kg m; None if the file gives neither it nor mass and radius.
 
     Raises:
         InputError: Only one of mass and radius varies, and the file gives neither.

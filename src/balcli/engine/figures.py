@@ -189,12 +189,14 @@ class RodFigures(NamedTuple):
         """
         if not (said := own.given):
             return self
-        rivals = {
-            rival for choice in RodKeys.choices for key in said for rival in choice.rivals(key)
-        }
+        rivals = {rival for key in said for rival in _RIVALS[key]}
         return RodFigures(**(self._asdict() | dict.fromkeys(rivals) | said))
 
 
+_RIVALS = {  # keys of [rod] that a key excludes
+    key: [rival for choice in RodKeys.choices for rival in choice.rivals(key)]
+    for key in RodFigures._fields
+}
 _SI = {"length": 1e3, "cg": 1e3, "inertia": 1e6}  # divisors that convert keys of [rod] to SI units
 
 

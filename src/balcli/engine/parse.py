@@ -61,11 +61,12 @@ def _refuse_mistakes(draft: Draft, name: str = "") -> EngineFile:
     draft = join_engines(draft)
     if not draft.problems:
         return draft.model if draft.model.engine else infer_numbering(draft.model)
-    raise refuse([*draft.problems, *list_contradictions(draft)], name)
+    problems = [*draft.problems, *list_contradictions(draft)]
+    raise refuse(problems, name)
 
 
 def join_engines(draft: Draft) -> Draft:
-    """Return the readable part of a file; with [[engine]] also of the files of its engines."""
+    """Return the readable part of a file, joined with the files that its [[engine]] tables name."""
     if not draft.model.engine:
         return draft
     whole: Draft = import_name(READ_GEARED)(draft, _parse_one)
