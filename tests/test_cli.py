@@ -459,8 +459,8 @@ def test_a_pipe_in_a_folder_is_passed_over(tmp_path):
 
 
 FAULT = (
-    "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, no figure "
-    "is to be trusted: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
+    "balcli: internal error (ZeroDivisionError: by nought); this is a fault of balcli, do not trust "
+    "its figures: please report it with the command and its files (BALCLI_TRACEBACK=1 shows "
     "where it is)\n"
 )
 

@@ -336,7 +336,7 @@ def test_a_record_is_not_written_through_a_link_out_of_the_folder(check, tmp_pat
     (tmp_path / "mine/expected/four.json").symlink_to(theirs)
     status, _, err = check(engine, "--update")
     assert (status, theirs.read_text()) == (2, "precious")
-    assert "is a link out of the folder" in err
+    assert "is a link that leads out of the engine's folder" in err
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")

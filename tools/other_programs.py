@@ -25,23 +25,25 @@ writes this page.
 
 ## Free forces and moments: Exudyn
 
-[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. Every example engine
-is built there of its parts: a crankshaft that a drive turns at constant speed, rods and pistons
-with their joints and guides, balancer shafts, all on a frame that one joint holds. Its motion is
-computed in {fewest} to {most} time steps a revolution and extrapolated to a step of zero. Orders 0
-to {highest} of force and moment on that joint, and of the torque of the drive, are compared with
-`balcli analyze`. Gas is left out: the comparison is of inertia. The table has the largest
-difference, as a share of the largest order of its group (of a thousandth of one cylinder's force or
-moment, if that is larger), rounded up to a power of ten.
+[Exudyn](https://github.com/jgerstmayr/EXUDYN) {exudyn} simulates rigid bodies. The comparison
+builds every example engine from its parts: a crankshaft that a drive turns at constant speed, rods
+and pistons with their joints and guides, and balancer shafts. All of them are mounted on a frame
+that one joint holds. Exudyn computes the motion in {fewest} to {most} time steps per revolution;
+the results are extrapolated to a step of zero. Orders 0 to {highest} of the force and moment on
+that joint, and of the torque of the drive, are compared with `balcli analyze`. Gas is left out, so
+that only inertia is compared. The table lists the largest difference of each group, rounded up to a
+power of ten. It is relative to the largest order of the group, or to a thousandth of one cylinder's
+force or moment if that is larger.
 
 {engines}
 
 ## Torsional vibration: openTorsion
 
 [openTorsion](https://github.com/Aalto-Arotor/openTorsion) {opentorsion} computes natural
-frequencies (differences relative to each), shapes of modes, damped poles, and the torque in every
-shaft over a range of speeds. A dash marks what is not compared: openTorsion has no poles with loss
-factors. The torques that excite the throws of engines are balcli's own.
+frequencies, mode shapes, damped poles, and the torque in every shaft over a range of speeds. The
+difference of a frequency is relative to that frequency. A dash marks poles that cannot be compared,
+because openTorsion computes none for shafts with loss factors. For engines, balcli computes the
+torques that excite the throws.
 
 {chains}
 """

@@ -38,31 +38,32 @@ WORDS = {
 INTRODUCTION = """\
 # How balcli compares with {figures} published answers
 
-{problems} problems of {works} books, papers, guides and pages have printed answers that balcli was
-asked for. Of {figures} figures
+balcli solves {problems} problems from {works} books, papers, guides and web pages that print their
+answers. Of the {figures} printed figures,
 
-- {agrees} agree in all printed digits (of 10 at most),
-- {rounded} agree within what the source rounded, or measured in a drawing
+- {agrees} agree in all printed digits (at most 10 digits are compared),
+- {rounded} agree within the rounding of the source, or within the accuracy of its drawing
   ([reasons](#within-the-rounding-of-the-source)),
 - {definition} follow [another definition](#other-definitions), such as two terms of a series,
 - {wrong} are [wrong in the source](#wrong-in-the-source); {code} of these come from the code of a
   companion, not from its book.
 
-For each figure of the last two kinds, a second calculation without balcli gives the print by the
-other definition, or the right value. A FOSSEE companion is code for the examples of a book, whose
-output its authors compared with the book; half of the problems are read there.
+For each figure of the last two kinds, a second calculation without balcli reproduces the printed
+figure by the other definition, or gives the right value. A FOSSEE companion is code that solves the
+examples of a book; its authors compared its output with the book. Half of the problems come from
+these companions.
 
-No printed answers were found for: rotary, articulated and geared engines, dampers and pendulums of
-torsion, and most schemes of `balance` (shafts, minimax, ellipse, compensators, couplings). For
-these, tests compare with other calculations and [other programs](programs.md), and with the tables
-of five texts (`balcli tables`).
+No printed answers were found for rotary, articulated and geared engines, for torsional dampers and
+pendulums, and for most schemes of `balance` (shafts, minimax, ellipse, compensators, couplings).
+For these, tests compare balcli with other calculations and [other programs](programs.md), and with
+the tables of five texts (`balcli tables`).
 
 The files with all data and commands are in `tests/published`, and tests run them. `balcli tables
-published` lists the problems, with `--format csv` every figure."""
+published` lists the problems; with `--format csv`, it lists every figure."""
 
 
 def list_rows(problem: Problem) -> list[tuple[str, ...]]:
-    """Return a row of the table for each figure of a problem; balcli's answer with six digits."""
+    """Return a row of the table for each figure of a problem; balcli's answer has six digits."""
     about = problem.chapter, problem.source, problem.title, problem.address
     return [
         (*about, f.name, f.unit, f.verdict, f.category, f.remark, f.printed, f"{value:.6g}")

@@ -12,7 +12,7 @@ from __future__ import annotations
 from .names import PUBLIC, import_name
 from .version import __version__ as __version__
 
-TYPE_CHECKING = False  # importing typing is slow, and Ctrl-C shows a traceback meanwhile
+TYPE_CHECKING = False  # the import of typing is slow, and Ctrl-C during it prints a traceback
 if TYPE_CHECKING:
     from .analysis.answer import Analysis as Analysis, analyze as analyze
     from .analysis.comparison import Comparison as Comparison, compare as compare
@@ -54,10 +54,10 @@ def __dir__() -> list[str]:
     return __all__
 
 
-if not TYPE_CHECKING:  # a type checker would accept any name
+if not TYPE_CHECKING:  # with __getattr__, a type checker accepts any name
 
     def __getattr__(name: str) -> object:
-        """Return a public name of the library; its module is imported at the first use."""
+        """Return the object of a public name; its module is imported at the first use."""
         if name not in PUBLIC:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return import_name(f"{PUBLIC[name]}:{name}")

@@ -17,7 +17,7 @@ def main() -> NoReturn:
         if getattr(sys, name) is None:  # closed by the caller (`>&-`): using it raises OSError
             setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are too small for threads
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else each package is searched for some
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else pydantic searches all packages
     status: int = Exit.DONE
     try:
         ignore_matplotlib_settings()
@@ -61,7 +61,7 @@ def _report_fault(error: Exception) -> None:
         say("".join(traceback.format_exception(error)).rstrip("\n"))
     what = ": ".join(filter(None, (type(error).__name__, str(error))))
     say(
-        f"balcli: internal error ({what}); this is a fault of balcli, no figure is to be trusted: "
+        f"balcli: internal error ({what}); this is a fault of balcli, do not trust its figures: "
         "please report it with the command and its files (BALCLI_TRACEBACK=1 shows where it is)"
     )
 

@@ -1,4 +1,4 @@
-"""Measure run time and error, on this machine, of several methods for the same figures.
+"""Measure run time and error of several methods for the same figures, on this machine.
 
 The methods are the two-term formula, the series that books print, the closed form (balcli itself),
 the FFT of samples, and differences of the piston's position (time stepping). All but the closed
@@ -77,7 +77,7 @@ def main(number: float = 1.0) -> None:
 typer.run(main)
 """
 _PAIRS = 9
-_SHORTEST = 1e-7  # shortest run time, s; a shorter one is replaced by it
+_SHORTEST = 1e-7  # s; shorter run times are replaced by this one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,7 +134,7 @@ class Case(NamedTuple):
 
 
 def measure() -> Bench:
-    """Time every method, and a cold start of the program; about ten seconds."""
+    """Time every method and a cold start of the program; this takes about ten seconds."""
     rows = tuple(
         Row(task=case.task, method=case.method, seconds=time_run(case.run), error=case.error)
         for case in list_cases()
@@ -143,7 +143,7 @@ def measure() -> Bench:
 
 
 def list_cases() -> Iterator[Case]:
-    """Yield every method of every task."""
+    """Yield a case for every method of every task."""
     cylinder, v8 = build(parse(CYLINDER)), build(parse(V8))
     for task, engine, orders in (
         ("one cylinder, order 2", cylinder, [2]),
@@ -299,7 +299,7 @@ def compare_starts() -> Iterator[Ratio]:
     """Yield the time of a cold `balcli analyze` as a multiple of other programs' times."""
     others = {
         "importing numpy, typer and pydantic": LIBRARIES,
-        "the smallest program of these that reads an option": SMALLEST,
+        "a minimal program that uses them to read an option": SMALLEST,
     }
     for what, program in others.items():
         pairs = [
@@ -330,7 +330,7 @@ def rows(result: Bench, _system: System) -> Rows:
 
 
 def sheet(result: Bench, _system: System) -> Sheet:
-    """Return a table for each task, and one of the ratios."""
+    """Return a table for each task, and a table of the ratios."""
     grids = []
     for task in dict.fromkeys(r.task for r in result.rows):
         shown = [r for r in result.rows if r.task == task]
@@ -343,7 +343,7 @@ def sheet(result: Bench, _system: System) -> Sheet:
 
 
 def _error(row: Row) -> str:
-    """Return the error with two digits, or "rounding" if it is no larger than that."""
+    """Return the error with two digits, or "rounding" if it is below `ROUNDING`."""
     return "rounding" if row.error < ROUNDING else f"{row.error:.1e}"
 
 

@@ -29,7 +29,7 @@ from .version import __version__
 if TYPE_CHECKING:
     from typer._click import Command, Context, HelpFormatter, Parameter
 
-# Summary of each command; the first paragraph of its own help is the same.
+# Summary of each command; the help of the command itself may say more.
 GROUPS = {
     "Analyse": {
         "analyze": "Free forces and moments by order, and devices that balance them.",
@@ -49,16 +49,16 @@ GROUPS = {
     },
     "Study": {
         "numbers": "List the numbers of an engine file that can vary, and its quantities.",
-        "sweep": "Quantities for many variants of an engine, whose numbers vary over ranges.",
+        "sweep": "Quantities of an engine whose numbers vary over ranges.",
         "search": "Find the best crank, firing order, bank angle or splay, or any numbers.",
-        "scatter": "Spread of free forces and moments by tolerances, and which matter most.",
+        "scatter": "Spread of forces and moments, and the tolerances that matter most.",
         "mounts": "Vibration of an engine on its mounts, over a range of speeds.",
-        "torsion": "Torsional vibration of a crankshaft or any shafts, dampers, barred speeds.",
+        "torsion": "Torsional vibration of a crankshaft or any shafts; dampers, barred speeds.",
     },
     "Files and tables": {
         "new": "Write a commented, valid engine file (or file of runs, or chain file).",
         "engines": "List the example engines that come with balcli, print one, or copy it.",
-        "schema": "Print the JSON Schema of a file, for editors, or of a command's output.",
+        "schema": "Print the JSON Schema of a file (for editors) or of a command's output.",
         "check": "Recompute engines and compare with their recorded results.",
         "tables": "Recompute the tables printed in five books and papers; list their errata.",
         "bench": "Measure run time and error of several methods on this machine.",
@@ -84,7 +84,7 @@ _COMMANDS_OF = {
 }
 MODULES = {name: module for module, names in _COMMANDS_OF.items() for name in names}
 
-IN_FULL_PRECISION = ("curves", "sweep", "tables")  # their figures have digits of their own
+IN_FULL_PRECISION = ("curves", "sweep", "tables")  # --digits does not change their figures
 
 
 class _Command(TyperCommand):
@@ -144,8 +144,8 @@ app = typer.Typer(
 def _share(
     options: Iterable[Parameter], command: str, own: Iterable[Parameter]
 ) -> Iterator[Parameter]:
-    """Yield the program's options that may also follow a command's name. A word that the command
-    itself uses is left out: `-q` of `sweep` is its --quantity.
+    """Yield the program's options that may also follow a command's name. A spelling that the
+    command itself uses is left out: in `sweep`, `-q` is --quantity.
     """
     taken = {word for option in own for word in option.opts}
     tables = "--format" in taken and command not in IN_FULL_PRECISION
@@ -153,7 +153,7 @@ def _share(
         if option.name in ("quiet", "verbose") or (option.name == "digits" and tables):
             shared = copy(option)
             shared.opts = [word for word in option.opts if word not in taken]
-            shared.expose_value, shared.envvar = False, None  # the group has read it
+            shared.expose_value, shared.envvar = False, None  # the group reads the variable
             if shared.opts:
                 yield shared
 
@@ -165,7 +165,7 @@ def _version(wanted: bool) -> None:
 
 
 def _loudness_option(loudness: Loudness, text: str, *names: str) -> object:
-    """Return an option that sets how much is printed as soon as it is read."""
+    """Return an option that sets how much is printed; it takes effect as soon as it is read."""
 
     def apply(wanted: bool) -> None:
         if wanted:
@@ -216,7 +216,7 @@ def _options(
     them.
 
     Describe the engine in a TOML file (`balcli new inline i4.toml` writes one to start from), then
-    `balcli analyze i4.toml`.
+    run `balcli analyze i4.toml`.
     """
     set_digits(digits)
 
@@ -234,14 +234,14 @@ def main() -> NoReturn:
         say(f"balcli: {error}")
     except typer.TyperException as error:
         say(_usage(error))
-    except BrokenPipeError:  # whoever reads the output has enough
+    except BrokenPipeError:  # the reader of the output closed the pipe
         sys.exit(Exit.DONE)
     except (OSError, MemoryError, UnicodeEncodeError) as error:
         say(f"balcli: {_tell_what_the_system_lacks(error)}")
     except typer.Abort:  # Ctrl-C when balcli runs inside another process
         sys.exit(Exit.INTERRUPTED)
     except SystemExit as end:
-        if isinstance(end.__context__, BrokenPipeError):  # whoever reads the help has enough
+        if isinstance(end.__context__, BrokenPipeError):  # the reader of the help closed the pipe
             sys.exit(Exit.DONE)
         raise
     sys.exit(Exit.BAD_INPUT)
@@ -261,15 +261,15 @@ _UNNAMED = {errno.ENOENT: "working folder", errno.EAGAIN: "", None: ""}
 
 def _tell_what_the_system_lacks(error: OSError | MemoryError | UnicodeEncodeError) -> str:
     if isinstance(error, OSError):
-        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # as for help
+        named = error.filename or _UNNAMED.get(error.errno, "standard output")  # such as help
         return ": ".join(filter(None, (named, error.strerror or str(error))))
     if isinstance(error, MemoryError):
         return f"there is not enough memory for this{f' ({error})' if str(error) else ''}"
-    return f"{error.object}: no file can have this name here ({error})"  # text goes out in UTF-8
+    return f"{error.object}: no file can have this name here ({error})"  # text is UTF-8
 
 
 def _usage(error: Any) -> str:
-    """Return the usage and the mistake as plain text. (The usual box folds it, even in a pipe.)"""
+    """Return the usage and the mistake as plain text. (The box of typer would fold it.)"""
     text = StringIO()
     error.show(text)
-    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's words
+    return text.getvalue().rstrip("\n").replace("Value error, ", "")  # pydantic's prefix

@@ -39,10 +39,10 @@ if TYPE_CHECKING:
 Force = Annotated[bool, typer.Option("--force", help="Overwrite FILE if it exists.")]
 KIND = (
     "single, inline, vee, boxer, radial, radial14 or w; mounts: an engine on its mounts; "
-    "locomotive: balance of its wheels; field: runs of a rotor on a machine; torsion: a chain of "
+    "locomotive: balance of its wheels; field: balancing runs of a rotor; torsion: a chain of "
     "inertias and shafts."
 )
-WHERE = "Where to write it; default: standard output."
+WHERE = "File to write; default: standard output."
 
 
 def new(
@@ -50,8 +50,8 @@ def new(
     path: Annotated[Path | None, argument("FILE", WHERE, callback=parse_output)] = None,
     force: Force = False,
 ) -> None:
-    """Write a commented, valid engine file (or file of runs, for `field`, or chain file, for
-    `torsion`) to start from.
+    """Write a commented, valid engine file to start from; for `field` a file of runs, for `torsion`
+    a chain file.
 
     \b
     Example:
@@ -68,11 +68,11 @@ def complete_examples(incomplete: str) -> list[str]:
     return [name for name in examples.names() if name.startswith(incomplete)]
 
 
-NAME = "An example; without it all are listed."
-COPY = "Copy it here; default: standard output."
+NAME = "Name of an example; without it, all are listed."
+COPY = "File to write; default: standard output."
 FIND = (
-    "List those whose name, class (aero, car, marine), title, source, lesson or tables (gas, "
-    "torsion) have the words."
+    "List only examples with these words in name, class (aero, car, marine), title, source, lesson "
+    "or tables (gas, torsion)."
 )
 
 
@@ -82,8 +82,8 @@ def engines(
     find: Annotated[str, optional("WORDS", FIND)] = "",
     force: Force = False,
 ) -> None:
-    """List the example engines that come with balcli, print one, or copy it, with the files of its
-    engines where it has several.
+    """List the example engines that come with balcli, print one, or copy it. A copy of an example
+    with several engines includes their files.
 
     \b
     Examples:
@@ -125,10 +125,10 @@ class File(StrEnum):
 
 
 FILE = (
-    "engine: the engine file; field: runs of a rotor on a machine; torsion: a chain of inertias "
+    "engine: the engine file; field: balancing runs of a rotor; torsion: a chain of inertias "
     "and shafts."
 )
-OF = f"Print the schema of a result in JSON instead: {', '.join(DOCUMENTS)}."
+OF = f"Instead, print the schema of a command's JSON output: {', '.join(DOCUMENTS)}."
 
 
 def schema(
@@ -136,7 +136,7 @@ def schema(
     of: Annotated[str | None, optional("RESULT", OF, "--of")] = None,
     output: Output = None,
 ) -> None:
-    """Print the JSON Schema of the engine file, a file of runs or a chain file, for editors; or of
+    """Print the JSON Schema of the engine file, a file of runs or a chain file (for editors), or of
     a command's JSON output.
 
     \b
@@ -189,7 +189,7 @@ def describe_document(name: str) -> Node:
 REPORTS = (Format.TABLE, Format.JSON, Format.JUNIT)
 REPORT = "junit: an XML report for continuous integration."
 UPDATE = "Record the present results in expected/ next to the engines."
-TOLERANCE = "Allowed move of a figure, as a share of the largest figure of its group."
+TOLERANCE = "Allowed change of a figure, as a share of the largest figure of its group."
 
 
 def check(
@@ -198,12 +198,12 @@ def check(
     tolerance: Annotated[float, typer.Option(help=TOLERANCE, min=0, max=1)] = 1e-9,
     form: Annotated[Format | None, format_option(REPORTS, REPORT)] = None,
 ) -> None:
-    """Recompute engines and compare them with their recorded results; exit status 1 if anything
-    moved.
+    """Recompute engines and compare them with their recorded results; exit status 1 if a figure
+    changed.
 
     A record holds the result of `analyze` (orders, peaks, displacement, dead centres) and, if the
-    file has these chapters, torque, mounts and torsion. A record whose engine file is missing is a
-    difference as well. Files of runs and chain files in a folder are skipped.
+    file has these chapters, torque, mounts and torsion. A record whose engine file is missing
+    counts as a difference. Files of runs and chain files in a folder are skipped.
 
     \b
     Examples:
@@ -262,7 +262,7 @@ def _check_engine(path: Path, *, update: bool, tolerance: float) -> CheckedEngin
 
 
 def _list_lines(checked: CheckedEngine) -> Iterator[str]:
-    """Yield a line for each cause, followed by the figures that moved."""
+    """Yield a line for each cause, followed by the figures that changed."""
     for cause in dict.fromkeys(each.cause for each in checked.differences):
         moved = [each for each in checked.differences if each.cause == cause]
         if cause is None:
@@ -270,7 +270,7 @@ def _list_lines(checked: CheckedEngine) -> Iterator[str]:
             continue
         largest = max((each.share for each in moved if each.share is not None), default=None)
         share = "" if largest is None else f", by up to {largest:.1e} of the largest"
-        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} moved{share}"
+        yield f"{checked.engine}: {cause}: {counted(len(moved), 'figure')} changed{share}"
         yield from (f"  {each}" for each in moved)
 
 

@@ -18,16 +18,16 @@ from .limits import MOST_LIST_VALUES
 
 T = TypeVar("T")
 
-# All control characters but tab and line feed; those of Unicode reverse the direction of text or
-# end a line or paragraph.
+# All control characters except tab and line feed. The Unicode ones reverse the direction of text,
+# or end a line or paragraph.
 CONTROL_CHARACTERS = (
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028\u2029\u202a-\u202e\u2066-\u2069]"
 )
 
 
 def legible(text: str) -> str:
-    """Return a text with "?" in place of every control character but line ends and tabs: no file
-    name can then control the terminal.
+    """Return a text with "?" in place of every control character except line ends and tabs, so that
+    no file name can control the terminal.
     """
     return re.sub(CONTROL_CHARACTERS, "?", text)
 
@@ -94,8 +94,8 @@ class Problem(NamedTuple):
         path: Place in the file (`rod.length`, `shaft.2.ratio`); empty for the file as a whole.
         message: The mistake, then the remedy.
         missing: Paths of the missing keys that cause the mistake.
-        meant: For an unknown key, the path of the key that was probably meant, "" if there is none
-            near; None if the key is known.
+        meant: For an unknown key, the path of the key that was probably meant, "" if no key is
+            similar; None if the key is known.
     """
 
     path: str
@@ -109,7 +109,7 @@ class Problem(NamedTuple):
 
         Args:
             path: Dotted name of the key.
-            hint: Reason why it is needed, or an example of a value.
+            hint: Reason why the key is needed, or an example of a value.
         """
         return cls(path, f"is missing; {hint}", (path,))
 
@@ -122,7 +122,7 @@ class BalcliError(Exception):
 
 
 def tell_unwritable(target: str | PathLike[str], error: OSError) -> BalcliError:
-    """Return the error for a file that cannot be written; a missing folder is named.
+    """Return the error for a file that cannot be written; its text names a missing folder.
 
     Args:
         target: Path of the file.
@@ -183,8 +183,8 @@ def check_type(function: str, value: object, kind: type | tuple[type, ...], want
 
 
 def check_number(name: str, value: object, wanted: str) -> float:
-    """Return an argument of a public function as a float; an integer too large for that is
-    infinite.
+    """Return an argument of a public function as a float; an integer too large for a
+    float becomes infinite.
 
     Args:
         name: Name of the argument.
@@ -207,7 +207,7 @@ def refuse_more(name: str, values: object, most: int) -> None:
 
     Args:
         name: Name of the argument.
-        values: Value of the argument; one without a length passes.
+        values: Value of the argument; a value without a length passes.
         most: Largest number of values.
 
     Raises:
@@ -261,7 +261,7 @@ def list_words(
 
 
 def wrong_type(function: str, value: object, wanted: str) -> TypeError:
-    """Return the error for an argument of a wrong type; it shows the value and a right one.
+    """Return the error for an argument of a wrong type, with the value and a right one in its text.
 
     Args:
         function: Name of the function or argument.

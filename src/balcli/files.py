@@ -19,7 +19,7 @@ def replacing(target: Path) -> Iterator[Path]:
     directly. An existing target keeps its mode.
 
     Raises:
-        BalcliError: The target cannot be written; an existing one is unchanged.
+        BalcliError: The target cannot be written; an existing file is unchanged.
     """
     try:
         mode = _read_mode(target)

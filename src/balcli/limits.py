@@ -1,8 +1,8 @@
 """Every limit that a user can reach, with its reason.
 
-All limits are far beyond any engine. They ensure that every input ends soon, in little memory, in a
-result or in a message that names the limit. Parameters of a numerical method (such as samples or
-block sizes) are defined with the method.
+All limits are far beyond any engine. They ensure that balcli answers every input soon and in
+little memory, with a result or with a message that names the limit. Parameters of a numerical
+method (such as samples or block sizes) are defined with the method.
 """
 
 from __future__ import annotations
@@ -18,22 +18,22 @@ LONGEST_ROW = 10_000  # characters of a row in a CSV file: hundreds of columns
 LARGEST_IN_COLUMNS = 1e30  # magnitude of a figure in a CSV file: its products do not overflow
 LONGEST_FIGURE = 100  # characters of a number with its unit, which a regular expression parses
 LONGEST_SHOWN = 60  # characters of a value that a message quotes
-MOST_MISTAKES_SHOWN = 20  # listed mistakes of one file, which fit on the screen
+MOST_MISTAKES_SHOWN = 20  # listed mistakes of one file: as many as fit on the screen
 
 # What an engine may have ---------------------------------------------------------------------
 MOST_PARTS = 1000  # cylinders, or devices of one kind
-MOST_ENGINES = 12  # geared together; the largest built have three or four cranks
+MOST_ENGINES = 12  # engines geared together; the largest built have three or four cranks
 MOST_LIST_VALUES = 10_000  # length of a list; largest number of a bank, cylinder or order
 MOST_KEY_VALUES = 2 * MOST_LIST_VALUES  # values of a key, inner lists included
 HIGHEST_RIPPLE_ORDER = 256  # order of the uneven speed; raises the engine's highest order as much
 MOST_RIPPLES = 256  # orders of the uneven speed
 HIGHEST_SHAFT_ORDER = 1000  # order of a balancer shaft; orders are computed up to it
 SMALLEST_POSITIVE = 1e-12  # figure that must be above 0: its square and cube do not underflow
-# Distance below 1 that lambda + |offset| / rod length, and the sine of an articulated rod's angle,
-# must keep. At 1 the mechanism locks; nearer to that it has too many orders.
+# lambda + |offset| / rod length, and the sine of an articulated rod's angle, must stay below 1 by
+# this distance. At 1 the mechanism locks; closer to 1 it has too many orders.
 NEAREST_TO_LOCK = 1e-6
-# Samples of a revolution, summed over all different mechanisms: they take seconds. A mechanism far
-# from locking needs 64 to 256.
+# Samples of a revolution, summed over all different mechanisms; so many take seconds. A mechanism
+# far from locking needs 64 to 256.
 MOST_SAMPLES = 1 << 19
 
 # Orders --------------------------------------------------------------------------------------
@@ -41,9 +41,9 @@ HIGHEST_ORDER = 4096  # order that a user may choose: closed forms are accurate 
 HIGHEST_ORDER_UNASKED = 512  # order shown by default: only a mechanism close to locking has more
 HIGHEST_GAS_ORDER_UNASKED = 12  # order of gas torque shown by default: amplitudes fall slowly
 MOST_HARMONICS_UNASKED = 512  # harmonics of a torque curve of many turns, shown by default
-HIGHEST_HARMONIC = 1 << 16  # harmonic of a torque curve's period: it takes seconds
+HIGHEST_HARMONIC = 1 << 16  # harmonic of a torque curve's period; so many take seconds
 HIGHEST_TABLE_ORDER = 100  # order of tangential pressure: builders' tables end at 12 to 24
-HIGHEST_ORDER_SOUGHT = 8  # order up to which a scheme looks for an unbalanced one
+HIGHEST_ORDER_SOUGHT = 8  # order up to which a scheme looks for an unbalanced order
 MOST_RESULTS_BY_CYLINDER = 1 << 14  # cylinders x orders that are listed singly
 MOST_RESULTS_ALONG_CRANK = 1 << 15  # loads x orders whose peaks along the crank are computed
 MOST_FORCES_OVER_CYCLE = 1 << 23  # forces along the crank x angles of a cycle: half a minute
@@ -58,7 +58,7 @@ SMALLEST_FLUCTUATION = 1e-9  # wanted fluctuation of the speed: less is lost in 
 FLUCTUATION = "give (highest - lowest)/mean speed, such as 1/200 or 0.5%"
 FARTHEST_DEVICE_M = 50.0  # position of a shaft or plane: the longest engines have 30
 SMALL = 0.05  # default share of one cylinder's first order below which vectors are left unbalanced
-MOST_SMALL = 0.5  # largest share of this kind that a user may choose
+MOST_SMALL = 0.5  # largest value of this share that a user may choose
 WORTH_A_SHAFT = 0.3  # share of one cylinder's first order from which a shaft is fitted by default
 LARGEST_FACTOR = 2  # balance factor, of either sign: 0 to 1 is usual
 MOST_DIGITS = 15  # digits of figures in tables: those of a floating-point number
@@ -78,7 +78,7 @@ MOST_TOLERANCE_SAMPLES = 2_000_000  # random variants computed as arrays, which 
 MOST_SINGLE_SAMPLES = 20_000  # random variants computed one by one: 2 to 100 ms each
 MOST_FOUND = 1000  # designs that a search lists
 MOST_ARRANGEMENTS = 10**10  # arrangements of throws: branch and bound tries few of these
-MOST_GAS_POINTS = 200  # speeds with a gas of their own: each is a diagram or a cycle
+MOST_GAS_POINTS = 200  # speeds that have their own diagram or cycle
 MOST_DESIGNS_ONE_BY_ONE = 2000  # designs in a search by gas, mounts or torsion: 10 to 50 ms each
 MOST_EVEN_CRANKS = 200_000  # cranks with an even firing order: all are tried
 MOST_CYLINDERS_FIRED = 64  # cylinders of an engine whose firing order is searched

@@ -11,7 +11,7 @@ from importlib import import_module
 from typing import Any
 
 # The public names that each module offers to `import balcli`.
-_ROOMS = {
+_EXPORTS = {
     "analysis.answer": "Analysis analyze",
     "analysis.comparison": "Comparison compare",
     "analysis.curves": "Curves curves",
@@ -38,7 +38,7 @@ _ROOMS = {
     "torque.records": "TorqueAnalysis",
     "torsion.answer": "TorsionAnalysis analyze_torsion",
 }
-PUBLIC = {name: module for module, names in _ROOMS.items() for name in names.split()}
+PUBLIC = {name: module for module, names in _EXPORTS.items() for name in names.split()}
 
 # The module whose RENDERER shows a class of results.
 RENDERERS = {

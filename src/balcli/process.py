@@ -40,7 +40,7 @@ def ignore_matplotlib_settings() -> None:
 
 
 def has_no_reader(error: OSError) -> bool:
-    """Return whether a pipe was closed by its reader (on Windows, an invalid argument)."""
+    """Return whether a pipe was closed by its reader; Windows reports an invalid argument."""
     return isinstance(error, BrokenPipeError) or (WINDOWS and error.errno == errno.EINVAL)
 
 
@@ -53,7 +53,8 @@ def count_cores() -> int:
 
 
 # A progress callback. It is called repeatedly with the share that is done (0 to 1), or with a
-# number where the function says so. If it returns True, a computation that can end early ends.
+# number if the docstring of the function says so. If it returns True, a computation that can end
+# early ends.
 Tell = Callable[[float], bool]
 
 

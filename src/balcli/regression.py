@@ -3,9 +3,9 @@
 A record is the JSON document of `analyze` (orders, peaks, displacement, dead centres) with the
 main figures of the further chapters that the engine file has: `torque`, `mounts` and `torsion`.
 Two records agree if every leaf agrees: texts and whole numbers exactly, figures within a share of
-the largest figure of their group. Axes, phases and peak angles of an order, and whether it is
-balanced, follow from its vectors, which are compared; they are not compared again. The angle of a
-peak over all orders may move to another one that is equally high.
+the largest figure of their group. Axes, phases, peak angles and the balance of an order
+are not compared, because they follow from its vectors, which are. The angle of a peak over all
+orders may move to another peak that is equally high.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from .torque.answer import analyze_torque
 from .torsion.answer import analyze_torsion
 
 TOLERANCE = 1e-9  # share of the largest figure of a group; rounding is allowed in addition
-PEAK_ANGLE_DEG = 1e-3  # allowed move of a peak's angle, which rounding moves more than its value
+PEAK_ANGLE_DEG = 1e-3  # allowed change of a peak's angle; rounding affects it more than the value
 DEAD_CENTER_DEG = 1e-6
 RECORDED = (*KINDS, "peak")
 _LABELS = ("order", "mode", "name", "cylinder")  # keys by which members of lists are matched
@@ -49,10 +49,10 @@ class Difference:
     Attributes:
         cause: Quantity or chapter of the figure, such as `force`; null for a missing or broken
             record.
-        figure: The figure that moved, or the reason.
-        recorded: Recorded value; null without one.
-        now: Present value; null without one.
-        share: Size of the move divided by the largest figure of its group; null if it has no size.
+        figure: The figure that changed, or the reason.
+        recorded: Recorded value; null if there is none.
+        now: Present value; null if there is none.
+        share: Change over the largest figure of its group; null for angles and texts.
     """
 
     cause: str | None
@@ -82,7 +82,7 @@ class CheckedEngine:
 
     Attributes:
         engine: Path of the engine file.
-        differences: Every figure that moved.
+        differences: Every figure that changed.
         error: Reason why the file could not be compared; None if it was compared.
     """
 
@@ -167,12 +167,12 @@ def check_target(engine_file: Path) -> Path:
     """Return the path at which to record the result of an engine file.
 
     Raises:
-        BalcliError: A link leads out of the engine's folder, to a file of somebody else.
+        BalcliError: The record is a link that leads out of the engine's folder.
     """
     record, folder = find_record(engine_file), engine_file.parent.resolve()
     if not record.resolve().is_relative_to(folder):
         raise BalcliError(
-            f"{record}: is a link out of the folder of the engine; nothing is recorded there"
+            f"{record}: is a link that leads out of the engine's folder; nothing is recorded"
         )
     return record
 
@@ -224,7 +224,7 @@ def find_differences(
     Args:
         engine: The engine.
         record: Path of the record.
-        tolerance: Allowed move, as a share of the largest figure of the group.
+        tolerance: Allowed change, as a share of the largest figure of the group.
     """
     where = f"{record.parent.name}/{record.name}"
     if not record.exists():
@@ -250,7 +250,7 @@ def find_differences(
 
 
 def _is_equal_peak(engine: Engine, moved: Difference, tolerance: float) -> bool:
-    """Return whether a difference is that of the angles of two peaks that are equally high."""
+    """Return whether a difference is only that between the angles of two equally high peaks."""
     kind = {"peak force_deg": "force", "peak moment_deg": "moment"}.get(moved.figure)
     degrees = moved.recorded, moved.now
     if kind is None or None in degrees:  # no angle: a peak of 0, whose value is compared
@@ -301,7 +301,7 @@ def _compare(
     for path in dict.fromkeys((*new, *old)):
         before, after, shared = old.get(path), new.get(path), path in old and path in new
         if path[-1] == "order" and not shared and (before or after or 0) > 2:
-            continue  # its figures decide; orders 1 and 2 are always recorded
+            continue  # the order's figures decide; orders 1 and 2 are always recorded
         group, is_angle = _find_group(path), path[-1].endswith("_deg")
         scale = largest.get(group, 0.0)
         order = next((part for part in path if part.startswith("order ")), "")
@@ -324,8 +324,9 @@ def _compare(
 
 
 def _find_roundings(found: Spectra) -> dict[tuple[str, str], float]:
-    """Return the largest move of a figure by rounding, by group and order. The same bound decides
-    whether an order is balanced. If large orders cancel, it may exceed a share of the remainder.
+    """Return the largest change of a figure that rounding can cause, by group and order. The same
+    bound decides whether an order is balanced. Where large forces cancel, the bound may exceed the
+    tolerated share of the remaining force.
     """
     errors: dict[tuple[str, str], float] = {}
     for kind, phasors in found.items():

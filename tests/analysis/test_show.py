@@ -51,7 +51,7 @@ def test_without_bearings_bending_ends_with_the_free_moment_about_the_last_place
     about_middle = inline_engine([0, 0])
     about_last = inline_engine([0, 0], more="[frame]\nreference = [0, 0, 50]\n")
     told = shown(about_middle, only=["inner"])
-    assert "at the last position is the free moment of all these loads about it" in told
+    assert "at the last position is the free moment of all these loads about this position" in told
     last = document(about_middle, only=["inner"])["inner"]["sections"][-1]
     assert last["position_mm"] == pytest.approx(50)
     assert last["bending_Nm"]["peak"] == pytest.approx(analyze(about_last).peak.moment.value)

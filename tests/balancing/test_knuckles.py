@@ -18,7 +18,7 @@ def test_dead_centres_at_even_intervals():
     assert np.abs(found.before.top_deg).max() > 3
     assert np.abs(found.after.top_deg).max() < 1e-9
     assert found.angles_deg[0] == 0
-    assert found.reasons[0].endswith("top dead centres where the master's cylinder has them")
+    assert found.reasons[0].endswith("top dead centres at the same angle as the master's")
 
 
 def test_equal_strokes():
@@ -99,7 +99,7 @@ def test_with_gas_the_roll_is_that_of_both(tmp_path):
     ("options", "message"),
     [
         (["--even", "colours"], '--even "colours": choose from dead-centres, strokes'),
-        (["--order", "2"], "scheme knuckles: has no option but --even"),
+        (["--order", "2"], "scheme knuckles takes no option but --even"),
     ],
 )
 def test_options_that_knuckles_do_not_take_are_refused(options, message):

@@ -170,7 +170,7 @@ VALVES = {"exhaust_opens": 110.0, "intake_closes": 600.0}
         (wiebe(-15, 50), "imep", 10e5, {"exhaust_opens": 190.0, "strokes": 2}, "exhaust_opens: is 190°: give up to 180°, the lower dead centre"),
         (wiebe(10, 120), "imep", 10e5, VALVES, "burn_duration: makes the burn end at 130°, past 110°, where the exhaust opens"),
         (wiebe(-130, 100), "imep", 10e5, VALVES, "burn_start: is -130°, before -120°, where compression begins"),
-        (DIESELS, "max_pressure", 60e5, {}, "max_pressure: does not make the diesel cycle: give imep, heat or cut_off"),
+        (DIESELS, "max_pressure", 60e5, {}, "max_pressure: does not determine the diesel cycle: give imep, heat or cut_off"),
         (OTTO, "imep", -1e5, {}, "imep: is -1 bar: this cycle has at least 0.1075 bar"),
         (DIESELS, "imep", 40e5, {}, "imep: is 40 bar: this cycle has at most 17.06 bar"),
         (OTTO, "max_pressure", 15e5, {}, "max_pressure: is 15 bar: this cycle has at least 20.89 bar"),

@@ -175,7 +175,7 @@ def test_a_diagram_may_have_so_many_rows(beside):
     head = "# measured\nangle_deg,pressure_MPa\n\n"
     load(beside('indicator = "p.csv"\n', content=head + "".join(rows[:-1])))
     path = beside('indicator = "p.csv"\n', content=head + "".join(rows))
-    with pytest.raises(InputError, match=r"p\.csv: has more than 20000 rows; keep the mean of the cycles"):
+    with pytest.raises(InputError, match=r"p\.csv: has more than 20000 rows; give only the mean of the cycles"):
         load(path)
     path = beside('indicator = "p.csv"\n', content=f"{head}1,{'0' * 20_000}\n")
     with pytest.raises(InputError, match=r"p\.csv: line 4: has more than 10000 characters"):

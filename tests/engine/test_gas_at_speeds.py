@@ -195,9 +195,9 @@ def test_criticals_have_the_gas_of_their_speed(tmp_path):
 def test_speeds_without_a_point_are_warned_of_once(tmp_path):
     file = write(tmp_path / "four.toml", FOUR + cycle("otto", **GAS))
     for *command, told in (
-        ("torque", "--speed", "700", "the gas of 1000 rpm holds at 700 rpm"),
-        ("analyze", "--speed", "700:4000:1100", "1000 rpm holds at 700 rpm and the gas of 2500 rpm holds at 4000 rpm"),
-        ("sweep", "--vary", "operation.speed=700,2000", "-q", "torque.mean", "1000 rpm holds at 700 rpm"),
+        ("torque", "--speed", "700", "the gas of 1000 rpm is used at 700 rpm"),
+        ("analyze", "--speed", "700:4000:1100", "is used at 700 rpm and the gas of 2500 rpm is used at 4000 rpm"),
+        ("sweep", "--vary", "operation.speed=700,2000", "-q", "torque.mean", "1000 rpm is used at 700 rpm"),
     ):
         done = run_here(command[0], file, *command[1:])
         assert (done.status, done.err.count("gas.at"), told in done.err) == (0, 1, True)

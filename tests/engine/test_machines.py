@@ -160,7 +160,7 @@ def test_forces_on_the_pin_of_a_yoke_do_its_work():
 
 def test_a_length_divides_the_mass_of_a_rod_in_harmonic_motion():
     parts = {**harmonic({}), "rod": {"motion": "harmonic", "mass": 0.7, "cg": 40}}
-    with pytest.raises(InputError, match=r"rod\.length: is missing; it divides rod\.mass at rod\.cg"):
+    with pytest.raises(InputError, match=r"rod\.length: is missing; rod\.mass and rod\.cg need it"):
         load(parts)
     for rod in ({"length": 140}, {"ratio": 45 / 140}, {"mass": None, "cg": None, "small_end": 0.2, "big_end": 0.5}):
         (weighed, _) = load({**parts, "rod": {**parts["rod"], **rod}}).weighed

@@ -335,8 +335,8 @@ DOUBTS = [
     (three_runs("radius = [0.1, 0.45]"), 'radius is 0.45 mm; is it in mm? Give another unit as in "0.45 m"'),
     *((in_other_sense(known, 'weights = "with"\n'), f"'in' reads 16 @ 90.0 at sensor 1; the other runs predict 0 @ 0.0; {TURNED}") for known in (False, True)),
     ('sensors = ["rear"]\n' + head(1) + OFF + run([9], [("p1", -5)]), "'run 3' reads 9 @ 0.0 at rear; the other runs predict 3 @ 0.0; check its weights and the state of the machine, or leave the run out"),
-    (head(2, ALIKE) + run([1, 2]), "planes p1 and p2 have nearly the same effect as other planes: all but 4.8% of the effect of one can come from others (condition 42.1), so small reading errors change the weights much; if these are large, try --without p1"),
-    (head(3, TOGETHER) + run([1, 2, 3]), "planes p1, p2 and p3 have nearly the same effect as other planes: all but 7.1% of the effect of one can come from others (condition 30.1), so small reading errors change the weights much; if these are large, try --without p1"),
+    (head(2, ALIKE) + run([1, 2]), "planes p1 and p2 have nearly the same effect: 95.2% of the effect of one can come from others (condition number 42.1), so small errors of readings change the weights much; if the weights are large, try --without p1"),
+    (head(3, TOGETHER) + run([1, 2, 3]), "planes p1, p2 and p3 have nearly the same effect: 92.9% of the effect of one can come from others (condition number 30.1), so small errors of readings change the weights much; if the weights are large, try --without p1"),
 ]  # fmt: skip
 QUIET = {
     "plain": three_runs(),

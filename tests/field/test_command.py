@@ -54,9 +54,9 @@ def test_holes(runs, tmp_path):
     grams = 7.85e-3 * math.pi / 4 * 12**2 * hole["depth_mm"]
     assert grams * (100 - hole["depth_mm"] / 2) == pytest.approx(30 * 100)
     assert round(grams) == 38
-    told = "the file has no earlier ones"
+    told = "Limits and depths ignore earlier weights and holes, which are not in the file"
     out = " ".join(run_here("field", runs).out.split())
-    assert "Each has the effect of this weight at the rim; the removed steel, further in, weighs more." in out
+    assert "Each hole has the effect of its weight at the rim; the removed steel is farther in and weighs more." in out
     assert told not in out
     last = '[[run]]\nweights = { front = "1.98 @ 124", rear = "1.07 @ 238" }\nreadings = ["9 @ 40", "6 @ 310"]\n'
     text = runs.read_text() + last

@@ -60,7 +60,7 @@ def test_exponents_may_be_those_of_fortran(tmp_path):
 
 def test_two_columns_that_may_both_be_meant_are_named(tmp_path):
     heading = ("CA [deg],p [bar]", "p_cyl [bar]")
-    with pytest.raises(BalcliError, match=r'has the columns "p \[bar\]" and "p_cyl \[bar\]"; head the one that counts'):
+    with pytest.raises(BalcliError, match=r'has the columns "p \[bar\]" and "p_cyl \[bar\]"; rename the right one'):
         torque_of(tmp_path, diagram(heading=heading))
 
 
@@ -70,7 +70,7 @@ def test_of_several_cycles_the_mean_is_taken_and_said(tmp_path, restarts):
     values = [BAR, BAR * 1.1, BAR * 0.9]
     found, doubts = torque_of(tmp_path, diagram(angles=np.concatenate(every), values=np.concatenate(values)))
     assert found == pytest.approx(torque_of(tmp_path, diagram())[0], rel=1e-12)
-    assert "gas.indicator: p.csv: has 3 cycles; their mean is taken" in doubts
+    assert "gas.indicator: p.csv: has 3 cycles; their mean is used" in doubts
 
 
 @pytest.mark.parametrize(
@@ -94,8 +94,8 @@ def test_a_torque_has_the_unit_of_its_heading(tmp_path, head, size, mark):
 @pytest.mark.parametrize(
     ("rows", "answer"),
     [
-        ("0;985,5\n360;1.025\n", "line 3: 1.025: is the point between thousands? Write 1025, or 1.0250 if"),
-        ("0;985\n180;-1.025\n360;985\n", "line 3: -1.025: is the point between thousands?"),
+        ("0;985,5\n360;1.025\n", "line 3: 1.025: does the point separate thousands? Write 1025, or 1.0250 if"),
+        ("0;985\n180;-1.025\n360;985\n", "line 3: -1.025: does the point separate thousands?"),
         ("0;1.025,5\n360;985,5\n", 'line 2: "1.025,5" is not a number'),
         ("0;985\n360;1 025\n", 1005),
         ("0;985\n360;1\u202f025\n", 1005),
@@ -103,7 +103,7 @@ def test_a_torque_has_the_unit_of_its_heading(tmp_path, head, size, mark):
         ("0;985\n360;1.0250\n", 493.0125),
         ("0;0.985\n360;100\n", 50.4925),
         ('0,"1,025"\n360,985\n', 'line 2: "1,025" is not a number'),
-        ("0 985\n360 1 025\n", "line 3: has 3 columns, the heading 2"),
+        ("0 985\n360 1 025\n", "line 3: has 3 columns, the heading has 2"),
     ],
 )
 def test_thousands_in_columns_are_no_decimals(tmp_path, rows, answer):

@@ -89,7 +89,7 @@ def test_files_words_and_options_that_were_nearly_right(tmp_path, monkeypatch):
     err = run_here("analyze", "ford.toml", "--only", "force", "moment").err
     assert "--only force,moment" in err
     assert (
-        "scheme auto has no --at; add --scheme with single-shaft or two-shaft"
+        "scheme auto has no --at; choose --scheme single-shaft or two-shaft"
         in run_here("balance", "ford.toml", "--at", "1,2").err
     )
     slow = run_here("analyze", "ford.toml", "--rpm", "900", "--only", "force")

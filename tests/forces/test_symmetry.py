@@ -37,7 +37,7 @@ def test_the_inline_four():
         "order 1 force: balanced by symmetry of the layout",
         "order 2 force: unbalanced: 4 F2",
         "orders 1, 2 moment: balanced by symmetry of the layout",
-        "orders 1, 2 couple: no cylinder has any",
+        "orders 1, 2 couple: zero in every cylinder",
         "order 1 torque and roll: balanced by symmetry of the layout",
         "order 2 torque and roll: unbalanced: 4 of one cylinder",
         "firing: even, every 180 deg",
@@ -102,7 +102,7 @@ def test_verdicts_agree_with_the_figures(path):
 def test_what_the_reasons_leave_out_is_said(more, left_out):
     """Else "balanced" stands below a force that is not."""
     told = sentences([0, 180], more=more, orders=[1])
-    assert told[0] == f"of the cylinders alone: {left_out}"
+    assert told[0] == f"cylinders only: {left_out}"
     assert told[1:] == sentences([0, 180], orders=[1])
     text = BASE.format(throws=[0, 180], spacing=100) + more
     result = analysis.analyze(build_text(text), [1], ["force"], reasons=True)

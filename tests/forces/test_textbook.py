@@ -67,7 +67,7 @@ def _reasons(text: str) -> dict[tuple[str, int], float]:
     found = {}
     for orders, kind, told in re.findall(r"orders? ([\d, ]+) (force|moment): (.*)", text):
         left = re.match(r"unbalanced: ([0-9.]+) F\d(?!.* as built [(]0 )", told)
-        nothing = re.match("balanced by|no cylinder has any|unbalanced: .* as built [(]0 ", told)
+        nothing = re.match("balanced by|zero in every cylinder|unbalanced: .* as built [(]0 ", told)
         if kind == "moment" and "of one cylinder" in told:  # one throw has no distance a
             nothing = left
         assert bool(left) != bool(nothing) or "of one cylinder" in told, told

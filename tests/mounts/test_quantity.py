@@ -62,7 +62,7 @@ def test_what_is_no_quantity(four, quantity, message):
 def test_variants_that_cannot_be_are_told_with_their_figures(four):
     told = refusal("sweep", four, "--vary", "body.inertia.4=0,1e8", "-q", "mode.1.Hz")
     assert told == (
-        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08 kg mm^2; with xx and yy it must be within 9.79796e+06 kg mm^2"
+        f"{four}: body.inertia.4 = 1e+08: body: inertia xy is 1e+08 kg mm^2; with xx and yy its magnitude must be below 9.79796e+06 kg mm^2"
     )
     told = refusal("sweep", four, "--vary", "mount.9.loss=0,1", "-q", "mode.1.Hz")
     assert told.startswith("mount.9.loss: unknown parameter; did you mean")

@@ -77,7 +77,7 @@ def test_two_planes_take_a_moment_alone_too():
     assert left(I3, "single-shaft", SchemeOptions(planes="ends"), 1).moment.balanced.all()
     without = run_here("balance", I3, "--scheme", "single-shaft")
     assert without.status == 2
-    assert "couple-shaft cancels the moment of 464.4 N·m at -1" in without.err
+    assert "couple-shaft cancels a moment of 464.4 N·m at -1" in without.err
 
 
 @cases("sizing/shafts", "refusals")
@@ -99,7 +99,7 @@ def test_a_moment_that_turns_in_one_sense_takes_one_place():
     shafts = size_scheme(load(v6), "couple-shaft", order=2, at=(0.1 + 0j,)).shafts
     assert [(s.ratio, s.at) for s in shafts] == [(-2, (100, 0))] * 2
     two = ["--scheme=couple-shaft", "--order=2", "--at=1,2", "--at=3,4"]
-    message = "--at: this moment takes one shaft; give no more places"
+    message = "--at: this moment takes one shaft; give no further places"
     assert refusal("balance", v6, *two) == message
 
 
@@ -186,4 +186,4 @@ def test_compensators_that_cannot_be(options, message):
 
 def test_an_order_without_a_moment_needs_no_compensator():
     out = run_here("balance", I4, "--scheme", "compensator", "--position", "3 m").out
-    assert "Order 2 has no moment; nothing to compensate." in out
+    assert "Order 2 has no moment about y: nothing to compensate." in out

@@ -84,7 +84,7 @@ def test_an_option_makes_a_difference_or_is_refused(scheme, option):
     engine = build_text(SMALL["vee"])
     options = SchemeOptions(**{option: 1 if scheme == "counterweights" and option == "order" else OPTIONS[option]})
     if option not in TAKEN[scheme]:
-        with pytest.raises(BalcliError, match=f"scheme {scheme} has no --{option}; (it takes|add --scheme with)"):
+        with pytest.raises(BalcliError, match=f"scheme {scheme} has no --{option}; (it takes|choose --scheme)"):
             size(engine, scheme, options)
     elif (scheme, option) != ("counterweights", "order"):
         assert devices(size(engine, scheme, options)) != devices(size(engine, scheme))
@@ -98,7 +98,7 @@ def test_planes_are_named_or_given():
         size_scheme(engine, "couple-shaft", planes=(-0.1, 0.0, 0.1))
     ends = [devices(size_scheme(engine, "couple-shaft", planes=planes)) for planes in (None, "ends", (-0.05, 0.05))]
     assert ends[0] == ends[1] == ends[2]
-    with pytest.raises(BalcliError, match=r"--at: this scheme has one device; give one place$"):
+    with pytest.raises(BalcliError, match=r"--at: this scheme fits its devices at one place; give one$"):
         size_scheme(engine, "slider", at=(0j, 1j))
 
 
@@ -175,7 +175,7 @@ def test_a_force_in_one_sense_leaves_no_shaft_for_the_roll(order, turning):
     engine = build_text(write_engine(0, layout="radial = 3"))
     with pytest.raises(
         BalcliError,
-        match=f"order {order}: its force turns only {turning} the crank, so that one shaft cancels it; leave out --roll",
+        match=f"order {order}: its force turns only {turning} the crank, so one shaft cancels it; leave out --roll",
     ):
         size_scheme(engine, "two-shaft", order=order, roll="zero")
     remedy = size_scheme(engine, "two-shaft", order=order, at=(0.03j,))

@@ -52,7 +52,7 @@ def test_the_text_stays_and_reasons_stand_beside_the_devices():
     text = GOOD.rstrip("\n") + " # the last comment"
     remedy = size(build_text(text), "auto")
     new = insert_remedy(text.encode(), remedy)
-    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# At every throw, ")
+    assert new.startswith(text + "\n\n# fitted by balcli, scheme auto\n# Counterweights at every throw ")
     assert "\n# Order 2 force turning with the crank: " in new
     assert new.count("[[shaft]]") == 2
 
@@ -72,7 +72,7 @@ def test_an_inline_list_of_devices_is_written_anew():
     engine = build_text(text)
     remedy = size(engine, "auto")
     new = insert_remedy(text.encode(), remedy)
-    assert new.startswith("# Comments and lay-out of the original could not be kept")
+    assert new.startswith("# Comments and layout of the original could not be kept")
     assert figures(build_text(new)) == figures(fit_devices(engine, remedy))
 
 

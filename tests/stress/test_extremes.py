@@ -147,7 +147,7 @@ def test_offset_mechanisms_keep_the_bound_they_state(lam, eps):
     orders = [n for n in (0, 1, 2, 3, 7, 24) if n < count // 4]
     with mp.workdps(30):
         want = revolution(motion, count, orders)
-    found = harmonics.sample_harmonics(orders, np.array([lam]), np.array([eps]))
+    found = harmonics.find_harmonics(orders, np.array([lam]), np.array([eps]))
     for name, values in zip(("piston", "rod", "kinetic", "rod_kinetic"), want, strict=True):
         assert share_of_bound(found[name], 0, values) < 0.6, name
 

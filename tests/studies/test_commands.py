@@ -189,7 +189,7 @@ def test_normal_deviations_may_exceed_the_bound_and_the_note_says_so(tmp_path: P
     file = write(tmp_path / "one.toml", "[crank]\nstroke = 90\n[rod]\nlength = 160\n[piston]\nmass = 1\n")
     command = ["scatter", str(file), "--mass-scatter=1%", "--seed=1", "-q", "force.1.major"]
     texts = {shape: run_here(*command, f"--distribution={shape}").out for shape in ("uniform", "normal")}
-    told = "1 of 370 deviations exceeds it"
+    told = "1 of 370 exceeds the tolerance"
     assert [told in " ".join(text.split()) for text in texts.values()] == [False, True]
     document = ask_json(*command, "--distribution=normal")
     figures = document["quantities"]["force.1.major"]

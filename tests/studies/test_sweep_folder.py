@@ -132,7 +132,7 @@ def test_what_does_not_go_into_a_folder_is_refused():
         "--output out/: a folder takes Parquet files, but --format is csv; leave one of them out"
     )
     assert refuse_sweep(*ASKED, "-o", "out/", "--plot", "a.svg") == (
-        "--plot a.svg: figures in a folder are not kept for a picture; write one file, or leave --plot out"
+        "--plot a.svg: variants in a folder are not kept for a picture; write one file, or leave --plot out"
     )
     assert refuse_sweep(*ASKED, "-o", "nowhere/out/") == "nowhere/out: cannot be written (there is no folder nowhere)"
     assert run_here("sweep", "good.toml", *ASKED, "-o", "out/", "-f", "parquet")[0] == 0

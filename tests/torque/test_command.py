@@ -278,7 +278,7 @@ def test_what_names_a_file_beside_it_is_written_beside_it(tmp_path):
     for command, *options in commands:
         far = tmp_path / "far" / "out.toml"
         told = refusal(command, path, *options, "--write", far)
-        assert told == f'{far}: "p.csv" of the engine file must be copied from {tmp_path}'
+        assert told == f'{far}: first copy "p.csv", which the file names, from {tmp_path}'
         assert not far.exists()
     (tmp_path / "far" / "p.csv").write_bytes((tmp_path / "p.csv").read_bytes())
     for folder in (tmp_path, tmp_path / "far"):

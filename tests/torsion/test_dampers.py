@@ -265,7 +265,7 @@ def test_a_file_in_inline_tables_is_written_anew(tmp_path):
     options = ("--speeds", "800:2000", "--damper", "viscous", "--write", fitted)
     assert run_here("torsion", chain, *options).status == 0
     assert fitted.read_text().startswith(
-        "# Comments and lay-out of the original could not be kept: its [node.1] is written in an unusual way.\n"
+        "# Comments and layout of the original could not be kept: its [node.1] is written in an unusual way.\n"
     )
     assert tomllib.loads(fitted.read_text())["node"][0]["damper"]["kind"] == "viscous"
 
@@ -280,7 +280,7 @@ TITLES = {
     "modes": "Shapes of modes: angle of each node",
     "campbell": "Campbell diagram: orders, and criticals by work",
     "response": "Vibratory stress",
-    "waterfall": "by order: width, at most",
+    "waterfall": "by order: widest",
 }
 
 

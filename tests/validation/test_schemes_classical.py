@@ -229,7 +229,7 @@ def test_eccentric_stands_where_the_force_acts():
         ("couple-shaft", SchemeOptions(planes="throws"), "two places along z, for opposite eccentrics"),
         ("counterweights", SchemeOptions(planes=(0.1, 0.1 + 1e-10)), "would work against each other"),
         ("two-shaft", SchemeOptions(order=0), "give 1 to 1000"),
-        ("auto", SchemeOptions(order=2), "scheme auto has no --order; add --scheme with "),
+        ("auto", SchemeOptions(order=2), "scheme auto has no --order; choose --scheme "),
         (
             "magic",
             SchemeOptions(),
@@ -238,7 +238,7 @@ def test_eccentric_stands_where_the_force_acts():
             "couple-shaft, compensator, slider, eccentric-slider, oldham, knuckles",
         ),
         ("knuckle", SchemeOptions(), "there is no scheme 'knuckle': did you mean knuckles\\? choose from"),
-        ("knuckles", SchemeOptions(), "scheme knuckles is fitted by `balcli balance --scheme knuckles` alone"),
+        ("knuckles", SchemeOptions(), "only `balcli balance --scheme knuckles` runs the scheme knuckles"),
         ("mini-max", SchemeOptions(), "did you mean minimax"),
         ("two-shaft", SchemeOptions(order=6, roll="nought"), "choose from zero"),
         ("two-shaft", SchemeOptions(order=3, roll="zero"), "order 3 has no free force.*leave out --roll"),

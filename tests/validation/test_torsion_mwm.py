@@ -116,7 +116,7 @@ def test_figures_of_the_document():
     twist = respond_chain(CHAIN, DAMPING, frequencies(orders, 2000 * np.pi / 30), load)
     shown = [
         [float(cell) for cell in line.split("|")[2:5]]
-        for line in DOCUMENT.read_text(encoding="utf-8").partition("At 2000 rpm")[2].splitlines()[4:12]
+        for line in DOCUMENT.read_text(encoding="utf-8").partition("torques at 2000 rpm")[2].splitlines()[4:12]
     ]
     half = find_swing(orders, twist.torque).half
     columns = SUMS_OF_AMPLITUDES[2000], sum_amplitudes(twist.torque), half

@@ -59,7 +59,7 @@ UNASKED = (*KINDS, "peak")  # default quantities of every engine
 QUANTITIES = (*UNASKED, "sizing", "ladder")
 EXTRAS = ("inner", "guide", "journals", "masses", "parts", "pru")  # computed only on request
 
-# For each key or table: the quantities that depend on it; no others do.
+# All quantities that depend on the default of a key or table, by its name.
 _WITH_FORCES = {"force", "moment", "peak", "sizing", "ladder", "inner", "pru"}
 _WITH_PLACES = (_WITH_FORCES - {"force"}) | {"guide"}
 _ALL_BUT_MASSES = {*QUANTITIES, *GAS_KINDS, "inner", "guide", "journals", "pru"}
@@ -74,7 +74,7 @@ _DEPENDENT = {
     "flywheel.inertia": _WITH_UNEVEN_SPEED,
     **dict.fromkeys(("crank.throws", "piston.offset", *_OF_FIRING), _ALL_BUT_MASSES),
     "layout.stagger": _WITH_PLACES,
-    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force says why moments are missing
+    "crank.spacing": _WITH_PLACES | {"force", "journals"},  # force: why moments are missing
 }
 DEFAULT_ORDERS = (1.0, 2.0)
 _OF_ONE_CRANK = ("inner", "guide", "journals", "masses", "parts")
@@ -86,10 +86,10 @@ class Analysis(OrdersAndPeaks, Result):
     None.
 
     Attributes:
-        engine: Engine as analyzed.
+        engine: Analyzed engine.
         state: Speed, cylinders without gas and point of reference.
         spectra: Orders shown.
-        assumed: Values taken because the engine file leaves them out.
+        assumed: Values that are used because the engine file leaves them out.
         peak: Largest values over a revolution, all orders together.
         sizing: Devices of the scheme `auto`, and the forces left with them.
         ladder: Devices that balance the engine, step by step.
@@ -97,14 +97,14 @@ class Analysis(OrdersAndPeaks, Result):
         inner: Shear force and bending moment along the crankshaft; for an engine with gas, also
             loads of bearings and block.
         guide: H- and X-type guide-force moments.
-        travel: Strokes and dead centres of articulated cylinders and of the masters; left out where
-            all cylinders are plain slider-cranks.
+        travel: Strokes and dead centres of all cylinders; left out unless rods are articulated or
+            cylinders turn.
         journals: Torque in main journals and crank pins.
         masses: Masses of pistons, rods and throws.
         parts: Bearing loads of balancer shafts and shapes of counterweights.
         power_related_unbalance: Free moments divided by the power.
         why: Whether the orders shown are balanced by symmetry or by chance.
-        stars: Vectors of the cylinders, of orders 1 and 2 or of those asked for.
+        stars: Phasor stars of the cylinders, for orders 1 and 2 or for the requested orders.
         small: Share of one cylinder's first order below which a part is small.
     """
 
@@ -171,7 +171,7 @@ class Analysis(OrdersAndPeaks, Result):
 
 
 def shorten(analysis: Analysis) -> PeaksAndOrders:
-    """Return only peaks, which must have been computed, and orders."""
+    """Return only the peaks and orders of an analysis; the peaks must have been computed."""
     assert analysis.peak is not None
     return PeaksAndOrders(analysis.peak, analysis.spectra)
 
@@ -286,13 +286,13 @@ def _check_height(guide_height_m: float | None) -> None:
         0 < check_number("guide_height_m", guide_height_m, wanted) < HIGHEST_GUIDE_M
     ):
         raise BalcliError(
-            f"guide_height_m {guide_height_m:g}: give above 0, below {HIGHEST_GUIDE_M:g} m"
+            f"guide_height_m {guide_height_m:g}: give a height above 0, below {HIGHEST_GUIDE_M:g} m"
         )
 
 
 def list_usual_quantities(engine: Engine) -> tuple[str, ...]:
-    """Return the quantities that are computed by default; with gas, these include all quantities of
-    gas.
+    """Return the quantities that are computed by default. For an engine with gas, they include all
+    quantities of gas.
     """
     return (*UNASKED, *(GAS_KINDS if engine.gas is not None else ()))
 
@@ -310,11 +310,12 @@ def _choose_quantities(engine: Engine, only: str | Collection[str] | None) -> se
 
 
 def list_idle_defaults(engine: Engine, wanted: Collection[str]) -> set[str]:
-    """Return the keys, and the table [gas], on whose defaults none of these quantities depends.
+    """Return the keys (and "gas" for the table [gas]) whose defaults affect none of the wanted
+    quantities.
 
     Args:
         engine: Engine without trailing axes.
-        wanted: Quantities from `_choose_quantities`.
+        wanted: Quantities to compute.
     """
     due = {*wanted}
     if engine.gas is not None and due.intersection(EXTRAS) - {"masses"}:
@@ -334,7 +335,7 @@ def _analyze_cylinders(
     count = len(orders) * len(engine.numbers)
     most = MOST_RESULTS_BY_CYLINDER // len(engine.numbers)
     if count > MOST_RESULTS_BY_CYLINDER:
-        raise BalcliError(f"by cylinder: {count} results; give orders for {most} at most")
+        raise BalcliError(f"by cylinder: {count} results; give at most {most} orders")
     own = compute_spectra(engine, orders, kinds, each=True)
     rows = ((n, engine.numbers.index(n)) for n in engine.rising_numbers)
     return tuple(CylinderShare(n, own.select_place(row)) for n, row in rows)
@@ -354,9 +355,7 @@ def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
 
 
 def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
-    """Return whether orders are balanced by symmetry, without order 0 and without moments that are
-    not known.
-    """
+    """Return whether orders are balanced by symmetry. Order 0 and unknown moments are left out."""
     provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
     return explain_symmetry(engine, orders[orders > 0], provable)
 
@@ -370,8 +369,8 @@ def _find_stars(
 
 
 def find_inner_loads(engine: Engine, asked: Array | None = None) -> InnerLoads:
-    """Return shear, bending and bearing loads along the crankshaft; with gas if its loads are
-    known.
+    """Return shear, bending and bearing loads along the crankshaft. Loads with gas are included if
+    they are known.
 
     Args:
         engine: Engine without trailing axes.

@@ -58,7 +58,7 @@ RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 def answer(
     paths: Sequence[str], asked: Request, form: Format, output: Path | None, units: Units
 ) -> None:
-    """Analyze files and print the results with the engines' names; messages name bad files.
+    """Analyze files and print the results with the engines' names; errors name the bad files.
 
     Args:
         paths: Engine files.
@@ -73,7 +73,7 @@ def answer(
     """
     view = View(asked.whole, asked.parts, asked.orders is not None)
     rpm = asked.speeds_rpm[0] if asked.speeds_rpm else None
-    words = None if asked.quantities is None else asked.parts  # for warnings
+    words = None if asked.quantities is None else asked.parts  # parts that need warnings
     for_people = form in (Format.TABLE, Format.MARKDOWN)
     find, renderer = _choose_result(asked, for_people)
 
@@ -87,7 +87,7 @@ def answer(
         return engine.name, path, result
 
     found, errors = try_each(paths, find_one)
-    if found and not (errors and output):  # a file gets all results or is not changed
+    if found and not (errors and output):  # the output file gets all results or is not changed
         engines, good, results = zip(*found, strict=True)
         named = zip(name_engines(engines, good), results, strict=True)
         show([NamedResult(*one, view) for one in named], renderer, form, output, units)
@@ -120,8 +120,8 @@ def _choose_result(
 
 
 def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Analysis]:
-    """Return `analyze` with the requested options; the engine, at any speed, and the orders remain
-    to be given.
+    """Return a function that analyzes an engine, at any speed, for given orders with the requested
+    options.
     """
     if asked.quantities is None:
         wanted = list(list_usual_quantities(engine))
@@ -135,7 +135,7 @@ def _ask(asked: Request, engine: Engine, for_people: bool) -> Callable[..., Anal
         wanted = list(asked.quantities)
         if "verdict" in asked.parts and for_people:
             wanted.append(COUPLE.name)
-            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for rocking
+            wanted += [] if engine.gas is None else [ROLL.name, GAS.name]  # for tell_rocking
     return partial(
         analyze,
         only=wanted,

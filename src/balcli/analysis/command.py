@@ -135,7 +135,7 @@ def _refuse_parts(words: Sequence[str], paths: Sequence[str]) -> None:
 
 
 Cylinder = Annotated[
-    str | None, optional("N|NAME.N", "Motion of this piston; with [gas], also its pressure.")
+    str | None, optional("N|NAME.N", "Motion of this piston; with [gas], also the pressure.")
 ]
 Step = Annotated[str, typer.Option("--step", metavar="DEG", help="Step of the crank angle.")]
 SumOrders = Annotated[str | None, optional("1-8|1,3", "Only the sum of these orders.", "--orders")]
@@ -158,7 +158,7 @@ def curves(
 ) -> None:
     """Force, moment, couple, torque and roll over the crank angle, or the motion of one piston.
 
-    With [gas] the curves span the whole cycle and include its torque.
+    With [gas], the curves span the whole cycle and include the torque of the gas.
 
     \b
     Examples:
@@ -189,8 +189,8 @@ def piston(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Motion of the pistons: strokes, dead centres, speeds and accelerations, exact and by two
-    terms.
+    """Motion of the pistons: strokes, dead centres, speeds and accelerations, exact and by the
+    two-term formulas.
 
     \b
     Examples:
@@ -211,16 +211,16 @@ Phase = Annotated[
     str,
     typer.Option(
         metavar="DEG",
-        help="Crank angle by which the second engine leads, from its own x axis: "
-        "with --turn 90 the cranks point the same way at --phase -90.",
+        help="Crank angle by which the second engine leads, measured from its own x axis: "
+        "with --turn 90, the cranks point the same way at --phase -90.",
     ),
 ]
 At = Annotated[str, typer.Option(metavar="X,Y,Z", help="Origin of the second engine, mm.")]
 Turn = Annotated[
     str, typer.Option(metavar="DEG", help="Angle by which the second engine is turned about z.")
 ]
-Reverse = Annotated[bool, typer.Option("--reverse", help="Its crank turns the other way.")]
-Write = Annotated[Path | None, optional("OUT.toml", "Write both as a file with [[engine]].")]
+Reverse = Annotated[bool, typer.Option("--reverse", help="The second crank turns the other way.")]
+Write = Annotated[Path | None, optional("OUT.toml", "Write the sum as a file with [[engine]].")]
 LoadOption = Annotated[
     str, typer.Option(metavar="first|second|both", help="With --reverse: the crank with the load.")
 ]
@@ -241,8 +241,8 @@ def sum(  # noqa: A001 (the command's name)
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Two engines on one frame, geared one to one: H, U and opposed-piston engines; a short form of
-    a file with [[engine]].
+    """Two engines on one frame, geared one to one: H, U and opposed-piston engines. This is a short
+    form of a file with [[engine]].
 
     \b
     Examples:

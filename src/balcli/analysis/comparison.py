@@ -143,11 +143,12 @@ def compare_engines(
     Args:
         engines: At least two engines without trailing axes.
         names: Names of the engines.
-        orders: Orders to show; default: all that `analyze` shows for one of them.
+        orders: Orders to show; default: all that `analyze` shows for any of the engines.
         only: Quantities as for `analyze` (sizing gives the peaks with the devices); default: force
             to peak, and gas if all engines have some.
         whole: Whether tables show negligible orders as well; they do if orders are given.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part
+            unbalanced.
 
     Raises:
         BalcliError: There are fewer than two engines.
@@ -181,7 +182,7 @@ def analyze_alike(
 
     Args:
         engines: Engines without trailing axes.
-        orders: Orders to show; None: all that one of the analyses shows by default.
+        orders: Orders to show; None: all that any of the analyses shows by default.
         analyze_one: Function that analyzes an engine for given orders.
     """
     analyses = tuple(analyze_one(engine, orders) for engine in engines)
@@ -223,7 +224,7 @@ def list_lines(analyses: Sequence[Analysis], *, every_order: bool = False) -> tu
     lines = []
     for kind, order in tables[0]:
         if not all((kind, order) in table for table in tables):
-            continue  # bearings of a single throw are not known
+            continue  # no bearing loads are known for a crank with one throw
         values = tuple(table[kind, order] for table in tables)
         shown = kind._replace(label=f"{kind.label}{alone}") if kind in GUIDES else kind
         single = tuple(one.of_one_cylinder.get(kind.name, 0.0) for one in analyses)
@@ -249,7 +250,7 @@ def _list_sizes(
     """Yield the figures of an analysis: kind, order (None for a peak), and size."""
 
     def by_order(kind: Kind, phasors: Phasors) -> Iterator[tuple[Kind, float | None, float]]:
-        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # of several places
+        sizes = phasors.major.reshape(len(phasors.orders), -1).max(axis=1)  # largest of all places
         yield from zip(repeat(kind), map(order_number, phasors.orders), sizes.tolist())
 
     def peaks(of: Analysis) -> Iterator[tuple[Kind, float]]:
@@ -270,7 +271,7 @@ def _list_sizes(
 
 
 def _list_guides(analyses: Sequence[Analysis]) -> list[GuideMoments | None]:
-    """Return the guide moments by inertia and gas if all engines have gas, else by inertia."""
+    """Return each engine's guide moments: with gas if all engines have gas, else without."""
     found = [one.guide for one in analyses]
     known = [guide for guide in found if guide is not None]
     if len({guide.with_gas for guide in known}) < 2:
@@ -293,7 +294,7 @@ def compare(
         engines: Two or more engines from `load`.
         names: Names of the engines; default: those in their files, or numbers if a name is missing
             or occurs twice.
-        orders: Orders to show; default: all that are not negligible in one of them.
+        orders: Orders to show; default: all that are not negligible in at least one engine.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
             default: force to peak, and gas if all engines have some.
 
@@ -372,7 +373,7 @@ def sheet(result: Comparison, system: System) -> Sheet:
         grid = ladder_grid(ladder, engine, system)
         parts.append(grid._replace(title=f"{name}: {grid.title}"))
     if nothing:
-        parts.append(Text("", (f"Balanced or negligible in all of them: {', '.join(nothing)}.",)))
+        parts.append(Text("", (f"Balanced or negligible in all engines: {', '.join(nothing)}.",)))
     return Sheet("Engines side by side", tuple(parts))
 
 
@@ -388,9 +389,9 @@ def fit_unit(kind: Kind, lines: Iterable[Line], system: System) -> ShownUnit:
 
 
 def find_lines_that_matter(lines: list[Line]) -> list[Line]:
-    """Return the orders that are not small compared with the largest or with one cylinder, and the
-    peak; empty if all are 0. Orders to 2 and the peak are kept if their values are not known for an
-    engine.
+    """Return the lines with a value that is not negligible, compared both with the largest value of
+    all lines and with one cylinder. Orders up to 2 and the peak are also kept if a value is not
+    known.
     """
     least = NEGLIGIBLE * max((line.largest for line in lines), default=0.0)
     return [

@@ -7,11 +7,11 @@ all throws before it, `M_j = sum T_i, i < j`. The pin of throw i carries `M_i + 
 bearing before the throw takes half of the tangential force, at the arm r from the pin. The nominal
 shear stress of a hollow journal under the torque T is `16 T D/(pi (D^4 - d^4))`.
 
-Let l be the length of a rod, m its mass, a the distance of its centre of mass from the piston pin,
-and b that from the crank pin. The rod is represented by the masses m b/l at the small end and m a/l
-at the big end. About the centre of mass, these have the moment of inertia m a b and the rod has J;
-their difference is H = m a b - J. A rod that swings about the piston pin has the reduced length (J
-+ m a^2)/(m a), which is l if H = 0.
+Let l be the length of a rod, m its mass, and a and b the distances of its centre of mass from the
+piston pin and the crank pin. The rod is represented by two masses: m b/l at the small end and m a/l
+at the big end. About the centre of mass, the two masses have the moment of inertia m a b, and the
+rod has J; the difference is H = m a b - J. A rod that swings about the piston pin has the reduced
+length (J + m a^2)/(m a), which is l if H = 0.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ _NONE = JournalTorque(max_Nm=0.0, min_Nm=0.0, range_Nm=0.0, mean_Nm=0.0)
 _SPLIT = (
     "Split pins of one throw count as one pin: the torque in the web between them is not computed."
 )
-_ROUNDING = 1e-12  # share of the sum of all cylinders' amplitudes; less is rounding
+_ROUNDING = 1e-12  # a smaller share of the sum of all cylinders' amplitudes is rounding
 
 
 def find_journals(engine: Engine) -> tuple[Journal, ...]:
@@ -124,7 +124,7 @@ class CrankTorques(NamedTuple):
         return cls(orders, each, engine.gas)
 
     def measure(self, weights: Array) -> JournalTorque:
-        """Return the inertia torque of the cylinders, each with its weight, shape (cylinders,)."""
+        """Return the inertia torque of the cylinders, weighted by `weights`, shape (cylinders,)."""
         series = self.each @ weights
         if np.abs(series).sum() <= _ROUNDING * np.abs(self.each).sum():
             return _NONE
@@ -141,12 +141,12 @@ class CrankTorques(NamedTuple):
         return _write(high, low, curve.mean)
 
     def sample(self, angle: Array, weights: Array) -> Array:
-        """Return the torque of the weighted cylinders at crank angles, rad, in their shape."""
+        """Return the torque of the weighted cylinders, N m, at an array of crank angles, rad."""
         gas, inertia = self._find_gas(weights), self._sum(angle, weights)
         return inertia if gas is None else inertia + gas.at(angle)
 
     def _sum(self, angle: Array, weights: Array) -> Array:
-        """Return the inertia torque of the weighted cylinders, as `sample`."""
+        """Return the inertia torque of the weighted cylinders; arguments as for `sample`."""
         turned = np.exp(1j * np.multiply.outer(angle, self.orders))
         return np.asarray((turned @ (self.each @ weights)).real)
 
@@ -198,7 +198,7 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise BalcliError if a quantity is of a journal or pin that the crankshaft does not have."""
+    """Raise BalcliError if a quantity names a journal or pin that the crankshaft lacks."""
     refuse_geared(model)
     places = [place.split() for place in weigh_cylinders(build(model))]
     for q in quantities:
@@ -323,7 +323,7 @@ _LABELS = {
 
 
 def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
-    """Return a table with a row for each figure and a column for cylinders with equal parts.
+    """Return a table with a row for each figure and a column for each set of equal cylinders.
 
     Args:
         masses: Masses of each set of cylinders with equal parts.
@@ -338,8 +338,8 @@ def lay_out_masses(masses: Sequence[Masses], system: System) -> Grid:
 
 
 # ------------------------------------------------------------------ power related unbalance
-# Power related unbalance, N m/kW, up to which a moment compensator is needed to this degree, by the
-# project guides of marine engines (MAN).
+# Upper limit of the power related unbalance, N m/kW, and need of a moment compensator up to this
+# limit, from the project guides of marine engines (MAN).
 _NEEDS = (
     (60, "not relevant"),
     (120, "unlikely"),

@@ -16,12 +16,11 @@ from ..engine.engine import CylinderNumber, Engine, Placed, check_engine, find_c
 from ..errors import BalcliError, check_number
 from ..forces.curves import (
     EngineMotion,
-    _torque_of_cylinders,
     as_rows,
-    compute_cylinder_torque,
     compute_device_forces,
     compute_piecemeal,
     divide_revolution,
+    torque_of_cylinders,
 )
 from ..forces.kinds import (
     COUPLE,
@@ -161,7 +160,7 @@ def compute_cylinder_curves(engine: Engine, number: CylinderNumber, crank_deg: A
 def _sum_parts(
     engine: Engine, crank_deg: Array, compute: Callable[[Array], dict[str, Array]]
 ) -> Curves:
-    """Return the sum of the terms of each curve; a sum within their rounding error is 0.
+    """Return the sum of the terms of each curve; a sum within the rounding error of its terms is 0.
 
     Args:
         engine: Engine.
@@ -197,11 +196,11 @@ def _compute_engine_parts(engine: Engine, crank_deg: Array) -> dict[str, Array]:
 
 
 def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
-    """Return the same terms of one crank, in the axes of all.
+    """Return the terms of each curve for one crank, in the common axes, shape (terms, angles).
 
     Args:
-        one: Engine with this crank, one of several or the only one.
-        crank_deg: Its own crank angles, shape (angles,).
+        one: Engine with this crank, one of several engines or the only one.
+        crank_deg: Angles of this crank, shape (angles,).
     """
     engine = one.engine
     motion = EngineMotion(engine, crank_deg)
@@ -217,7 +216,7 @@ def _compute_crank_parts(one: Placed, crank_deg: Array) -> dict[str, Array]:
     turning = engine.find_turning_inertia(beyond_pins=True)
     momentum, energy = (-inertia * motion.xi[None] for inertia in turning)
     couple = one.ratio * np.concatenate([_couple_of_cylinders(motion), arms, momentum])
-    torque = np.concatenate([_torque_of_cylinders(motion), energy])
+    torque = np.concatenate([torque_of_cylinders(motion), energy])
     return {
         FORCE.key_along("x"): force.real,
         FORCE.key_along("y"): force.imag,
@@ -268,11 +267,11 @@ def _couple_of_cylinders(motion: EngineMotion) -> Array:
 
 
 _ROUNDING = 1e-14
-_BORNE = "borne"  # the gas torque that the frame bears, in the sense of the load
+_BORNE = "borne"  # name of the curve of gas torque that the frame bears
 
 
 def _find_gas_torque(engine: Engine, crank_deg: Array) -> dict[str, Array]:
-    """Return the gas torque of all cylinders, N m, shape (angles,)."""
+    """Return two curves, N m, shape (angles,): gas torque on the cranks, and on the frame."""
     at = np.radians(crank_deg)
     each = [c.share * c.torque.curve.at(at - c.fires) for c in take_gas(engine).cylinders]
     senses = [one.load_sense for one in engine.cranks for _ in one.engine.numbers]
@@ -286,7 +285,7 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
     the cylinder (N), and torque of gas and inertia (N m). Curves that are not known are omitted.
 
     Forces across the cylinder are positive towards the side to which the crank pin moves after top
-    dead centre. (In a rotary engine, this is behind the turning cylinder.)
+    dead centre. (In a rotary engine, this side is behind the turning cylinder.)
     """
     found: dict[str, Array] = {}
     gas = take_gas(engine)
@@ -304,13 +303,13 @@ def _find_cylinder_gas(engine: Engine, row: int, crank_deg: Array) -> dict[str, 
             "pin_x_N": forces.pin[row].real,
             "pin_y_N": side * forces.pin[row].imag,
         }
-    inertia = compute_cylinder_torque(engine, row, crank_deg)
+    inertia = torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
     found["torque_Nm"] = inertia + cylinder.share * cylinder.torque.curve.at(at)
     return found
 
 
 def _settle(values: Array, most: float | None = None) -> Array:
-    """Return values in which rounding errors next to the largest value, or to `most`, are 0."""
+    """Return the values; those within the rounding error of the largest (or of `most`) are 0."""
     largest = np.abs(values).max(initial=0) if most is None else most
     return np.where(np.abs(values) <= _ROUNDING * largest, 0.0, values)
 

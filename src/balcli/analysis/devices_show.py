@@ -36,10 +36,10 @@ if TYPE_CHECKING:
 
 _ROUNDING = 1e-12  # a smaller share of one cylinder's value is rounding
 _HARDLY = 0.05  # a smaller share of one cylinder, %, would be printed as 0.0
-_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # keys in CSV
+_ORDER = ("ratio", "order", "unbalance", "angle", "direction", "position", "at")  # order in CSV
 ANGLES = (
-    "Angles count in the sense of rotation, clockwise seen from the free end (front); those of "
-    "counterweights from cylinder 1's crank pin, those of shafts from x."
+    "Angles count in the sense of rotation, clockwise seen from the free end (front): from "
+    "cylinder 1's crank pin for counterweights, from x for shafts."
 )
 
 
@@ -120,25 +120,25 @@ def ladder_grid(
 
 
 def _tell_left_out(out: LeftOut, ladder: Ladder, system: System) -> str:
-    """Return a sentence on an omitted step, with the larger of the force and moment that it would
-    remove.
+    """Return a sentence on an omitted step: the force or the moment that it would remove, or the
+    change of the main bearing load.
     """
     size, fall = abs(ladder.measure(out)), out.main_bearing_N
     if size < _HARDLY:
         return ""
     digits = f"{size:.1f}" if round(size, 1) < 100 * ladder.small else f"{size:.3g}"
     share = "" if math.isnan(size) else f" ({digits} % of one cylinder's first order)"
-    what = f"a {out.step}" if out.step == SHAFT else out.step
-    what = f"in one sense of rotation, {what}" if out.step == SHAFTS else what
     if fall is not None:
         change = size_text(abs(fall), system.force)
         does = f"{'lower' if fall >= 0 else 'raise'} the largest main bearing load by {change}"
     else:
         force, moment, scale = out.force_N, out.moment_Nm or 0.0, ladder.scale
         by_moment = moment * scale.force_N > force * (scale.moment_Nm or 0.0)
-        does = f"remove {size_text(moment, system.moment)}"
-        does = does if by_moment else f"remove {size_text(force, system.force)}"
-    return f"{capitalized(what)} would {does}{share}: left out."
+        most = size_text(*((moment, system.moment) if by_moment else (force, system.force)))
+        does = f"remove {'up to ' * (out.step == SHAFTS)}{most}"
+    who = {SHAFT: f"a {SHAFT} is left out: it", SHAFTS: f"{SHAFTS} are left out: each"}
+    what = who.get(out.step, f"{out.step} are left out: they")
+    return f"{capitalized(what)} would {does}{share}."
 
 
 def _explain_places(devices: Sequence[DeviceTable], free: Sequence[bool]) -> Iterator[str]:
@@ -165,7 +165,7 @@ def _length(millimetres: float, unit: ShownUnit, digits: int | None = None) -> s
 
 
 def list_radii(practical: Sequence[Practical], unit: ShownUnit) -> str:
-    """Return the radii of devices: several where the throws have different ones."""
+    """Return in words the radii of the devices; equal radii are named once."""
     radii = dict.fromkeys(_length(each.radius_mm, unit, 4) for each in practical)
     return f"{', '.join(radii)} {unit.name}"
 
@@ -199,7 +199,7 @@ def practical_grid(remedy: Remedy, practical: tuple[Practical, ...], system: Sys
 def holes_grid(
     remedy: Remedy, practical: tuple[Practical, ...], tools: Tools, system: System
 ) -> Grid:
-    """Return a table of the holes to drill for each device (or for slugs): angle, number and depth.
+    """Return a table of the holes to drill for each device or its slugs: angle, number and depth.
 
     Args:
         remedy: Devices.
@@ -218,13 +218,11 @@ def holes_grid(
             rows.append((f"{k} {name_kind(device)}", at, f"{p.holes}", depth))
     if tools.slug is None:
         title = f"Holes to drill, {drill}"
-        what = "Holes remove steel opposite to the weight to add"
+        what = "Holes remove steel opposite to the weight that is needed. They are"
     else:
         title = f"Holes for slugs of {number(tools.slug / 1e3)} g/cm³, {drill}"
-        what = (
-            "Slugs are on the side of the weight to add and count less the steel that they replace"
-        )
-    note = f"{what}; radial, {rim} inwards, side by side along the axis."
+        what = "Slugs replace steel on the side of the weight that is needed. Holes are"
+    note = f"{what} radial, {rim} inwards, and side by side along the axis."
     heads = ("for", "holes at, deg", "holes", f"depth of each, {unit.name}")
     return Grid(title, heads, tuple(rows), note)
 
@@ -237,7 +235,7 @@ def list_ladder(ladder: Ladder) -> Iterator[tuple[str, str, Any, str]]:
 
 
 def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, DeviceTable]]:
-    """Yield each device with its name among those of its kind: `shaft 2`."""
+    """Yield the name (kind and number, such as `shaft 2`) of each device, and the device."""
     numbers: Counter[str] = Counter()
     for device in devices:
         kind = name_kind(device)
@@ -246,7 +244,7 @@ def number_devices(devices: Iterable[DeviceTable]) -> Iterator[tuple[str, Device
 
 
 def device_rows(device: DeviceTable, system: System) -> Iterator[tuple[str, float | str, str]]:
-    """Yield name, value and unit of every figure of a device, by the keys of an engine file.
+    """Yield name (as in an engine file), value and unit of every figure of a device.
 
     Args:
         device: Table of the device.

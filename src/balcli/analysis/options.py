@@ -20,7 +20,7 @@ AnalysisFormatOption = Annotated[
     format_option(
         (*TEXTS.values(), Format.MARINE),
         "Format of the result; default: by the ending of -o, else table. marine: table of external "
-        "forces and moments, guide moments and torque by order; `-f marine -f csv`: as CSV.",
+        "forces and moments, guide moments and torque by order; add `-f csv` for CSV.",
     ),
 ]
 SpeedsOption = Annotated[
@@ -33,7 +33,7 @@ SpeedsOption = Annotated[
         "--rpm",
     ),
 ]
-By = Annotated[str, optional("cylinder", "cylinder: also show each cylinder's share.", "--by")]
+By = Annotated[str, optional("cylinder", "Also show the share of each cylinder.", "--by")]
 Why = Annotated[
     bool, typer.Option("--why", help="Print why orders are balanced or not, and phasor stars.")
 ]
@@ -44,7 +44,7 @@ class Request(NamedTuple):
 
     Attributes:
         speeds_rpm: Crank speeds; empty: the speed of the file.
-        orders: Orders to show; None: all orders of the engine.
+        orders: Orders to show; None: the default ones of each engine.
         quantities: Quantities to compute; None: the default ones of each engine.
         parts: Words of `--only`; empty if it is not given.
         whole: Whether every table and every order is shown.
@@ -53,7 +53,8 @@ class Request(NamedTuple):
         height_m: Distance from the crankshaft to the middle of the guides; None: the rods' lengths.
         misfires: Numbers of the cylinders without gas.
         marine: Whether the sheet of marine builders is wanted.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part
+            unbalanced.
     """
 
     speeds_rpm: tuple[float, ...]
@@ -86,7 +87,7 @@ class Request(NamedTuple):
             given |= {f"--only {word}": word in self.parts for word in OF_ONE}
         for option in (option for option, is_given in given.items() if is_given):
             if self.marine:
-                raise BalcliError(f"--format marine: {option} adds nothing; leave one of them out")
+                raise BalcliError(f"{option} has no effect with --format marine; leave one out")
             if self.over_speed:
                 raise BalcliError(f"{option} needs a single speed, such as --speed 3000")
         if self.height_m is not None and not (self.marine or self.whole or "guide" in self.parts):

@@ -43,11 +43,11 @@ if TYPE_CHECKING:
 
 WHOLE_TURN = 360 - 1e-6  # deg; a longer interval between peaks counts as a whole turn
 _UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
-_LEVERS = "My is the moment of the forces along x (marine: M1V, M2V), Mx of those along y (M1H)."
+_LEVERS = "Forces along x make the moment My (marine: M1V, M2V), forces along y make Mx (M1H)."
 _UPRIGHT_LEVERS = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
 _AS_BUILT = (
-    "For reciprocating masses in the planes of the throws; as built: also with rotating masses and "
-    "stagger. Without devices, at steady speed."
+    "Values are for reciprocating masses in the planes of the throws, without devices, at steady "
+    "speed; as built: with rotating masses and stagger as well."
 )
 
 
@@ -60,13 +60,13 @@ def order_tables(
     with_gas: bool = False,
     every: bool = False,
 ) -> Iterator[Grid]:
-    """Yield a table of each vector, and one of the torques about z.
+    """Yield a table of each vector, a table of the torques about z, and a further one with gas.
 
     Args:
         spectra: Spectra to show.
         system: System of units.
         pivot: Axis of couple and roll, in words.
-        roll: Sentence that defines the roll, if it is not just the couple C less the torque T.
+        roll: Sentence that defines the roll, if it is not the couple C minus the torque T.
         with_gas: Whether the engine has gas; torques of inertia are then labelled.
         every: Whether to show orders above 2 that are balanced as well.
     """
@@ -132,7 +132,7 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
         cylinder = "one cylinder" if units.equal else f"cylinder {units.cylinder}"
         note = (
             f"F1 = m r ω² = {size_text(units.force, system.force, 5)} "
-            f"(reciprocating mass of {cylinder}), Fn = A_n F1 its n-th order. {_AS_BUILT}"
+            f"(m: reciprocating mass of {cylinder}); order n is Fn = A_n F1. {_AS_BUILT}"
         )
         yield _textbook_table(FORCE, book, note, every)
     if built.moment is not None and not math.isnan(units.arm):
@@ -145,12 +145,12 @@ def textbook_tables(book: Textbook, system: System, *, every: bool = False) -> I
 def cylinder_tables(
     cylinder: CylinderNumber, share: Spectra, system: System, *, about_crank: bool
 ) -> Iterator[Grid]:
-    """Yield tables of one cylinder's share, as lecturers list it: vectors as size and angle, couple
-    and torques as amplitude and phase.
+    """Yield tables of one cylinder's share: vectors as size and angle, couple and torques as
+    amplitude and phase.
 
     Args:
         cylinder: Number of the cylinder.
-        share: Its spectra.
+        share: Spectra of the cylinder.
         system: System of units.
         about_crank: Whether couple and torques are wanted.
     """
@@ -205,8 +205,8 @@ def _table(
     every: bool,
     note: str = "",
 ) -> Grid:
-    """Return a table with a row for each order up to 2 and each in which one of the phasors is not
-    balanced; with `every`, for all orders.
+    """Return a table with a row for each order up to 2 and each higher order that is not balanced;
+    with `every`, a row for each order.
     """
     rows = tuple(
         (order_name(order), *cells(k))
@@ -291,7 +291,7 @@ def _peak(peak: Peak, unit: ShownUnit, least: float) -> str:
     return f"{size} at crank angle {at} deg{again}"
 
 
-_SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds
+_SHOWN = ("torque", "gas", "torque_total", "roll_total")  # names of kinds, in the order of columns
 
 
 def gas_grid(

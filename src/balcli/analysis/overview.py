@@ -1,6 +1,6 @@
 """Lay out an analysis in brief: a table of the orders that matter, one line each on roll and peaks,
-and the verdict. The verdict has a sentence for each order: which part of it turns with the crank,
-so that counterweights can cancel it, and which part needs shafts.
+and the verdict. The verdict has a sentence for each order. It names the part that turns with the
+crank, which counterweights can cancel, and the part that needs shafts.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def find_orders_that_matter(spectra: Spectra, single: dict[str, float]) -> list[
 
     Args:
         spectra: Spectra to show.
-        single: Size of each kind for one cylinder; other kinds are never negligible.
+        single: Size of each kind for one cylinder; a kind that is missing is never negligible.
     """
     return [
         float(order)
@@ -104,7 +104,7 @@ def tell_others(
     sizes = []
     for kind, _ in rest[0].items():
         largest = max(float(np.nan_to_num(one[kind.name].major).max()) for one in rest)
-        if largest:  # 0 here if it is not known (nan)
+        if largest:  # a value that is not known (nan) counts as 0
             sizes.append(f"{name_column(kind)} {size_text(largest, system.unit(kind))}")
     names = ", ".join(map(order_name, others[:6]))
     more = ", …" if len(others) > 6 else ""
@@ -154,8 +154,8 @@ _AXES = {"0.0": "x", "90.0": "y"}
 _NAMED = {"moment": "longitudinal moment"}  # distinguishes it from the couple, another moment
 _SENSES = {1: "with the crank", -1: "against the crank"}
 _UNEVEN = (
-    "The uneven speed mixes the orders. Devices are sized at steady speed; one that cancels an "
-    "order there also cancels what that order adds to others."
+    "Uneven speed mixes the orders. Devices are sized at steady speed; a device that cancels an "
+    "order at steady speed also cancels what this order adds to others."
 )
 
 
@@ -241,8 +241,8 @@ class _Order(NamedTuple):
         return told
 
     def _tell_cure(self, sizes: bool) -> str:
-        """Return in words the devices that cancel the order; with the sizes of its parts if only
-        one vector is large.
+        """Return in words the devices that cancel the order. With `sizes`, and if only one vector
+        is large, the size of the part that each device cancels is stated.
         """
         if not self.cures:
             return ""
@@ -289,11 +289,11 @@ def verdict(
         scales: Force and moment of one cylinder; None: not known, so that no order is small.
         small: Share of one cylinder's force or moment below which a part is small.
         steady: Whether the speed is steady. At uneven speed no cure is named, because most of an
-            order may come from another order, and vanishes when that one is cancelled.
-        devices: Devices of the file; a device that turns like one of these is a further one.
+            order may come from another order, and would vanish with that order.
+        devices: Devices of the file; a cure that turns like one of them is called a further one.
         omega: Crank speed, rad/s, for the force of compensators among the devices.
-        turning: Senses in which cranks turn, seen from the first one (1, -1); counterweights can
-            cancel what turns like a crank.
+        turning: Senses in which the cranks turn (1: like the first crank, -1: against it);
+            counterweights can cancel a part that turns like a crank.
     """
     of_one = {} if scales is None else scales._asdict()
     vectors = [
@@ -335,7 +335,7 @@ def verdict(
     small_ones = _tell_largest(
         [(one, vector) for one in every if one.order not in compensated for vector in one.rest]
     )
-    if told or small_ones or min(balanced, default=3) <= 2:  # name only orders 1 and 2 then
+    if told or small_ones or min(balanced, default=3) <= 2:  # then name only orders 1 and 2
         usual = [order for order in balanced if order in (1, 2)]
         balanced = usual or [order for order in balanced if order < 2 and not told]
     if all(one.couple for one in every if one.order in balanced):
@@ -445,8 +445,8 @@ def _find_causes(engine: Engine, orders: Array, least: float) -> list[str]:
 def _find_cures(
     order: float, due: Collection[int], devices: Sequence[Device], turning: Collection[int]
 ) -> dict[int, str]:
-    """Return the devices that would cancel the vectors of an order that turn in these senses, by
-    sense.
+    """Return in words the device that would cancel the part of an order that turns in each of the
+    senses `due`, by sense.
     """
     if order % 1:
         return {}  # no device turns at half orders
@@ -469,7 +469,7 @@ def _tell_higher(high: Sequence[_Order]) -> str:
 
 
 def name_orders(orders: Sequence[float]) -> str:
-    """Return these orders in words: their numbers, or, if they are many, their count."""
+    """Return in words the numbers of some orders, or their count if they are many."""
     if len(orders) > _MOST_NAMED:
         return f"{len(orders)} orders up to {order_name(max(orders))}"
     return f"order{'s' * (len(orders) > 1)} {join_words([*map(order_name, orders)])}"

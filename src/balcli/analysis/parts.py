@@ -2,13 +2,14 @@
 (`analyze --only parts`).
 
 The load `F_i = U_i k^2 omega^2 e^{i angle_i}` of an eccentric at z_i turns with its shaft, which
-turns k times as fast as the crank. Of its two bearings, A takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
-and B takes the rest. The bending moment at a section is the sum of all loads and bearing forces
-before it, each times its arm; it is largest at a load or bearing.
+turns k times as fast as the crank. Bearing A of the shaft takes `sum F_i (z_B - z_i)/(z_B - z_A)`,
+and bearing B takes the rest. The bending moment at a section is the sum of all loads and bearing
+forces before it, each times its arm; it is largest at a load or bearing.
 
-A gear that drives the shaft against a drag T presses on it, at the mesh in direction d, with `T/R
-e^{i d} (i sign(k) - tan alpha)`, where R is the pitch radius and alpha the pressure angle. This
-force has a fixed direction; the lever rule shares it between the bearings as well.
+A gear may drive the shaft against a drag torque T. If the mesh is in direction d from the axis of
+the shaft, R is the pitch radius and alpha the pressure angle, the gear presses on the shaft with
+`T/R e^{i d} (i sign(k) - tan alpha)`. This force has a fixed direction; the lever rule shares it
+between the bearings as well.
 """
 
 from __future__ import annotations
@@ -37,17 +38,17 @@ _ROUNDING = 1e-12  # share of the sum of all loads; a smaller load is rounding
 def find_parts(
     engine: Engine, shafts: Sequence[Shaft], counterweights: Sequence[Counterweight]
 ) -> BalanceParts:
-    """Return balancer shafts and counterweights of an engine as parts, at the mean speed.
+    """Return bearing loads of balancer shafts, at the mean speed, and shapes of counterweights.
 
     Args:
         engine: Engine without trailing axes.
-        shafts: Entries of its balancer shafts.
-        counterweights: Its counterweights.
+        shafts: The `[[shaft]]` tables of the engine.
+        counterweights: The `[[counterweight]]` tables of the engine.
     """
     refuse_geared(engine)
     skirt = None if engine.model is None else engine.model.piston.skirt
     lowest = None
-    if skirt is not None and not engine.rotary:  # counterweights there turn with the cylinders
+    if skirt is not None and not engine.rotary:  # rotary: counterweights turn with the cylinders
         innermost = float(find_innermost(engine.cylinders).min())
         lowest = innermost - skirt / 1e3 if math.isfinite(innermost) else None
     omega, groups = float(engine.omega), group_eccentrics(shafts)
@@ -59,7 +60,7 @@ def find_parts(
 
 # ------------------------------------------------------------------ shafts
 def _describe_shaft(name: str, entries: Sequence[Shaft], omega: float) -> BalancerShaft:
-    """Return a shaft in its bearings.
+    """Return bearing loads, bending, inertia and gear of a balancer shaft.
 
     Args:
         name: Name of the shaft.
@@ -114,8 +115,8 @@ def _share(loads: Complex, places: Array, planes: Array) -> Complex:
 
     Args:
         loads: Forces on the shaft, N, shape (loads,).
-        places: Their places, m, shape (loads,).
-        planes: Places of the bearings, m, shape (2,).
+        places: Positions z of the forces, m, shape (loads,).
+        planes: Positions z of the bearings, m, shape (2,).
     """
     other = planes[::-1]
     found: Complex = ((other[:, None] - places) / (other - planes)[:, None]) @ loads
@@ -135,9 +136,9 @@ def _find_bending(
 
     Args:
         loads: Forces on the shaft, N, shape (loads,).
-        places: Their places, m, shape (loads,).
+        places: Positions z of the forces, m, shape (loads,).
         reactions: Loads of the bearings, N, shape (2,).
-        planes: Places of the bearings, m, shape (2,).
+        planes: Positions z of the bearings, m, shape (2,).
     """
     z = np.sort(np.concatenate([places, planes]))
     moments = np.abs(find_arms(places, z) @ loads - find_arms(planes, z) @ reactions)
@@ -150,10 +151,10 @@ def _find_bending(
 
 # ------------------------------------------------------------------ counterweights
 def _describe_counterweight(table: Counterweight, lowest: float | None) -> CounterweightPart:
-    """Return a counterweight as a part.
+    """Return unbalance and, for a sector, mass and shape of a counterweight.
 
     Args:
-        table: The counterweight.
+        table: The `[[counterweight]]` table.
         lowest: Least distance of a piston's lowest edge from the crank axis, m; None: not known.
     """
     place = table.position, float(wrap_degrees(table.angle, 360))
@@ -185,7 +186,7 @@ _WEIGHT = {key: remove_unit(key) for key in CounterweightPart._fields} | _SHORT
 
 
 def lay_out_parts(parts: BalanceParts, system: System) -> Iterator[Grid | Facts | Text]:
-    """Yield a table of the shafts in their bearings, lines on each shaft, and a table of the
+    """Yield a table of the bearing loads of the shafts, a line on each shaft, and a table of the
     counterweights.
 
     Args:
@@ -214,12 +215,12 @@ def _lay_out_bearings(shafts: Sequence[BalancerShaft], system: System) -> Grid:
 def list_columns(
     records: Sequence[object], labels: Mapping[str, str], units: Node, system: System
 ) -> Iterator[tuple[str, list[str]]]:
-    """Yield heading and cells of each figure that some records have.
+    """Yield heading and cells of each figure that is known for at least one record.
 
     Args:
         records: Records, one for each row.
         labels: Labels of the figures, by their keys.
-        units: Units of unbalance and force.
+        units: Further units, by their SI names.
         system: System of units.
     """
     length, angle = system.length, ShownUnit("deg", 1)

@@ -1,7 +1,7 @@
 """Compute the motion of the pistons: strokes, dead centres, mean and largest speed, and
 accelerations; exactly, and by the two terms that textbooks use.
 
-Angles named "own" are crank angles of a cylinder, which are 0 when its pin points along its axis.
+Angles named "own" are crank angles of one cylinder: 0 means that its pin points along its axis.
 The acceleration towards the crank is a series of cosines (`core.mechanisms.closed_form`), and the
 velocity is its integral. The extremes are those of these series.
 """
@@ -33,7 +33,8 @@ from ..show.result import Result
 from ..show.sheet import NAMELESS, UNKNOWN, Facts, Grid, Sheet, assumed_facts, number
 from ..show.units import IMPERIAL, INCH, ShownUnit, System, name_with_unit
 
-# Centred slider-crank: the fourth derivative of s at 180 deg is 0, 3 lam^3 - 4 lam + 1 = 0.
+# Rod ratio of a centred slider-crank for which the fourth derivative of s at 180 deg is 0:
+# 3 lam^3 - 4 lam + 1 = 0. Above it, the acceleration has two minima.
 TYPE_LIMIT = (math.sqrt(7 / 3) - 1) / 2
 _TWO_TERM_LIMIT = 1 / 4
 _USUAL = (  # Lu and Meng, Automobile Engine Design, 1990, section 1.1.1.1 and Table 1-5
@@ -46,7 +47,7 @@ _SAMPLES = 32  # samples per period of the highest order, to count minima
 
 @dataclass(frozen=True)
 class Velocity:
-    """Largest speeds of a piston, positive towards the crank.
+    """Highest and lowest velocity of a piston, positive towards the crank.
 
     Attributes:
         max_m_per_s: Highest velocity.
@@ -63,7 +64,7 @@ class Velocity:
 
 @dataclass(frozen=True)
 class Acceleration:
-    """Accelerations of a piston, positive towards the crank.
+    """Highest and lowest acceleration of a piston, positive towards the crank.
 
     Attributes:
         max_m_per_s2: Highest acceleration.
@@ -115,8 +116,8 @@ class PistonMotion:
         inward_stroke_deg: Crank angle from the outer to the inner dead centre.
         outward_stroke_deg: Crank angle from the inner to the outer dead centre.
         mean_speed_m_per_s: Mean piston speed.
-        velocity: Largest velocities.
-        acceleration: Largest accelerations.
+        velocity: Highest and lowest velocity.
+        acceleration: Highest and lowest acceleration.
         two_term: Velocity and acceleration by two terms; only for centred slider-cranks.
     """
 
@@ -233,7 +234,7 @@ def choose_cylinder(result: Pistons, number: int) -> Pistons:
 
 
 def _find_acceleration(orders: Array, series: Complex, scale: float) -> Acceleration:
-    """Return the largest accelerations, from the phasors of the acceleration by order."""
+    """Return the extremes of the acceleration from its phasors by order."""
     angles = np.linspace(0, 2 * np.pi, _SAMPLES * len(orders), endpoint=False)
     jerk = (np.exp(1j * np.outer(angles, orders)) @ (1j * orders * series)).real
     turns = (jerk <= 0) & (np.roll(jerk, -1) > 0)
@@ -243,7 +244,7 @@ def _find_acceleration(orders: Array, series: Complex, scale: float) -> Accelera
 def _find_extremes(
     orders: Array, series: Complex, scale: float
 ) -> tuple[float, float, float, float]:
-    """Return value and crank angle (deg, 0 to 360) of the maximum, then those of the minimum."""
+    """Return value and crank angle (deg, 0 to 360) of the maximum, then of the minimum."""
     high, low = (
         (scale * float(peak.value), math.degrees(float(peak.angle)) % 360)
         for peak in find_swing(orders, series)
@@ -274,7 +275,7 @@ _PARTS = ("mean_speed", "max_speed", "max_acceleration", "stroke")
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of the quantities of piston 1, and patterns of those of other pistons."""
+    """Yield names of the quantities of piston 1, and name patterns for the other pistons."""
     if model.engine:
         return
     for stem in ("piston", "piston.N"):
@@ -282,7 +283,7 @@ def list_names(model: EngineFile) -> Iterator[str]:
 
 
 def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> None:
-    """Raise BalcliError if a quantity is of a cylinder that the engine does not have."""
+    """Raise BalcliError if a quantity names a cylinder that the engine does not have."""
     refuse_geared(model)
     there = list(map(str, sorted(build(model).numbers)))
     for q in (q for q in quantities if q.target):
@@ -307,8 +308,8 @@ Variants = partial(FiguresOfVariants, evaluate_engine)
 
 # ------------------------------------------------------------------ how it is shown
 def sheet(result: Pistons, system: System) -> Sheet:
-    """Return a table with a row for each figure, and for each mechanism a column of exact figures
-    followed by one of the two-term figures.
+    """Return a table with a row for each figure. Each mechanism has a column of exact figures and,
+    if they are known, a column of two-term figures.
 
     Args:
         result: Motion of the pistons.
@@ -330,8 +331,8 @@ def sheet(result: Pistons, system: System) -> Sheet:
             columns.append(("two-term", two))
             if each.two_term.type != each.acceleration.type:
                 notes.append(
-                    f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; "
-                    f"by two terms above {_TWO_TERM_LIMIT}."
+                    f"The acceleration has two minima above a rod ratio of {TYPE_LIMIT:.4f}; by the"
+                    f" two-term formula, above {_TWO_TERM_LIMIT}."
                 )
     names = dict.fromkeys(name for _, cells in columns for name in cells)
     rows = tuple(
@@ -347,7 +348,7 @@ def sheet(result: Pistons, system: System) -> Sheet:
 
 
 def choose_unit(name: str, system: System) -> ShownUnit:
-    """Return the unit in which people read a figure, by its path."""
+    """Return the unit in which a figure is printed, from its dotted name."""
     unit = find_unit(name)
     shown = {"m": system.length, "m³": system.volume}
     if system is IMPERIAL:

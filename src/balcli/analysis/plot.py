@@ -45,16 +45,16 @@ _DASHED: Look = {"color": SOFT, "linewidth": 1.1, "linestyle": (0, (4, 2))}
 def draw_vector_bars(
     ax: Axes, curve: Phasors, what: str, unit: ShownUnit, before: Phasors | None = None
 ) -> None:
-    """Draw the largest value of each order as a bar: the size of the vector that turns with the
-    crank, and on top of it that of the vector that turns against it.
+    """Draw the largest value of each order as a bar of two parts: the vector that turns with the
+    crank, and on top of it the vector that turns against the crank.
 
     Args:
         ax: Axes to draw on.
         curve: Phasors of the vector, shape (orders,).
         what: Name of the quantity.
         unit: Unit of the quantity.
-        before: Phasors of the same orders to compare, whose largest values are drawn dashed; None
-            if there are none.
+        before: Earlier phasors of the same orders, whose largest values are drawn dashed; None if
+            there are none.
     """
     shown = visible_rows(curve, before)
     s = fit_largest(unit, *(p for p in (curve, before) if p is not None))
@@ -199,11 +199,11 @@ def draw_along(
 
     Args:
         ax: Axes to draw on.
-        curves: Present loads, and earlier ones if there are two to compare.
+        curves: Loads; a second entry has the earlier loads, drawn dashed.
         what: "force" or "moment".
         system: System of units.
-        steps: matplotlib's drawstyle of the line between the places; empty: columns.
-        over: Span over which the values are the largest ones, such as "the cycle".
+        steps: matplotlib's drawstyle of the line between the places; empty: vertical lines.
+        over: Span over which the largest values are taken, such as "the cycle".
     """
     unit = system.force if what == "force" else system.moment
     values = [np.array([peak.value for peak in curve.peaks]) for curve in curves]
@@ -233,8 +233,8 @@ _ON_PAPER = {"facecolor": PAPER, "edgecolor": "none", "pad": 0.5}
 
 
 def draw_piston(fig: Figure, engine: Engine, number: int, system: System) -> None:
-    """Draw travel, velocity and acceleration of a piston over its own crank angle, and below them,
-    with gas of known pressure, side thrust and rod force over the cycle.
+    """Draw travel, velocity and acceleration of a piston over the crank angle from the cylinder's
+    axis. If the gas pressure is known, side thrust and rod force over the cycle are drawn below.
 
     Args:
         fig: Empty figure, whose height is set.
@@ -323,5 +323,5 @@ def draw_journals(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
         ax.plot(degrees, curve / s.size, linestyle=line, color=color, label=place)
     set_crank_axis(ax, degrees)
     what = "inertia" if engine.gas is None else "gas and inertia"
-    ax.set(ylabel=f"torque, {s.name}", title=f"Torque in the main journals, of {what}")
+    ax.set(ylabel=f"torque, {s.name}", title=f"Torque of {what} in the main journals")
     ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))

@@ -31,8 +31,8 @@ class CylinderShare(NamedTuple):
     """Forces and moments of a single cylinder.
 
     Attributes:
-        cylinder: Number of the cylinder; of geared engines with the name of its engine.
-        spectra: Orders of its forces and moments.
+        cylinder: Number of the cylinder; for geared engines, with the name of its engine.
+        spectra: Orders of the cylinder's forces and moments.
     """
 
     cylinder: CylinderNumber
@@ -99,7 +99,7 @@ class Section(NamedTuple):
 
 
 class Bent(NamedTuple):
-    """Loads of the shaft or of the block, section by section.
+    """Shear force and bending moment of the crankshaft or the block, section by section.
 
     Attributes:
         largest_bending_Nm: Largest bending moment of all sections.
@@ -234,8 +234,8 @@ class Stroke(NamedTuple):
     Attributes:
         cylinder: Number of the cylinder.
         stroke_m: Stroke.
-        top_deg: Crank angle at top dead centre, measured from the position of the pin along the
-            axis.
+        top_deg: Crank angle at top dead centre, measured from the position in which the pin lies
+            along the cylinder's axis.
         bottom_deg: Crank angle at bottom dead centre, measured from half a turn after this
             position.
     """
@@ -254,7 +254,7 @@ class Counterweight(NamedTuple):
         unbalance_kg_m: Unbalance.
         angle_deg: Angle from cylinder 1's crank pin.
         position_mm: Position along the crank.
-        engine: Of geared engines, the one whose crank carries it.
+        engine: Engine whose crank carries the counterweight; only for geared engines.
     """
 
     unbalance_kg_m: float
@@ -269,8 +269,8 @@ class Shaft(NamedTuple):
     Attributes:
         ratio: Speed over crank speed; negative: it turns against the crank.
         unbalance_kg_m: Unbalance.
-        angle_deg: Angle from x, in the sense in which the shaft turns.
-        at_mm: Position of its axis: x, y.
+        angle_deg: Angle from x, in the sense in which the crank turns.
+        at_mm: Position of the shaft's axis: x, y.
         position_mm: Position along the crank.
         free: Whether the shaft may be anywhere.
         role: "compensator"; left out for balancer shafts.
@@ -291,9 +291,9 @@ class Slider(NamedTuple):
     Attributes:
         order: Frequency over crank speed.
         unbalance_kg_m: Mass times amplitude.
-        direction_deg: Direction of its path from x.
+        direction_deg: Direction of the path of the mass from x.
         angle_deg: Phase at crank angle 0.
-        at_mm: Position of the middle of its path: x, y.
+        at_mm: Position of the middle of the path: x, y.
         position_mm: Position along the crank.
     """
 
@@ -324,7 +324,7 @@ class SizedDevices(NamedTuple):
 
     Attributes:
         scheme: Name of the scheme.
-        step: Step of the ladder that it fits.
+        step: Step of the ladder that the scheme fits.
         devices: New devices.
     """
 
@@ -339,7 +339,7 @@ def name_devices(remedy: Remedy) -> SizedDevices:
 
 
 def describe_devices(remedy: Remedy) -> Devices:
-    """Return the devices of a remedy by their kinds."""
+    """Return the devices of a remedy, grouped by kind."""
     return Devices(
         tuple(Counterweight(*_list_values(d, Counterweight)) for d in remedy.counterweights),
         tuple(map(_describe_shaft, remedy.shafts, find_free(remedy.shafts))),
@@ -353,15 +353,15 @@ def _describe_shaft(shaft: model.Shaft, free: bool) -> Shaft:
 
 
 def _list_values(device: DeviceTable, record: Any) -> list[Any]:
-    """Return the values of a device for the attributes of a record, which are named like the keys
-    of the file, with units.
+    """Return the values of a device for the fields of a record. Each field is named like a key of
+    the engine file, plus a unit.
     """
     others = ("free", "role")
     return [find_value(device, remove_unit(key)) for key in record._fields if key not in others]
 
 
 def find_value(device: DeviceTable, field: str) -> Any:
-    """Return a figure of a device, the unbalance in kg m.
+    """Return a figure of a device as in the engine file, but the unbalance in kg m.
 
     Args:
         device: Table of the device.
@@ -410,7 +410,7 @@ class Journal(NamedTuple):
         inertia: Torque of inertia.
         position_mm: Position along the crank; left out if positions of throws are not known.
         total: Torque of gas and inertia; left out without gas.
-        stress: Stress under the total torque (without gas: under that of inertia); left out if the
+        stress: Stress under the total torque (without gas: the inertia torque); left out if the
             file gives no diameter.
     """
 
@@ -462,7 +462,7 @@ class BalancerShaft(NamedTuple):
         name: Name of the shaft.
         ratio: Speed over crank speed; negative: it turns against the crank.
         inertia_at_crank_kg_m2: Moment of inertia of the shaft times the square of the ratio.
-        bearings: Loads of the bearings; left out, like all that follows, if the file gives none.
+        bearings: Loads of the bearings; left out, with the figures below, if there are none.
         bending_Nm: Largest bending moment of the turning loads.
         bending_position_mm: Position of this bending moment; left out if nothing bends the shaft.
         gear: Gear of the shaft; left out if the file gives none.
@@ -478,7 +478,7 @@ class BalancerShaft(NamedTuple):
 
 
 class CounterweightPart(NamedTuple):
-    """A counterweight. Mass and all that follows are known only for a sector.
+    """A counterweight. Mass and the figures below it are known only for a sector.
 
     Attributes:
         position_mm: Position along the crank.
@@ -515,7 +515,7 @@ class BalanceParts(NamedTuple):
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings of counterweights that touch a piston."""
+        """Warnings about counterweights that would touch a piston."""
         for number, part in enumerate(self.counterweights, 1):
             if part.clearance_m is not None and part.clearance_m < 0:
                 gap = f"{1e3 * part.clearance_m:.4g} mm"
@@ -572,7 +572,8 @@ class Masses(NamedTuple):
         rod_big_end_kg: Share of the rod's mass at the crank pin.
         rod_inertia_kg_m2: Moment of inertia of the rod about its centre of mass.
         radius_of_gyration_m: Radius of gyration of the rod.
-        couple_constant_kg_m2: H: moment of inertia of the two masses less that of the rod.
+        couple_constant_kg_m2: H: inertia of the two masses about the rod's centre of mass, minus
+            the inertia of the rod.
         reduced_length_m: Length of a pendulum that swings like the rod about the piston pin.
     """
 

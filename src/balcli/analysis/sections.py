@@ -39,17 +39,17 @@ if TYPE_CHECKING:
 
 
 _OPEN_END = (
-    "Without bearings: the value at the last position is the free moment of all these loads about "
-    "it, which the mounts carry."
+    "Without bearing forces: the value at the last position is the free moment of all these loads "
+    "about this position. The mounts carry it."
 )
 _TOGETHER = (
-    "Loads of inertia: gas presses on throw and head alike, so that it does not bend crankshaft "
-    "and block as a whole."
+    "These are loads of inertia: gas presses equally on throw and cylinder head, so it does not "
+    "bend crankshaft and block as a whole."
 )
-_BEHIND = "Values just behind each load."
+_BEHIND = "Values are those just behind each load."
 _CUT = (
-    "Main bearings half-way between throws, and as far outside the end throws; the shaft is taken "
-    "as cut in each bearing."
+    "Main bearings are half-way between throws, and as far outside the end throws; the shaft is "
+    "taken as cut in each bearing."
 )
 ORDERS_SHOWN = 6  # largest number of orders in a table, which has a column for each
 
@@ -98,7 +98,7 @@ def sheet_parts(inner: InnerLoads, system: System) -> Iterator[Grid | Facts | Te
     places = ("largest inner moment", "in the crankshaft", "in the block")[: len(moments)]
     yield Facts(tuple(zip(places, (_tell_largest(one, system) for one in moments), strict=True)))
     if inner.obstacle:
-        yield Text("", (f"{_TOGETHER} Inside, it is not known: {inner.obstacle}.",))
+        yield Text("", (f"{_TOGETHER} Loads with gas are not known: {inner.obstacle}.",))
 
 
 def rows(inner: InnerLoads, system: System) -> Iterator[FigureRow]:
@@ -145,7 +145,7 @@ _ALONE = "of inertia only, without gas"
 
 
 def lay_out_guide(guide: GuideMoments, system: System) -> Grid:
-    """Return a table with a row for each order.
+    """Return a table of guide-force moments with a row for each order.
 
     Args:
         guide: Guide-force moments.
@@ -173,14 +173,14 @@ def define_guide_moments(height_m: Array, system: System) -> str:
         system: System of units.
     """
     return (
-        "H-type: sum of the cylinders' force couples. X-type: sum of each couple times its "
+        "H-type: sum of the cylinders' guide-force couples. X-type: sum of each couple times its "
         f"distance from the reference, divided by L = {_heights(height_m, system)} (crankshaft to "
         "the middle of the guide; unless given, the length of the rod)."
     )
 
 
 def list_guide(guide: GuideMoments, system: System) -> Iterator[FigureRow]:
-    """Yield the figures of every order: H-type, then X-type.
+    """Yield the guide-force moments of every order: H-type, then X-type.
 
     Args:
         guide: Guide-force moments.
@@ -202,7 +202,7 @@ def _heights(height_m: Array, system: System) -> str:
 
 
 def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
-    """Return a table with a row for each cylinder.
+    """Return a table of strokes and dead centres with a row for each cylinder.
 
     Args:
         travel: Strokes and dead centres of the cylinders.
@@ -214,14 +214,14 @@ def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
         rows.append((str(one.cylinder), number(length.of(one.stroke_m), 7), *dead_centres))
     heads = ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg")
     note = (
-        "Dead centres: top in crank degrees after the pin lies along the cylinder's axis, bottom "
-        "from half a turn later."
+        "Crank angles of the dead centres: top from where the pin lies along the cylinder's axis, "
+        "bottom from half a turn later."
     )
     return Grid("Strokes and dead centres", heads, tuple(rows), note)
 
 
 def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow]:
-    """Yield three figures for each cylinder.
+    """Yield the stroke and the angles of both dead centres of each cylinder.
 
     Args:
         travel: Strokes and dead centres of the cylinders.
@@ -243,9 +243,9 @@ UNITS = (
 
 _TURNS = {"forward": "with", "backward": "against"}
 _STARS = (
-    "Vectors of the cylinders without devices, at crank angle 0: directions from x, with the "
-    "numbers of the cylinders, and the sums. A polygon that closes leaves 0. As a picture: balcli "
-    "plot --what stars."
+    "Vectors of the cylinders at crank angle 0, without devices: directions from x, cylinders in "
+    "each direction, and sums. closes: the polygon of the vectors closes, so that their sum is 0. "
+    "`balcli plot --what stars` draws the stars."
 )
 
 

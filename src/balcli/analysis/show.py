@@ -121,7 +121,7 @@ def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator
 
 
 def _chosen_order_parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
-    """Yield all tables, or those that `--only` names; by default only with orders that matter."""
+    """Yield all tables, or those that `--only` names; by default with the orders that matter."""
     spectra, every = result.spectra.with_moment_if(result.moments_known), view.every_order
     of_one = set() if result.engine.placed else {"textbook"}
     parts = view.parts or {*EVERY_KIND, "xy", *of_one}
@@ -213,8 +213,8 @@ def _sizing_parts(sizing: Sizing, system: System) -> Iterator[Part]:
 
 
 def columns(result: Analysis) -> Columns:
-    """Return columns with a row for each order: sizes and directions of each kind, named like the
-    quantities of sweeps without the order.
+    """Return columns of sizes and directions of each kind, with a row for each order. Names are
+    those of the quantities of `sweep`, without the order.
     """
     spectra = result.spectra.with_moment_if(result.moments_known)
     values: dict[str, Array] = {"order": result.orders}

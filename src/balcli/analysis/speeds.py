@@ -1,11 +1,11 @@
 """Analyze one engine at several speeds, and make the sheet of builders of large (marine) engines.
 
-For several speeds, people get a table for each kind with a row for each speed; programs get all
-analyses.
+At several speeds, the printed sheet has a table for each kind with a row for each speed. JSON and
+CSV have the analyses of all speeds.
 
 The marine sheet has external forces and moments by order, vertical and horizontal, guide-force
 moments and torque. Vertical is along x, horizontal along y. The moment of vertical forces, which is
-about the y axis, is also called vertical: M1V is My of order 1, M1H is its Mx.
+about the y axis, is also called vertical: M1V is My of order 1, and M1H is Mx of order 1.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def analyze_speeds(
     Args:
         engine: Engine without trailing axes.
         speeds_rpm: Speeds, rpm.
-        orders: Orders to show; None: all that are shown by default at one of the speeds.
+        orders: Orders to show; None: all that are shown by default at any of the speeds.
         analyze_one: Function that analyzes an engine for given orders (None: default).
 
     Raises:
@@ -122,7 +122,7 @@ class MarineOrder:
         moment_h_Nm: External moment of the forces along y.
         guide_h_Nm: H-type guide-force moment.
         guide_x_Nm: X-type guide-force moment.
-        torque_Nm: Torque on the crank, of inertia and, with [gas], gas.
+        torque_Nm: Torque of inertia and, with [gas], of gas on the crank.
     """
 
     order: float
@@ -224,7 +224,7 @@ def find_marine_sheet(
     Args:
         engine: Engine without trailing axes.
         speeds_rpm: Speeds; default: the engine's own.
-        orders: Orders; default: all that `analyze` shows at one of the speeds.
+        orders: Orders; default: all that `analyze` shows at any of the speeds.
         guide_height_m: Distance from the crankshaft to the middle of the guides; default: each
             rod's length.
         every_order: Whether tables show negligible orders; they do if orders are given.
@@ -356,10 +356,10 @@ def _kind_part(
 RENDERER = Renderer(sheet=sheet, document=write_named, rows=rows)
 
 
-_AXES = "V is along x, from which bank angles count, H along y."
+_AXES = "V is along x (from which bank angles count), H is along y."
 _NAMES = (
-    "FnV, FnH, MnV, MnH: n is the order, so that column MnV has M1V and M2V. Values are "
-    "amplitudes. A vertical force makes a vertical moment."
+    "In FnV, FnH, MnV and MnH, n is the order: column MnV lists M1V, M2V and so on. Values are "
+    "amplitudes. The moment of vertical forces is called vertical."
 )
 
 
@@ -415,8 +415,8 @@ def list_marine(one: NamedResult[MarineSheet], system: System) -> Rows:
 
 
 def _grid_by_order(title: str, kinds: Sequence[Kind], result: MarineSheet, system: System) -> Grid:
-    """Return a table for one speed, with a row for each whole order up to 2 and each that
-    matters.
+    """Return a table for one speed, with a row for each whole order up to 2 and each other order
+    that matters.
     """
     every = result.every_order
     chosen = [line for line in result.lines if line.kind in kinds]

@@ -1,5 +1,5 @@
-"""`sum`: two engines on one frame, geared one to one (H, U, opposed-piston), in place of a file
-with [[engine]]; and how the sum is shown.
+"""Combine two engines on one frame, geared one to one (`sum`: H, U and opposed-piston engines), and
+show the result. A file with [[engine]] describes the same.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class EngineOfTwo:
 
     Attributes:
         size: Name and size of the engine.
-        gas: Whether its file has gas; left out where neither file has.
+        gas: Whether the engine's file has gas; left out if neither file has gas.
     """
 
     size: Annotated[EngineSize, INLINE]
@@ -59,7 +59,7 @@ class EngineOfTwo:
 
 
 def measure_engines(engines: tuple[Engine, ...]) -> tuple[EngineOfTwo, ...]:
-    """Return names and sizes of engines, and which of them have gas, if any has."""
+    """Return names and sizes of engines and, if any of them has gas, which ones have."""
     has_gas = [engine.gas is not None for engine in engines]
     sizes = map(measure_engine, engines)
     return tuple(map(EngineOfTwo, sizes, has_gas if any(has_gas) else [None] * len(has_gas)))
@@ -71,7 +71,7 @@ class Arrangement:
 
     Attributes:
         phase_deg: Crank angle by which the second engine leads, in its own sense of rotation.
-        at_m: Position of its origin (its crank axis at its z = 0) in the first engine's axes.
+        at_m: Position of the second engine's origin (crank axis at z = 0) in the axes of the first.
         turn_deg: Angle by which the second engine is turned about z, with all its banks.
         reverse: Whether the second crank turns against the first. The second engine is then a
             mirror image of the engine in its file (y with opposite sign), so that angles in the
@@ -102,7 +102,7 @@ class Arrangement:
             raise BalcliError(f"--load {self.load}: makes a difference only with --reverse")
 
     def place(self, first: Engine, second: Engine) -> tuple[Placed, Placed]:
-        """Return both engines where they stand."""
+        """Return both engines with their positions, phases and loads."""
         ratio = -1 if self.reverse else 1
         senses = {"first": (1, 1), "second": (ratio, ratio), "both": (1, ratio)}[self.load]
         leader = Placed(first, "first", load=self.load != "second", load_sense=senses[0])
@@ -120,7 +120,7 @@ class Combined(OrdersAndPeaks, Result):
     does not act on the frame. With the load on the first crank, the roll is therefore C - (T1 +
     T2). With the load on a second crank that turns against it, the roll is C + (T1 + T2). If each
     crank has its own load, the roll is C - T1 + T2. Gas torques add in the same way, with the
-    orders of both cycles; an engine without gas has none.
+    orders of both cycles; an engine without gas adds no gas torque.
 
     Attributes:
         engines: Both engines, in the given order.
@@ -197,19 +197,19 @@ def combine(
     """Combine two engines on one frame, geared one to one: H, U and opposed-piston engines.
 
     Args:
-        first: Engine from `load`; both run at its speed.
+        first: Engine from `load`; both engines run at the speed of this one.
         second: Engine from `load`.
         phase_deg: Crank angle by which the second engine leads, in its own sense of rotation; with
             gas in a four-stroke engine up to two revolutions.
-        at_m: x, y, z of its origin in the first one's axes, m.
-        turn_deg: Angle by which it is turned about z.
-        reverse: Whether its crank turns against the first one's.
+        at_m: Position x, y, z of the second engine's origin in the axes of the first, m.
+        turn_deg: Angle by which the second engine is turned about z.
+        reverse: Whether the second crank turns against the first.
         load: "first", "second" or "both": with `reverse`, the crank that has flywheel and load.
         orders: Orders to show; default: 1, 2 and all that are not negligible.
 
     Returns:
-        `spectra` of both together about the first one's point of reference (N, N m), as in
-        `analyze`, and the largest values in `peak`.
+        Forces and moments of both engines together (N, N m): orders in `spectra`, as for `analyze`,
+        and largest values in `peak`. The point of reference is that of the first engine.
 
     Raises:
         BalcliError: A value is infinite or too large, or a load is unknown or makes no difference.
@@ -234,12 +234,12 @@ def describe_file(
 
     Args:
         result: Both engines together.
-        paths: Their files.
-        target: Path of the new file, in the folder of the others or above it.
-        speed_rpm: Speed instead of that of the first file; None: that one.
+        paths: Files of the engines.
+        target: Path of the new file, in the folder of the engines' files or above it.
+        speed_rpm: Speed to write; None: the file has the speed of the first engine.
 
     Raises:
-        BalcliError: A file is elsewhere.
+        BalcliError: An engine file is not in the folder of the new file or below.
     """
     blocks = [f"name = {format_value(' and '.join(one.name for one in result.engines))}\n"]
     if speed_rpm is not None:
@@ -254,7 +254,7 @@ def describe_file(
 
 
 def _name_beside(path: str, target: Path) -> str:
-    """Return the name by which a file at `target` names an engine file."""
+    """Return the path of an engine file relative to the folder of `target`."""
     home, place = target.parent.resolve(), Path(path).resolve()
     if path == "-" or not place.is_relative_to(home):
         raise BalcliError(f"--write {target}: {path} is not in the folder of {target} or below")
@@ -263,7 +263,7 @@ def _name_beside(path: str, target: Path) -> str:
 
 _GEARED = "Geared one to one, kinetic energies add: the first crank feels T = T1 + T2."
 _ROLL = {
-    "first": "It drives the load, and the roll is C − T.",
+    "first": "The first crank drives the load: the roll is C − T.",
     "second": "The second crank drives the load in the opposite sense: the roll is C + T.",
     "both": "Each crank has its own flywheel and load: the roll is C − T1 + T2.",
 }

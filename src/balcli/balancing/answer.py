@@ -156,7 +156,7 @@ def balance_engine(
 ) -> Balance:
     """Return the devices that a scheme fits, and the analyses without and with them.
 
-    Devices are sized for a steady speed; under uneven speed both analyses include it.
+    Devices are sized for a steady speed. If the speed is uneven, both analyses include that.
 
     Args:
         engine: Engine without trailing axes.
@@ -211,7 +211,7 @@ def balance_fit(
         targets: Quantities to cancel, of "force", "moment", "roll" and "roll_total".
         orders: Orders to show, as in `balance_engine`.
         tools: Tools of the workshop, as in `balance_engine`.
-        small: Share of one cylinder's first order below which the ladder leaves a part.
+        small: Share of one cylinder's first order below which the ladder cancels no part.
 
     Raises:
         BalcliError: A target is unknown, or the file does not determine it.
@@ -250,7 +250,7 @@ def _analyze_both(
     engine: Engine, changed: Engine, remedy: Remedy, orders: Iterable[float] | None
 ) -> Balance:
     """Return a remedy, and the analyses of an engine without and with it for the same orders: the
-    given ones, by default 1, 2 and all that are not negligible in one of both.
+    given ones, by default 1, 2 and all that are not negligible before or after.
     """
     before, after = analyze_alike((engine, changed), orders, analyze)
     return Balance(
@@ -286,7 +286,7 @@ def permit_unbalance(
         raise BalcliError(f"--grade {grade:g} --mass {mass:g}: both must be positive numbers")
     count = len(remedy.needs or remedy.counterweights)
     if not count:
-        raise BalcliError(f"--grade: scheme {remedy.scheme} fits no counterweights to share it")
+        raise BalcliError(f"--grade is for counterweights, and scheme {remedy.scheme} fits none")
     whole = find_permitted_unbalance(grade, mass, speed_rpm)
     return PermittedUnbalance(grade=grade, mass_kg=mass, each_g_mm=whole / count)
 
@@ -330,8 +330,8 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
 
     "dead-centres": at top dead centre of every piston, the crank pin has the same angle to the axis
     of its bank. "strokes": every piston has the stroke of the master piston. (Both at once would
-    need a different radius for each pin.) In a bank with several rows, the first row counts. Banks
-    that no turn within 30 degrees makes even keep their angle.
+    need a different radius for each pin.) In a bank with several rows, the first row counts. A bank
+    keeps its angle if no turn of up to 30 degrees makes it even.
 
     Raises:
         BalcliError: The engine has no articulated rods, or the goal is unknown.
@@ -379,8 +379,8 @@ def balance_knuckles(
     orders: Iterable[float] | None = None,
     speed_rpm: float | None = None,
 ) -> Balance:
-    """Return even knuckle angles as a remedy, with the engine before and after, at the speed of the
-    file or a given one; other arguments and errors as for `even_knuckles`.
+    """Return even knuckle angles as a remedy, with the engine before and after, at the given speed
+    or that of the file. Other arguments and errors are those of `even_knuckles`.
     """
     found = even_knuckles(model, goal)
     remedy = Remedy(
@@ -434,7 +434,7 @@ def _explain(
     """
     result = "strokes equal to the master's"
     if goal == "dead-centres":
-        result = "top dead centres where the master's cylinder has them"
+        result = "top dead centres at the same angle as the master's"
     largest = float(np.abs(np.where(hung & done, turn_deg, 0)).max(initial=0.0))
     turned = f"turned by up to {largest:.3g} deg" if largest > _STAYS_DEG else "stay where they are"
     reasons = [f"knuckle pins {turned}: {result}"] * bool(np.any(hung & done))
@@ -480,7 +480,7 @@ def insert_remedy(text: bytes, remedy: Remedy, file: str = "") -> str:
         old = _insert_devices(remove_tables(old, "counterweight"), first)
     new = _insert_devices(old, remedy)
     if build(parse(new, file)).devices != fit_devices(base, remedy).devices:
-        raise BalcliError(f"{file}: devices do not read back as they were sized: please report it")
+        raise BalcliError(f"{file}: written devices differ from the sized ones: please report it")
     return new
 
 

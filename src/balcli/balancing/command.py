@@ -51,7 +51,7 @@ FormatOption = Annotated[
     Format | None,
     format_option(
         (*TEXTS.values(), Format.CARD),
-        "Default: by the ending of -o, else table. card: for a shop's wall.",
+        "Default: by the ending of -o, else table. card: a sheet for the workshop.",
     ),
 ]
 Scheme = Annotated[
@@ -62,12 +62,12 @@ Scheme = Annotated[
         metavar="NAME",
         autocompletion=complete_schemes,
         show_default=False,
-        help="What to fit: a name of --schemes; default: auto, or factor with --factor.",
+        help="Scheme to fit (--schemes lists them); default: auto, or factor with --factor.",
     ),
 ]
 
 
-Step = Annotated[str | None, optional("STEP", "Fit this row of the ladder: name or number.")]
+Step = Annotated[str | None, optional("STEP", "Fit this step of the ladder (name or number).")]
 
 
 def _list_schemes(wanted: bool) -> None:
@@ -116,11 +116,11 @@ Target = Annotated[
         "roll_total; default: force,moment.",
     ),
 ]
-Direction = Annotated[str | None, optional("DEG", "Ellipse: direction of the remaining force.")]
-Ratio = Annotated[str | None, optional("SHARE", "Ellipse: smallest / largest remaining force.")]
+Direction = Annotated[str | None, optional("DEG", "ellipse: direction of the remaining force.")]
+Ratio = Annotated[str | None, optional("SHARE", "ellipse: smallest / largest remaining force.")]
 Design = Annotated[str | None, optional("a|b", "Design of --scheme eccentric-slider; default: a.")]
 Criterion = Annotated[str | None, optional("largest|mean", "Force to minimise; default: largest.")]
-Even = Annotated[str | None, optional("dead-centres|strokes", "Knuckles: what becomes equal.")]
+Even = Annotated[str | None, optional("dead-centres|strokes", "knuckles: what to make equal.")]
 Grade = Annotated[str | None, optional("G", "Balance grade of ISO 21940-11, such as G16.")]
 Mass = Annotated[str | None, optional("KG", "Mass of the crankshaft, for --grade.")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the engine with these devices.")]
@@ -218,13 +218,13 @@ def _check_fit(name: str, scheme: str, options: SchemeOptions, open_devices: Seq
     """
     if not open_devices:
         raise BalcliError(
-            f'{name}: no device has unbalance = "fit", so that --scheme fit and --target have '
-            "nothing to fit; give it to a [[counterweight]], [[shaft]] or [[slider]]"
+            f'{name}: no device has unbalance = "fit", so --scheme fit and --target have nothing '
+            "to fit; write it into a [[counterweight]], [[shaft]] or [[slider]]"
         )
     if scheme != FIT or options != SchemeOptions(small=options.small):
         raise BalcliError(
-            f'{name}: {open_devices[0]}.unbalance is "fit": balance fits the devices of the file '
-            f"and takes --target; scheme {scheme} and its options cannot be used"
+            f'{name}: {open_devices[0]}.unbalance is "fit", so balance fits only such devices and '
+            f"takes --target; scheme {scheme} and its options cannot be used"
         )
 
 
@@ -235,7 +235,7 @@ def _check_even(scheme: str, options: SchemeOptions) -> None:
             f"--even belongs to --scheme knuckles; scheme {scheme} has no such option"
         )
     if options != SchemeOptions():
-        raise BalcliError("scheme knuckles: has no option but --even")
+        raise BalcliError("scheme knuckles takes no option but --even")
 
 
 def _refuse_shapes(shapes: Shapes, scheme: str) -> None:
@@ -281,7 +281,7 @@ def balance(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Size counterweights, balancer shafts or sliders, and show the forces left with them.
+    """Size counterweights, balancer shafts or sliders, and show the forces that remain.
 
     \b
     Examples:

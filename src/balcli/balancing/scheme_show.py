@@ -78,9 +78,9 @@ def tell_change(result: Balance, system: System) -> str:
     for one, size in zip(changes, sizes, strict=True):
         pin = everywhere if alike else f"pin {one['throw']}"
         done = f"{one['action']} {size_text(abs(size), unit)} opposite {pin}"
-        what.append(done if size else f"nothing to do at {pin}")
+        what.append(done if size else f"change nothing at {pin}")
     has, wanted = percent(details["measured_factor"]), percent(details["wanted_factor"])
-    return f"It has the factor {has}; you want {wanted}: {', '.join(dict.fromkeys(what))}."
+    return f"The crank has the factor {has}; for {wanted}, {', '.join(dict.fromkeys(what))}."
 
 
 def tell_best_factors(result: Balance, system: System) -> str:
@@ -110,7 +110,7 @@ def _list_figures(result: Balance) -> Iterator[_Figure]:
 
 
 def _choose_figures(result: Balance) -> Iterator[_Figure]:
-    """Yield the figures that are shown to people; nan for those that are not known."""
+    """Yield the figures that tables show; figures that are not known are nan."""
     order, about_crank = result.remedy.order, {*chain(*_ROLLS)}
     for each in _list_figures(result):
         if each.key in _FOR_PROGRAMS:
@@ -260,8 +260,8 @@ def _sweep_grid(sweep: tuple[FactorPeaks, ...], system: System) -> Grid:
         cells = map(number, (*weights, *forces, moment.of(row.peak_moment_Nm)))
         rows.append((percent(row.factor), *cells))
     note = (
-        "Bobweight: of the first pin; weight: largest counterweight to add; force: largest value "
-        "of what remains in all orders, and of its components along and across the first bank."
+        "Bobweight: that of the first pin. Weight: largest counterweight to add. Force: largest "
+        "remaining force of all orders, and its components along and across the first bank."
     )
     return Grid("Largest values by factor", heads, tuple(rows), note=note)
 

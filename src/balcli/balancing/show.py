@@ -58,8 +58,8 @@ from .scheme_show import (
 )
 
 _TURNING_WEIGHTS = (
-    "Counterweights stand on the cylinders, which turn, at angles from cylinder 1's axis, which is "
-    "over pin 1 at crank angle 0; the pin stands still."
+    "The pin stands still; the cylinders turn and carry the counterweights. Angles count from the "
+    "axis of cylinder 1, which is over pin 1 at crank angle 0."
 )
 _SIGNED = "Weighed by ____________________   Date ______________   Checked ________________"
 
@@ -108,7 +108,7 @@ def sheet(result: Balance, system: System) -> Sheet:
         parts.append(Text("Forces only", (sentence(MOMENTS_UNKNOWN),)))
     parts += [*_permitted(result, system), *details_parts(result, system)]
     changes = [*_orders(result, system), *_peaks(result, system), *_crank_loads(loads, system)]
-    parts += changes or [Text("Before and after", ("Nothing changes by 1 %.",))]
+    parts += changes or [Text("Before and after", ("Nothing changes by 1 % or more.",))]
     fitted = f"{remedy.step} ({remedy.scheme})" if remedy.step else f"{remedy.scheme}{order}"
     return Sheet(f"{engine.name or NAMELESS}: {fitted}", tuple(parts))
 
@@ -124,11 +124,11 @@ def _tell_left(result: Balance, system: System) -> str:
             f"{kind.name} {size_text(size, system.unit(kind))}" for kind, size in sizes if size
         ]
         if found:
-            left.append(f"order {order}: {', '.join(found)}")
+            left.append(f"in order {order}: {', '.join(found)}")
     if left:
-        return f"Leaves {'; '.join(left)}."
+        return f"This step leaves {'; '.join(left)}."
     what = "force or moment" if known else "force"
-    return f"Leaves no {what} of orders 1 and 2."
+    return f"This step leaves no {what} of orders 1 and 2."
 
 
 def _tell_couple(result: Balance, system: System) -> str:
@@ -150,7 +150,7 @@ def _tell_bearings(result: Balance, system: System) -> str:
         return ""
     unit = system.unit(FORCE).fit(before)
     return (
-        "At every throw (--planes throws) they lower the largest main bearing load from "
+        "Counterweights at every throw (--planes throws) lower the largest main bearing load from "
         f"{number(unit.of(before))} to {number(unit.of(after))} {unit.name}."
     )
 
@@ -192,7 +192,7 @@ def _permitted(result: Balance, system: System) -> Iterator[Grid]:
 # ------------------------------------------------------------------ before and after
 def card_sheet(result: Balance, system: System) -> Sheet:
     """Return the bobweight card for the wall of a shop: masses in g and oz, then the counterweights
-    to add, the holes to drill and what may be left.
+    to add, the holes to drill and the permitted unbalance.
 
     Raises:
         BalcliError: The scheme has no card.
@@ -222,7 +222,8 @@ def card_sheet(result: Balance, system: System) -> Sheet:
 
 
 def _find_changes(before: ArrayLike, after: ArrayLike) -> NDArray[np.bool_]:
-    """Return whether each value changes by 1 % of the larger one; False if it is not known (nan).
+    """Return whether each value changes by at least 1 % of the larger of both; False for nan (not
+    known).
 
     Args:
         before, after: Values of any shape, not negative.
@@ -291,7 +292,7 @@ def _peaks(result: Balance, system: System) -> Iterator[Grid]:
             continue
         unit = system.unit(kind).fit(max(before.value, after.value))
         rows.append((f"{kind.name}, {unit.name}", *_peak(before, unit), *_peak(after, unit)))
-    uneven = "Sized for steady mean speed; both columns are those of the uneven speed."
+    uneven = "Devices are sized for steady mean speed; both columns are for the uneven speed."
     if rows:
         notes = (_tell_unchanged(left), uneven if result.before.engine.ripple else "")
         yield Grid(

@@ -160,7 +160,7 @@ def find_errata(
 def tables(
     name: str, *, ratios: str | None = None, angles: str | None = None, power: int | None = None
 ) -> Table:
-    """Return a printed coefficient table, recomputed, with its print.
+    """Return a printed coefficient table with the recomputed figures.
 
     Args:
         name: Name of the table, such as "tsinghua-1-2" or "series"; `balcli tables` lists all.

@@ -24,7 +24,7 @@ Name = Annotated[
     str | None,
     typer.Argument(
         metavar="NAME",
-        help="Which table; without it, all are listed.",
+        help="Name of a table; without it, all tables are listed.",
         show_default=False,
         autocompletion=complete_tables,
     ),
@@ -37,13 +37,13 @@ Kind = Annotated[
     typer.Option(help="List only errata of this class.", show_default=False),
 ]
 Lam = Annotated[
-    str | None, optional("0.20:0.40:0.01", "Other crank ratios; or a list 0.25,1/3.", "--lambda")
+    str | None, optional("0.20:0.40:0.01", "Crank ratios; or a list: 0.25,1/3.", "--lambda")
 ]
 Angle = Annotated[
     str | None, optional("0:180:5", "Other crank or bank angles (degrees).", "--angle")
 ]
 Power = Annotated[
-    int | None, optional("N", "Highest power in `series`; default 12.", min=0, max=HIGHEST_POWER)
+    int | None, optional("N", "Highest power in `series`; default: 12.", min=0, max=HIGHEST_POWER)
 ]
 
 

@@ -281,7 +281,7 @@ def tabulate_statements(printed: Print, ranges: Ranges) -> Table:
 
 
 def read_data(file: str) -> str:
-    """Return the text of a file of data."""
+    """Return the text of a data file of the package."""
     return files(__package__).joinpath("data", file).read_text("utf-8")
 
 

@@ -2,9 +2,9 @@
 
 Tables 1 to 3 of Liu Xianzhi (received 1979): second-order balance of the flat-plane V8 by two
 shafts or by sliders. The second-order force of the engine is the sum of two vectors, where gamma is
-the bank angle: K cos(gamma/2) turns with the crank, and K cos(3 gamma/2) turns against it. Two
-shafts cancel these vectors without a roll moment if their radii b''' and b'' have the same ratio as
-the vectors. Sliders cancel the components Z_x and Z_y.
+the bank angle and K the force of one bank: K cos(gamma/2) turns with the crank, and K cos(3
+gamma/2) turns against it. Two shafts cancel these vectors without a roll moment if their radii b'''
+and b'' have the same ratio as the vectors. Sliders cancel the components Z_x and Z_y.
 
 Table 1 of Wang Yongding, Methods of balancing single-cylinder engines: a counterweight k m_j r
 stands at an angle alpha ahead of the point opposite the crank. The remaining force of orders 1 and
@@ -158,7 +158,7 @@ FOLLOWED = ("printed_choice_Pmax", "printed_choice_theta_deg")
 
 
 def tabulate_optimum(printed: Print, ranges: Ranges) -> Table:
-    """Return the true optimum, the result of the printed search, and the largest force over the
+    """Return the true optimum, the result of the author's search, and the largest force over the
     whole revolution with the printed counterweight.
 
     Raises:
@@ -212,7 +212,7 @@ def _stationary(lam: float, weight: complex) -> list[tuple[float, float]]:
 
 
 def _half_cycle(lam: float) -> Row:
-    """Return the result of the author's search: P, k, alpha, line phi of the force, and theta."""
+    """Return the result of the author's search: P, k, alpha, angle phi of the force, and theta."""
     k, alpha, theta = np.arange(11) / 10, np.arange(0.0, 91.0, 5.0), np.arange(181.0)
     th = np.radians(theta)
     weights = k[:, None, None] * np.exp(1j * (th + np.radians(alpha[:, None])))

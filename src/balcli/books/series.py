@@ -116,7 +116,7 @@ def _sum(terms: series.Series, lam: Array, count: int) -> Array:
 
 # ------------------------------------------------------------------ statements
 _ORDERS = np.arange(1.0, 21.0)
-_PAIRS = "of throws at different, equal angles; in a four-stroke engine two have the same angle"
+_PAIRS = "true for evenly spaced throws; in a four-stroke engine, pairs of throws share an angle"
 _REASONS = {
     "star of 5": "the sums of cos k gamma belong to the orders k - 1 and k + 1",
     "vee of 4, gamma = 45 deg": "along y: cos 2 gamma is 0, sin 2 gamma is not",
@@ -125,9 +125,9 @@ _REASONS = {
 
 
 def tabulate_kvasnikov_statements(printed: Print, ranges: Ranges) -> Table:
-    """Return the figures of statements on sizes of orders, and on the orders that stars, vees and
-    rows leave, computed by analyzing an engine of each layout, made of equal cylinders. Rotating
-    masses are left out: counterweights can cancel them.
+    """Return the computed figures of Kvasnikov's statements on sizes of orders, and on the orders
+    that stars, vees and rows leave. Each layout is analyzed as an engine of equal cylinders without
+    rotating masses, which counterweights can cancel.
     """
     engines = tomllib.loads(read_data("kvasnikov-layouts.toml"))
     books = {layout: _analyze(layout, tables) for layout, tables in engines.items()}

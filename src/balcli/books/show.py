@@ -1,7 +1,7 @@
 """Show recomputed tables, their errata, the list of tables, and the table of common layouts.
 
-A table is laid out like its print, with each figure rounded to the printed or requested decimals.
-If the printed figure deviates, it follows the exact one: `.4313 ≠ .4312`. JSON and CSV have full
+A table is laid out like its print, with each exact figure rounded to the printed decimals. If the
+printed figure deviates, it follows the exact one: `.4313 ≠ .4312`. JSON and CSV have full
 precision.
 """
 
@@ -50,7 +50,7 @@ def sheet(table: Table, _system: System) -> Sheet:
 
 
 def rows(table: Table, _system: System) -> Rows:
-    """Return the exact figures as CSV, with the requested decimals."""
+    """Return the exact figures as CSV, in full precision."""
 
     return Rows(table.columns, table.exact)
 
@@ -98,7 +98,7 @@ Errata: TypeAlias = Sequence[tuple[str, Erratum]]
 
 
 def lay_out_errata(errata: Errata, _system: System) -> Sheet:
-    """Return a grid for each table and reason, a paragraph for each statement, and the classes."""
+    """Return a grid for each table and cause, a paragraph for each statement, and the classes."""
     groups: dict[tuple[str, str, str], list[Erratum]] = {}
     for table, e in errata:
         kind = "" if e.column in (STATEMENT, ANSWER) else e.kind

@@ -1,4 +1,4 @@
-"""Recompute the worked examples of Liang: exact answers, and values that explain his answers; and
+"""Recompute the worked examples of Liang (exact answers, and values that explain his answers), and
 list published problems with balcli's answers.
 
 The examples of Liang Shoupan, Engine Dynamics, 1948, are in inches, pounds and seconds: an engine
@@ -13,7 +13,7 @@ from typing import cast
 
 import numpy as np
 
-from ..core.mechanisms.slidercrank import rod_acceleration
+from ..core.mechanisms.slidercrank import SliderCrank
 from ..core.phases import RPM
 from ..file import units
 from ..file.units import POUND_FORCE, STANDARD_GRAVITY
@@ -30,8 +30,8 @@ def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
 
     Section 1-3: reciprocating weight (with the rod's share by its centre of gravity), greatest
     acceleration and inertia force. Section 1-4: see `_second`. Section 2-1: rotating weight (throw
-    and big end), reciprocating weight (piston and small end), and the weight at 3.5 in that
-    balances the former and half of the latter at a crank of 3 in.
+    and big end), reciprocating weight (piston and small end), and the weight at a radius of 3.5 in
+    that balances all of the first and half of the second at a crank radius of 3 in.
     """
     mass, rotating, reciprocating = 1 + 2.75 * 2 / 7, 1.0 + 3.0, 6.0 + 2.0
     force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
@@ -56,7 +56,7 @@ def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
     difference, the peak of beta''/p, and the residual couple in ft lb, both at 90 degrees.
     """
     lam, hk, q2 = CRANK / ROD, 1 / 3 * 2 / 3, 1 / 18  # over the length squared
-    peak = -float(rod_acceleration(np.pi / 2, lam)) / lam
+    peak = float(SliderCrank(np.pi / 2, lam).spin_rate) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)
 
@@ -68,8 +68,8 @@ def _round(value: float) -> float:
 
 
 def tabulate_published(printed: Print, ranges: Ranges) -> Table:
-    """Return the printed figures of published problems and balcli's, which tests recompute by the
-    command of each problem.
+    """Return the printed figures of published problems with balcli's figures. Tests recompute
+    balcli's figures by the command of each problem.
     """
     wanted = "source", "figure", "unit", "class", "remark", "printed"
     named = [printed.column(name) for name in wanted]

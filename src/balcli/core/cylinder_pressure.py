@@ -209,7 +209,8 @@ def press(
 
 def blend(first: GasTorque, second: GasTorque, share: float) -> GasTorque:
     """Return the torque of pressures that are interpolated between those of two torques on the same
-    piston, at this share of the distance from the first to the second; extrapolated above 1.
+    piston, at this share of the distance from the first to the second; a share above 1
+    extrapolates.
     """
     breaks = merged_breaks([(first.breaks, 0.0), (second.breaks, 0.0)], first.curve.period)
 

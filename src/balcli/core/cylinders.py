@@ -93,8 +93,8 @@ class Cylinders:
 
     @property
     def mechanisms(self) -> list[tuple[complex, ...]]:
-        """Figures of each cylinder's mechanism, with its crank radius, which are the same for equal
-        mechanisms; for an engine without trailing axes.
+        """Figures that determine each cylinder's mechanism, with its crank radius; equal mechanisms
+        have equal figures. The cylinders must have no trailing axes.
         """
         lam, eps, linkage = self.lam, self.eps, self.linkage
         columns = (lam, eps) if linkage is None else linkage.figures(lam, eps)

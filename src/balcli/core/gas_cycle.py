@@ -6,9 +6,9 @@ V^nc`, and the burn. In a two-stroke cycle, the intake (scavenge) pressure lasts
 `exhaust_opens` until the rising piston passes the same position.
 
 Heat Q raises the pressure by `d(p V^n) = (n - 1) V^(n-1) dQ`, n being the index of expansion. So `p
-V^n` after the burn follows directly from the heat, and the pressure during the burn is an integral:
-no time steps are needed. The one unknown of a cycle is its heat. Burn and expansion together do the
-work `X Q - [p V]/(n - 1)`: the released heat (share X) less the energy that the gas gains.
+V^n` after the burn follows directly from the heat, and the pressure during the burn is an integral,
+which needs no time steps. The one unknown of a cycle is its heat. Burn and expansion together do
+the work `X Q - [p V]/(n - 1)`: the released heat (share X) less the energy that the gas gains.
 Compression is a polytrope, and pressures are constant while the valves are open, so imep has a
 closed form.
 
@@ -40,7 +40,7 @@ GOALS = {
 }
 
 
-# ---------------------------------------------------------------- what is given
+# ---------------------------------------------------------------- input and result
 @dataclass(frozen=True)
 class Process:
     """Figures of a cycle without its heat: absolute pressures in Pa, cycle angles in deg.
@@ -53,7 +53,7 @@ class Process:
         intake_closes: Angle at which the intake closes; None: the lower dead centre. In a
             two-stroke cycle the ports close at the piston position at which they opened.
         burn_start: Angle at which the burn of Wiebe's law starts.
-        burn_duration: Crank angle over which it lasts.
+        burn_duration: Crank angle over which the burn of Wiebe's law lasts.
         burn_shape: Exponent m >= 0 of Wiebe's law.
         max_pressure: Highest pressure of a dual cycle.
     """
@@ -132,13 +132,13 @@ def find_least_imep(piston: GasPiston, process: Process) -> float:
     return cycle.find_imep(cycle.least)
 
 
-# ---------------------------------------------------------------- what is wrong
+# ---------------------------------------------------------------- checks
 def _check(piston: GasPiston, process: Process, goal: Goal) -> None:
     """Raise GasError for the first mistake in a cycle before it is computed."""
     p, goals = process, GOALS[process.cycle]
     if goal.name not in goals:
         hint = f"give {', '.join(goals[:-1])} or {goals[-1]}"
-        raise GasError(goal.name, f"does not make the {p.cycle} cycle: {hint}")
+        raise GasError(goal.name, f"does not determine the {p.cycle} cycle: {hint}")
     if not p.expansion_index > 1:
         raise GasError("expansion_index", f"is {p.expansion_index:g}: give more than 1")
     lowest, burnt = math.degrees(piston.bottom), p.burn_start + p.burn_duration
@@ -203,7 +203,7 @@ class _Cycle:
 
     # ------------------------------------------------------------ the burn
     def burn(self, heat: float) -> float:
-        """Return p V^n after the burn."""
+        """Return p V^n after the burn with this heat."""
         if self.limit is not None:
             return float(self.limit * self._find_last(heat) ** self.index)
         return self.constant + (self.index - 1) * self.grown * heat
@@ -262,7 +262,7 @@ class _Cycle:
         ]
 
     def _expand(self, constant: float, index: float | None = None) -> Function:
-        """Return the law p V^n = const."""
+        """Return the pressure law p V^n = `constant`."""
         return lambda angle: constant / self.find_volume(angle) ** (index or self.index)
 
     def find_imep(self, heat: float) -> float:
@@ -304,7 +304,7 @@ class _Cycle:
             highest = self.find_goal(name, self.most)
         guess = min(self.constant * self.charge ** (1 - self.index), self.most - self.least)
         if name == "imep" and self.find_imep(self.least + guess) <= lowest:
-            highest = lowest  # all heat goes into expansion
+            highest = lowest  # more heat does not raise imep
         self._refuse_beyond(name, value, lowest, highest)
         if value in (lowest, highest):
             return self.least if value == lowest else self.most
@@ -323,5 +323,5 @@ class _Cycle:
 
 
 def _hold(pressure: float) -> Function:
-    """Return the law p = const."""
+    """Return the law of constant pressure."""
     return lambda angle: np.full(angle.shape, pressure)

@@ -108,7 +108,7 @@ def find_dependent_columns(matrix: NDArray[Number]) -> list[int]:
 
 _ROUNDS = 1000  # largest number of rounds of Lawson's iteration
 _GAP = 1e-8  # the iteration ends when the bound is within this share of the largest residual
-_REVIVED = 1e-9  # least residual in a round, as a share of the largest: no share becomes 0
+_REVIVED = 1e-9  # this share of the largest residual is added to all, so no share becomes 0
 _STEPS = 500  # largest number of steps of Newton's method or the projected gradient; 5 are usual
 _SETTLED = 1e-15  # a step below this share of x ends the iteration
 _VANISHES = 1e-13  # a residual below this share of the target is rounding

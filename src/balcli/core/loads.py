@@ -89,7 +89,7 @@ class Loads:
 
     @property
     def mean_inertia(self) -> Array:
-        """Mean of I over a revolution times the squared speed, N m; needs order 0."""
+        """Mean inertia I over a revolution, times the squared speed, N m; needs order 0."""
         c = self.cylinders
         changing = self._inertia.c[self.phases.orders == 0].real[0]
         mean = changing + c.rotating * c.radius**2 * self.square
@@ -186,7 +186,7 @@ def _has_pistons(c: Cylinders) -> bool:
 
 
 def find_inertia(cylinders: Cylinders, harmonics: Harmonics, square: Figure) -> Series:
-    """Return the part of each cylinder's moment of inertia about the crank that varies, times the
+    """Return the varying part of each cylinder's moment of inertia about the crank, times the
     squared speed, N m: `m_rec s'^2 - H beta'^2`, plus the part of a linkage's masses.
 
     Args:

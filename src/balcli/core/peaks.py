@@ -269,9 +269,9 @@ def find_highest(
     """Return place and height of the maximum of each function, shape (functions,). A maximum may
     lie between the given places.
 
-    An interval between neighbouring places is searched if its higher end is at least `near *
-    level`, and if the level is above this end by at most the largest change of the function over
-    this interval and the two beside it.
+    An interval between neighbouring places is searched under two conditions. Its higher end must be
+    at least `near * level`. This end must reach the level if it is raised by the largest change of
+    the function over this interval or one of its two neighbours.
 
     Args:
         judge: The functions, as in `find_peaks_between`.

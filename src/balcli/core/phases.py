@@ -188,4 +188,4 @@ class SeparatePhases(Phases):
         return np.ones(self.count)
 
 
-RPM = math.pi / 30  # rad/s
+RPM = math.pi / 30  # 1 rpm in rad/s

@@ -175,7 +175,7 @@ class Phasors:
         """Sizes of the forward and backward vectors, shape (2, orders, *trailing)."""
         return np.abs(self.vectors)
 
-    # -------------------------------------------------------------- what a reader asks of an order
+    # -------------------------------------------------------------- size and direction of an order
     @property
     def balanced(self) -> NDArray[np.bool_]:
         return np.asarray((self.forward == 0) & (self.backward == 0))

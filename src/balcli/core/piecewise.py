@@ -36,7 +36,7 @@ _RESOLVED = 1e-12  # limit of the last terms of a series, relative to the functi
 _HALVINGS = 48
 # Halving ends at this multiple of the initial number of panels: the rest is rounding error.
 _EVERYWHERE = 16
-_REACH = 16.0  # rad; phase of a harmonic over a panel up to which _NODES nodes integrate it
+_REACH = 16.0  # rad; _NODES nodes integrate a harmonic whose phase turns this far on a panel
 _NODES = 32
 _SAME = 1e-11  # rad; an angle this close to a breakpoint is the breakpoint
 _NEWTON_STEPS = 6
@@ -69,7 +69,7 @@ class PiecewiseCurve:
         breaks: Rising angles that bound the panels, rad, shape (panels + 1,); the last is one
             period after the first.
         series: Legendre coefficients on each panel, shape (terms, panels); or those of several
-            functions, shape (terms, panels, *figure), which only `within` evaluates.
+            functions, shape (terms, panels, *figure), for which only `at` and `within` work.
     """
 
     breaks: Array
@@ -147,7 +147,7 @@ class PiecewiseCurve:
 
     def extremes(self) -> tuple[Extreme, Extreme]:
         """Return the lowest and the highest value, each at the first angle that has it; at a jump,
-        both sides are included. A value that is only rounding error of the larger one is 0.
+        both sides are included. A value below the rounding error of the largest size becomes 0.
         """
         return self._find_top(-1), self._find_top(1)
 
@@ -198,7 +198,7 @@ def resolved(function: Function, breaks: ArrayLike, widest: float = _WIDEST) -> 
     """Return the curve of a function that is smooth between the given breakpoints.
 
     A panel is halved until its last two coefficients are below 1e-12 of the function's largest
-    value, or until there are so many panels that they show rounding errors alone.
+    value, or until there are so many panels that more of them would only resolve rounding errors.
 
     Args:
         function: Function that returns values at angles strictly between breakpoints, of the shape
@@ -321,8 +321,8 @@ def find_zero(rising: Callable[[float], float], guess: float, at_zero: float) ->
 
 
 # ------------------------------------------------------------------ forces in a plane
-_TURN_ON_PANEL = 4.0  # rad; if e^{in angle} turns no farther on a panel, these terms suffice
-_AT_ONCE = 1 << 20  # largest number of orders x angles, which bounds the memory
+_TURN_ON_PANEL = 4.0  # rad; if e^{in angle} turns no farther on a panel, _TERMS terms suffice
+_AT_ONCE = 1 << 20  # largest number of orders x angles computed together, which bounds the memory
 
 
 @dataclass(frozen=True, eq=False)
@@ -337,8 +337,8 @@ class Panels:
 
     @cached_property
     def angles(self) -> Array:
-        """Angles of the samples, rad, shape (samples,): the first node of every panel, the second,
-        ...
+        """Angles of the samples, rad, shape (samples,): the first node of every panel, then the
+        second node of every panel, and so on.
         """
         return quadrature(self.breaks)[0].reshape(-1)
 
@@ -388,12 +388,12 @@ class Panels:
 
 
 def find_panels(forces: Vectors, breaks: Array, highest_order: float) -> Panels:
-    """Return panels for forces that are smooth between breakpoints, fine enough for these orders.
+    """Return panels for forces that are smooth between breakpoints, fine enough for all orders.
 
     Args:
         forces: Function that returns the values of all forces at angles (rad).
         breaks: Rising breakpoints, rad; the last is one period after the first.
-        highest_order: Highest order that is wanted.
+        highest_order: Highest order for which the panels are fine enough.
     """
 
     def add_squares(angle: Array) -> Array:

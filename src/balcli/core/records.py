@@ -102,8 +102,8 @@ class Reached(NamedTuple):
 
 
 class WrittenAs(NamedTuple):
-    """Mark of a value that a function turns into a record, or list of records, for documents, or
-    that has another key. The schema describes the function's return type.
+    """Mark of a value that documents show in another form (`make` returns a record, or list of
+    records) or under another key. The schema describes the return type of `make`.
     """
 
     make: Callable[..., object] | None = None  # None: the value is written as it is

@@ -29,7 +29,7 @@ from .phasors import EPS, Array, Complex, Figure, Phasors, unit
 from .piecewise import Extreme, Function, PiecewiseCurve, find_zero, resolved
 
 Number = TypeVar("Number", np.float64, np.complex128)
-_FELT = 1e-13  # a smaller share of an order over the angle is ignored in an order over the time
+_FELT = 1e-13  # smaller contributions of orders over the angle to an order over the time are 0
 
 
 class RippleLine(NamedTuple):
@@ -81,8 +81,8 @@ class Timetable(NamedTuple):
     """Times at which a crank of uneven speed passes equally spaced angles of a cycle.
 
     Attributes:
-        clock: Time at each angle, as the angle (rad) that a steady crank of the same mean speed in
-            time has then, up to a constant, shape (samples,).
+        clock: Time at which the crank passes each angle, shape (samples,): the angle (rad) of a
+            steady crank of the same mean speed over the time at this time, up to a constant.
         stay: Time per angle, relative to its mean, shape (samples,).
         step: Step of the orders: 1 for a cycle of one turn, 1/2 for a cycle of two turns.
         turns: Mean speed over the time, relative to the mean speed over the angle.
@@ -219,16 +219,7 @@ def _two_sided(backward: NDArray[Number], forward: NDArray[Number]) -> NDArray[N
 
 
 class StallError(ValueError):
-    """The shaft cannot have the mean speed, because it would stop at `angle` (rad); `least` is the
-    least mean speed that it can have, rad/s.
-    """
-
-    def __init__(self, angle: float, least: float) -> None:
-        self.angle, self.least = angle, least
-        super().__init__(
-            f"the shaft stalls at {math.degrees(angle):.1f}°: with this inertia it needs a mean "
-            f"speed above {least / RPM:.4g} rpm"
-        )
+    """The shaft cannot have the mean speed, because it would stop."""
 
 
 class Surplus(NamedTuple):
@@ -282,21 +273,19 @@ def small_fluctuation(surplus_energy: float, mean_inertia: float, mean_speed: fl
     return surplus_energy / (mean_inertia * mean_speed**2)
 
 
-def speed_variation(
-    torque: PiecewiseCurve, inertia: float | Function, mean_speed: float
-) -> SpeedVariation:
+def speed_variation(torque: PiecewiseCurve, inertia: Function, mean_speed: float) -> SpeedVariation:
     """Return the speed under a torque (N m) and a constant load equal to its mean.
 
     Args:
         torque: Gas torque, less any varying part of the load. It does not include the inertia
             torque, which follows from `inertia`.
-        inertia: Moment of inertia, kg m2: a constant, or a function of the angle (rad).
+        inertia: Moment of inertia, kg m2, over the angle (rad).
         mean_speed: Mean speed over the angle, rad/s.
 
     Raises:
         StallError: The shaft would stop.
     """
-    parts, wanted = _as_function(inertia), mean_speed**2
+    wanted = mean_speed**2
     done = torque.antiderivative(torque.mean)  # energy above the load
     slowest, _ = done.extremes()
     panels = np.unique(np.append(done.breaks, slowest.angle))
@@ -305,42 +294,45 @@ def speed_variation(
         """Return the speed if `C + 2 E` is `above` at the angle of the least E."""
 
         def omega(angle: Array) -> Array:
-            square = (above + 2 * (done.at(angle) - slowest.value)) / parts(angle)
+            square = (above + 2 * (done.at(angle) - slowest.value)) / inertia(angle)
             return np.sqrt(np.maximum(square, 0))
 
         return resolved(omega, panels)
 
     stalled = speed_from(0.0).mean ** 2
     if stalled >= wanted:
-        raise StallError(slowest.angle, math.sqrt(stalled))
-    guess = wanted * float(parts(np.array(slowest.angle)))
+        raise StallError(
+            f"the shaft stalls at {math.degrees(slowest.angle):.1f}°: with this inertia it needs a "
+            f"mean speed above {math.sqrt(stalled) / RPM:.4g} rpm"
+        )
+    guess = wanted * float(inertia(np.array(slowest.angle)))
     above = find_zero(lambda c: speed_from(c).mean ** 2 - wanted, guess, stalled - wanted)
     speed = speed_from(above)
     low, high = speed.extremes()
     # the difference of the squared speeds, without cancellation if the inertia is constant
     angles = np.array([high.angle, low.angle])
-    (w, w0), (i, i0) = done.at(angles) - slowest.value, parts(angles)
+    (w, w0), (i, i0) = done.at(angles) - slowest.value, inertia(angles)
     squares = float((2 * (w * i0 - w0 * i) + above * (i0 - i)) / (i * i0))
     return SpeedVariation(squares / (high.value + low.value) / mean_speed, low, high, speed)
 
 
 def needed_inertia(
-    torque: PiecewiseCurve, mean_speed: float, fluctuation: float, moving: float | Function = 0.0
+    torque: PiecewiseCurve, mean_speed: float, fluctuation: float, moving: Function = np.zeros_like
 ) -> float:
     """Return the constant inertia (kg m2) that, together with moving parts, gives exactly the
-    wanted fluctuation. It is negative if the moving parts alone give less. If the shaft would stall
-    before it fluctuates so much, return the least inertia without a stall.
+    wanted fluctuation. It is negative if the moving parts alone fluctuate less. If the shaft would
+    stall before it fluctuates so much, return the least inertia without a stall.
 
     The inertia is found by false position in the inverse of the mean inertia, to which the
     fluctuation is nearly proportional.
 
     Args:
-        torque: Torque on the shaft over the cycle, N m.
+        torque: Torque without inertia torque, as in `speed_variation`, N m.
         mean_speed: Mean crank speed, rad/s.
         fluctuation: Wanted coefficient of fluctuation.
         moving: Moment of inertia of moving parts over the crank angle, kg m2.
     """
-    course = resolved(_as_function(moving), torque.breaks)
+    course = resolved(moving, torque.breaks)
     mean, (least, most) = course.mean, course.extremes()
     energy_above = surplus(torque).energy
     if not energy_above and most.value == least.value:
@@ -358,9 +350,3 @@ def needed_inertia(
 
     guess = fluctuation * mean_speed**2 / max(energy_above, least.value * mean_speed**2)
     return 1 / find_zero(excess, guess, -fluctuation) - mean
-
-
-def _as_function(inertia: float | Function) -> Function:
-    if callable(inertia):
-        return inertia
-    return lambda angle: np.full(angle.shape, float(inertia))

@@ -23,7 +23,8 @@ def find_drill_depth(unbalance: float, rim: float, drill: float, density: float 
         unbalance: Unbalance to remove, kg m.
         rim: Radius of the rim, m.
         drill: Diameter of the drill, m.
-        density: Density of the rotor, or of a slug less that of the steel that it replaces, kg/m3.
+        density: Density of the rotor, kg/m3; for a hole with a slug, the density of the slug less
+            that of steel.
     """
     unbalance_per_square = density * math.pi / 4 * drill**2  # kg m, for a depth and radius of 1 m
     share = unbalance / unbalance_per_square / rim**2  # = h/rim - (h/rim)^2 / 2, at most 1/2

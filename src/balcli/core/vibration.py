@@ -20,7 +20,7 @@ Indices = NDArray[np.intp]
 UNDAMPED = 2e-9  # a loss factor up to this counts as 0: decay would take 1e8 periods
 ROUNDING = 1e-12  # a smaller share of damping, or relative distance of frequencies, is rounding
 _UNMOVED = 1e-10  # a smaller share of the load does not drive a mode
-_SINGULAR = 1e-11  # if the terms of the load's work cancel to a smaller share, A is singular
+_SINGULAR = 1e-11  # if the load's work is a smaller share of its terms, a matrix is singular
 _RANK = 1e-13  # singular values below this share of the largest are 0
 
 

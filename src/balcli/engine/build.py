@@ -139,9 +139,9 @@ def build_fitted(
     figures: FileFigures = AS_GIVEN,
     path: str = "",
 ) -> Device:
-    """Return a device of an engine, SI. With engines geared together, the angle of a
+    """Return a device of an engine, in SI units. If engines are geared together, the angle of a
     counterweight counts from the first pin of the engine that carries it, in that engine's sense of
-    rotation; z counts as for all devices.
+    rotation; its z is in the axes of the whole, like that of other devices.
 
     Args:
         table: Table of an engine file.
@@ -202,7 +202,7 @@ def find_contradictions(parts: Parts) -> list[Problem]:
 
 
 def check_cylinders(parts: Parts) -> Iterator[Problem]:
-    """Check that throws and banks give all cylinders that have tables."""
+    """Check that the cylinder of every [cylinder.N] is there, by throws and banks."""
     made = f"crank.throws and layout make {counted(len(parts.plan.cells), 'cylinder')}"
     strangers = [number for number in parts.model.cylinder if number not in parts.plan.numbers]
     if strangers:
@@ -233,7 +233,7 @@ def check_rods(parts: Parts) -> Iterator[Problem]:
 
 
 def check_carriers(parts: Parts) -> Iterator[Problem]:
-    """Check that no counterweight names an engine where there is one alone."""
+    """Check that no counterweight names an engine in a file without [[engine]]."""
     for number, weight in enumerate(parts.model.counterweight, 1):
         if weight.engine is not None:
             told = f'"{weight.engine}": this file has no [[engine]]; leave it out'
@@ -273,7 +273,7 @@ def _check_knuckle_angles(parts: Parts) -> Iterator[Problem]:
 
 
 def _find_no_place(masters: Sequence[int], plan: Plan) -> Problem | None:
-    """Return the mistake if no throw carries rods of several banks, or the master's bank is
+    """Return the mistake if no throw carries rods of several banks, or if the master's bank is
     missing.
     """
     banks = plan.banks
@@ -329,7 +329,7 @@ def check_knuckles(parts: Parts) -> Iterator[Problem]:
 
 
 def check_half_orders(parts: Parts) -> Iterator[Problem]:
-    """Check that half orders of the speed are given only with gas and four strokes."""
+    """Check that the uneven speed has half orders only with gas and four strokes."""
     if parts.model.gas is not None and parts.model.layout.strokes == 4:
         return
     for number, line in enumerate(parts.model.operation.speed_ripple, 1):

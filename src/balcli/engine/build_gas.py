@@ -34,8 +34,8 @@ from .layout import find_first
 from .parts import Parts
 
 _HARMONICS = (Head("order"), Head("cos"), Head("sin"))
-# Above this ratio of heat to pressure x volume of the charge, a warning is given. If all air burns,
-# the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
+# Above this ratio of heat to pressure x volume of the charge, a warning is given. If the fuel uses
+# all the air, the ratio is 34: 2.95 MJ per kg of air at 300 K, for petrol and Diesel fuel alike.
 HEAT_MOST = 40.0
 _KEPT = 512  # number of speeds for which the gas is cached
 _OVERSPEED = 1.6  # beyond this multiple of the rated speed, the gas is computed speed by speed
@@ -64,7 +64,7 @@ class _Source(NamedTuple):
 
 def build_gas(parts: Parts) -> EngineGas:
     """Return the gas of an engine with [gas] whose other tables fit together. If the gas depends on
-    the speed, it is that at the first speed of the file.
+    the speed, return the gas at the first speed of the file, with a law for other speeds.
 
     Raises:
         InputError: [gas], gas keys of single cylinders or files named there have mistakes; the
@@ -82,16 +82,16 @@ def build_gas(parts: Parts) -> EngineGas:
     make = partial(_build_steady, parts, found, read)
     sources = [_find_source(parts, gas, number) for number in parts.numbers]
     rows = [row for row, one in enumerate(sources) if one.heat is None and one.indicator is None]
-    if not gas.speeds or (gas.law and not rows):  # cylinders with heats or diagrams of their own
+    if not gas.speeds or (gas.law and not rows):  # no cylinder follows the law
         return make(gas)
     strokes = parts.model.layout.strokes
     return _follow_speed(gas, make, partial(_find_knees, gas, [found[k] for k in rows], strokes))
 
 
 def _find_knees(gas: Gas, found: Sequence[GasPiston], strokes: int) -> list[Array]:
-    """Return shares of the rated speed up to which the propeller law asks for too little imep: less
-    than the cycle of each piston has without heat, and less than a dual cycle needs to reach its
-    pressure.
+    """Return the shares of the rated speed up to which the propeller law demands too little imep,
+    with one share for each piston. In the first array, too little means less than the cycle has
+    without heat. A dual cycle has a second array: less than it needs to reach its pressure.
     """
     process, rated = _describe_process(gas, strokes), _find_goal(gas, None).value
     kinds = ("otto", "dual") if gas.cycle == "dual" else (process.cycle,)
@@ -137,7 +137,7 @@ def _follow_speed(
         (rated,), knees = gas.speeds, find_knees()
         low = {0.0, *(rated * share for share in np.ravel(knees).tolist() if share < 1)}
         speeds, least = (*sorted(low), rated), rated * float(knees[0].max())
-        with suppress(InputError):  # of cycles that cannot have so much
+        with suppress(InputError):  # the cycle may not reach this imep
             solve(rated * _OVERSPEED)
             speeds = (*speeds, rated * _OVERSPEED)
     law = GasLaw(solve, speeds, gas.cycle is None, 2 if gas.law else 1, least)
@@ -145,7 +145,7 @@ def _follow_speed(
 
 
 def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
-    """Return the gas at a speed, whose pressures are linear between those at the nodes."""
+    """Return the gas at a speed, with pressures interpolated linearly between the nodes."""
     low = max((node for node in nodes if node < speed), default=min(nodes))
     high = min((node for node in nodes if node > speed), default=low)
     if high == low or speed < low:
@@ -158,8 +158,8 @@ def _blend(nodes: Mapping[float, EngineGas], speed: float) -> EngineGas:
 
 
 def _take_at(gas: Gas, speed: float) -> Gas:
-    """Return the table of a gas that has at all speeds the figures of this one at one speed (rpm).
-    Texts are those of the nearest point.
+    """Return the table of a gas that does not depend on the speed, with the figures that `gas` has
+    at one speed (rpm). Texts are those of the nearest point.
     """
     if gas.rated_speed is not None:
         grown = (speed / gas.rated_speed) ** 2
@@ -175,7 +175,7 @@ def _take_at(gas: Gas, speed: float) -> Gas:
 
 
 def _name_point(gas: Gas, number: int, text: str) -> str:
-    """Return a path or warning with the keys of a point (from 1) by their paths in the file."""
+    """Return a path or warning in which keys of a point have their full path, `gas.at.1.imep`."""
     if not (keys := "|".join(gas.keys_of_points)):
         return text
     return re.sub(rf"\bgas\.({keys})\b", rf"gas.at.{number}.\1", text)
@@ -189,7 +189,7 @@ def _build_steady(
     *,
     at_least: bool = False,
 ) -> EngineGas:
-    """Return the gas of a table that is the same at all speeds.
+    """Return the gas of a table whose figures hold at all speeds.
 
     Args:
         parts: Stages of the engine.
@@ -302,9 +302,9 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
     two_stroke = parts.model.layout.strokes == 2
     yield from (Problem("gas", fault) for fault in gas.contradictions())  # from varied figures
     if bore is None:
-        yield Problem.of_missing("piston.bore", "gas presses on its area, such as bore = 86")
+        yield Problem.of_missing("piston.bore", "the gas force needs it, such as bore = 86")
     if not two_stroke and parts.order is None and len(parts.numbers) > 1:
-        told = "it says in which of two revolutions each cylinder fires, such as [1, 3, 4, 2]"
+        told = "it sets in which of two revolutions each cylinder fires, such as [1, 3, 4, 2]"
         yield Problem.of_missing("layout.firing_order", told)
     for number, table in parts.model.cylinder.items():
         if gas.cycle is None and table.heat is not None:
@@ -331,8 +331,8 @@ def _list_contradictions(parts: Parts, gas: Gas, bore: float | None) -> Iterator
 def _read_harmonics(
     name: str, columns: NumberColumns, piston: GasPiston, strokes: int
 ) -> GasTorque:
-    """Return the torque of a builders' table, `T/(A r) = a cos(n c) + b sin(n c)`, c being the
-    crank angle after the firing dead centre.
+    """Return the torque of a builders' table: `T/(A r)` is the sum of `a cos(n c) + b sin(n c)`
+    over all orders n, where c is the crank angle after the firing dead centre.
 
     Raises:
         BalcliError: The first mistake in the table, by its line.
@@ -371,7 +371,7 @@ def _compute_cycle(
     """Return the computed cycle of a cylinder; arguments as for `_build_steady`.
 
     Raises:
-        InputError: No cycle can be computed from a key.
+        InputError: No cycle is possible with the value of a key.
     """
     process, goal = _describe_process(gas, strokes), _find_goal(gas, source.heat)
     if source.heat == 0:  # expansion reverses compression
@@ -387,7 +387,7 @@ def _compute_cycle(
 
 
 def _describe_process(gas: Gas, strokes: int) -> Process:
-    """Return the laws of a computed cycle."""
+    """Return the process of a computed cycle, in SI units."""
     keys = [field.name for field in fields(Process) if field.name != "strokes"]
     given = {key: getattr(gas, key) for key in keys}
     for key in ("intake", "exhaust", "max_pressure"):
@@ -396,7 +396,7 @@ def _describe_process(gas: Gas, strokes: int) -> Process:
 
 
 def _find_goal(gas: Gas, heat: float | None) -> Goal:
-    """Return the figure that a computed cycle has to reach; this heat (J) if it is not None."""
+    """Return the figure that a computed cycle has to reach: `heat` (J), unless it is None."""
     if heat is not None:
         return Goal("heat", heat)
     if gas.cut_off is not None:
@@ -413,10 +413,10 @@ def _locate(error: GasError, gas: Gas, source: _Source) -> Problem:
     if error.field == "heat":
         return Problem(source.heat_path, str(error))
     if error.field == "expansion_index" and source.heat == 0:
-        what = f"where cylinder {source.number} burns nothing, it expands as it was compressed"
+        what = f"cylinder {source.number} burns nothing and expands with the same index"
         return Problem("gas.compression_index", f"{error}; {what}")
     if error.field == "imep" and gas.bmep is not None:
-        return Problem("gas.bmep", f"over mechanical_efficiency, the imep, {error}")
+        return Problem("gas.bmep", f"divided by mechanical_efficiency, the imep, {error}")
     return Problem(f"gas.{error.field}", str(error))
 
 
@@ -427,9 +427,9 @@ def _doubt_heat(gas: Gas, source: _Source, piston: GasPiston, cycle: GasCycle) -
     if cycle.heat > HEAT_MOST * charge:
         path = _locate(GasError(_find_goal(gas, source.heat).name, ""), gas, source).path
         yield (
-            f"{path} takes {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
-            f"charge burns; is gas.intake = {gas.intake:.4g} bar right? It is absolute, and more "
-            "where the engine is supercharged"
+            f"{path} needs {cycle.heat:.4g} J of heat in each cycle, more than the air of the "
+            f"charge can burn; is gas.intake = {gas.intake:.4g} bar right? It is an absolute "
+            "pressure, higher in a supercharged engine"
         )
 
 

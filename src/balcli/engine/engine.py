@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .gas import EngineGas
 
 
-CylinderNumber: TypeAlias = int | str  # 3; of geared engines with the engine's name: "upper.3"
+CylinderNumber: TypeAlias = int | str  # 3, or "upper.3" with the name of a geared engine
 
 
 class Bearings(NamedTuple):
@@ -83,7 +83,7 @@ class SilentCylinders(NamedTuple):
 
 
 def place_in_mm(place_m: Iterable[Figure]) -> tuple[float, ...]:
-    """Return a place given in m."""
+    """Return a place in mm from one in m."""
     return tuple(1e3 * float(v) for v in place_m)
 
 
@@ -93,20 +93,19 @@ def as_number(figure: Figure) -> float:
 
 
 class Placed(NamedTuple):
-    """An engine where it stands among others that are geared to it one to one.
+    """An engine and its place among others that are geared to it one to one ("the whole").
 
     Attributes:
         engine: The engine alone, in its own axes, by its own crank angle and sense of rotation.
-        name: Its name in the file.
-        file: Its engine file.
-        ratio: 1: its crank turns as the first one; -1: against it. It is then its own mirror image
-            (y changed in sign).
-        phase_deg: Crank angle by which it leads the first, in its own sense of rotation.
-        turn_deg: How far it is turned about z.
+        name: Name of the engine in the file.
+        file: Path of its engine file.
+        ratio: 1: its crank turns as the first one; -1: against it, and the engine is mirrored in y.
+        phase_deg: Crank angle by which it leads the first engine, in its own sense of rotation.
+        turn_deg: Angle by which it is turned about z.
         at_m: Place of its origin (its crank axis at its z = 0).
         load: Whether its crank drives the load.
-        load_sense: Sense of the crank that takes its torque to the load: that of the load's crank,
-            or its own where each has a load.
+        load_sense: Ratio of the crank that passes its torque on to the load: the crank of the
+            engine that drives the load, or its own crank if each engine has a load.
     """
 
     engine: Annotated[Engine, HIDDEN]
@@ -120,32 +119,32 @@ class Placed(NamedTuple):
     load_sense: Annotated[int, HIDDEN] = 1
 
     def turn(self, vector: complex | Complex) -> Complex:
-        """Return a vector of its own axes in those of all."""
+        """Return a vector, given in its own axes, in the axes of the whole."""
         seen = vector if self.ratio > 0 else np.conj(vector)
         turned: Complex = unit(self.turn_deg) * seen
         return turned
 
     def find_own_unbalance(self, seen: complex) -> complex:
-        """Return an unbalance on its crank in its own axes at its own crank angle 0, from what all
-        see when the first crank is at 0, kg m.
+        """Return an unbalance on its crank, given in the axes of the whole when the first crank is
+        at 0, in its own axes at its own crank angle 0, kg m.
         """
         return complex(np.conj(unit(self.phase_deg)) * self.turn_back(seen))
 
     def turn_back(self, vector: complex | Complex) -> Complex:
-        """Return a vector of the axes of all in its own."""
+        """Return a vector, given in the axes of the whole, in its own axes."""
         back: Complex = np.conj(unit(self.turn_deg)) * vector
         return back if self.ratio > 0 else np.conj(back)
 
     def turn_axial(self, vector: complex | Complex) -> Complex:
-        """Return a moment of its own axes in those of all: a mirror changes its sign as well."""
+        """Return a moment in the axes of the whole; mirroring also changes the sign of a moment."""
         return self.ratio * self.turn(vector)
 
     def find_place(self, own: complex | Complex) -> Complex:
-        """Return a point x + iy of its own axes in those of all, m."""
+        """Return a point x + iy, given in its own axes, in the axes of the whole, m."""
         return self.turn(own) + place_in_plane(*self.at_m[:2])
 
     def find_device(self, own: Device) -> Device:
-        """Return a device of its own axes and crank angle in those of all."""
+        """Return a device, given by its own axes and crank angle, by those of the whole."""
         lead = unit(own.order * self.phase_deg)
         forward, backward = lead * own.forward, np.conj(lead) * own.backward
         if self.ratio < 0:  # a mirrored vector turns the other way
@@ -158,7 +157,7 @@ class Placed(NamedTuple):
         )
 
     def find_own_place(self, place: complex | Complex) -> Complex:
-        """Return a point x + iy of the axes of all in its own, m."""
+        """Return a point x + iy, given in the axes of the whole, in its own axes, m."""
         return self.turn_back(place - place_in_plane(*self.at_m[:2]))
 
 
@@ -185,12 +184,13 @@ class Engine:
         bore_m: Cylinder bore; nan where the file gives none.
         throws_m: Position of each throw along the crank, shape (throws, *trailing).
         throw_radii_m: Crank radius of each throw, same shape.
+        pins_m: Position of each throw by [crank], same shape; `throws_m` if [crank] gives none.
         speed_rpm: Mean crank speed.
         ripple: Lines of the uneven speed; empty for a steady one.
         reference_m: x, y, z of the point about which moments are taken.
         up_deg: Direction that points up, deg from x; None where the file gives none.
         devices: Counterweights, shafts and sliders of the file, in this order.
-        weighed: Masses behind each row of `cylinders`.
+        weighed: Masses of the parts of each row of `cylinders`.
         places_known: Whether the file gives the positions of its throws along the crank. If not,
             all throws are in one plane, and moments have no meaning.
         gas: Gas in the cylinders at this speed; None where the file has no [gas], and for arrays of
@@ -203,10 +203,10 @@ class Engine:
         bearings: Bearings of the crankshaft; None if the file gives none.
         rated: Speed of the file, and brake power at this speed.
         inferred: Keys that the file leaves out and on which results depend, with the values that
-            are taken (`layout.strokes = 4`).
+            are used (`layout.strokes = 4`).
         model: Engine file; None if no file describes this engine.
-        placed: Engines that are geared together, of which this is the whole: `cylinders` and what
-            is derived from them are then those of the first. Empty for an ordinary engine.
+        placed: Engines that are geared together, if this engine is the whole of them; `cylinders`
+            and all figures derived from them are then those of the first. Else empty.
     """
 
     name: str
@@ -358,13 +358,13 @@ class Engine:
     @cached_property
     def cranks(self) -> tuple[Placed, ...]:
         """Engines that are geared together, each with the speed, devices and point of reference of
-        the whole in its own terms; an ordinary engine is one that stands where it is.
+        the whole, by its own axes and crank angle. An ordinary engine has only itself.
         """
         return tuple(import_name(CRANKS)(self)) if self.placed else (Placed(self),)
 
     @property
     def every_device(self) -> tuple[Device, ...]:
-        """Devices of all cranks and of the whole, in the axes of all."""
+        """Devices of all engines and of the whole, in the axes of the whole."""
         if not self.placed:
             return self.devices
         return tuple(one.find_device(own) for one in self.cranks for own in one.engine.devices)
@@ -388,13 +388,13 @@ class Engine:
         return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
 
     def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:
-        """Return the inertia of all that turns in a constant ratio to the crank: crankshaft,
-        flywheel and shafts; without `crank.inertia` the counterweights. The crankshaft of a rotary
-        engine stands still.
+        """Return the inertia of all parts that turn in a constant ratio to the crank: crankshaft,
+        flywheel and shafts; without `crank.inertia`, also the counterweights. The crankshaft of a
+        rotary engine stands still and is left out.
 
         Args:
-            beyond_pins: Whether to leave out the throw masses in `crank.inertia`, which count with
-                the pins.
+            beyond_pins: Whether to subtract the throw masses from `crank.inertia`, because the
+                caller counts them with the pins.
         """
         if self.placed:
             each = [one.engine.find_turning_inertia(beyond_pins=beyond_pins) for one in self.cranks]
@@ -414,7 +414,7 @@ class Engine:
 
     # -------------------------------------------------------------- cylinders and crank pins
     def find_radius(self, z_m: float) -> float:
-        """Return the crank radius of the throw nearest to a plane, m; of equal ones the first.
+        """Return the crank radius, m, of the throw nearest to a plane (the first one of several).
 
         Args:
             z_m: Position of the plane along the crank, m.
@@ -528,8 +528,8 @@ class Engine:
     @property
     def splay_for_even_firing(self) -> float | None:
         """Value of `crank.splay` (deg) with which the cylinders fire evenly in the order of the
-        file; None if there is none, for a single throw or articulated rods, or if the file gives
-        firing intervals.
+        file. None if there is no such value, for a single throw or articulated rods, or if the file
+        gives firing intervals.
         """
         if self.model is None or self.model.layout.firing_intervals or len(self.throws_m) == 1:
             return None
@@ -576,10 +576,10 @@ def check_engine(function: str, value: object) -> Engine:
 
 
 def refuse_geared(subject: Engine | EngineFile) -> None:
-    """Raise an error for engines that are geared together, where one crank alone is looked at.
+    """Raise an error for engines that are geared together, which some results do not cover.
 
     Raises:
-        BalcliError: The engine, or its file, is made of several.
+        BalcliError: The engine, or its file, joins several engines.
     """
     geared = subject.placed if isinstance(subject, Engine) else subject.engine
     if geared:
@@ -594,14 +594,14 @@ def take_model(engine: Engine) -> EngineFile:
         BalcliError: No file describes this engine.
     """
     if engine.model is None:
-        told = "no file describes this engine, which is a variant, or has devices of its own; take "
-        raise BalcliError(f"{engine.summary}: {told}the one from which it was made")
+        told = "no file describes this engine, because it is a variant or has added devices; use "
+        raise BalcliError(f"{engine.summary}: {told}the engine from which it was made")
     return engine.model
 
 
 def find_crank(engine: Engine, number: CylinderNumber) -> tuple[Placed, int]:
-    """Return the engine of a cylinder, one of several or the only one, and its row in that engine's
-    arrays; arguments and errors as of `find_row`.
+    """Return the engine that has a cylinder, and the row of the cylinder in the arrays of that
+    engine; arguments and errors as for `find_row`.
     """
     row = find_row(engine, number)
     for one in engine.cranks:

@@ -94,8 +94,8 @@ class FileFigures:
         return path in self._displaced
 
     def cylinder_tables(self, model: EngineFile) -> dict[int, Override]:
-        """Return the tables of single cylinders, with empty tables for cylinders that only `varied`
-        names.
+        """Return the tables of single cylinders. Cylinders whose figures vary, but that have no
+        table in the file, get an empty one.
         """
         if not self._varied:
             return model.cylinder
@@ -135,8 +135,8 @@ def _find_rivals(
 
 
 def select_varied(varied: Mapping[str, Figure], number: int) -> Iterator[tuple[str, Figure]]:
-    """Yield the figures of the file of one engine (from 1) that vary, by their names in it: all
-    turn at the speed of the whole.
+    """Yield the varied figures of one geared engine (number from 1), by their names in its own
+    file. The speed of the whole varies in all engines.
     """
     start = f"engine.{number}."
     for path, value in varied.items():
@@ -176,16 +176,16 @@ class RodFigures(NamedTuple):
         return {key: value for key, value in self._asdict().items() if value is not None}
 
     def length_for(self, radius: Figure) -> Figure:
-        """Return the length, m, as given or by its ratio to the crank radius (m); 1 if none is
-        given, which is allowed for harmonic motion.
+        """Return the rod length, m: the given one, or the crank radius (m) divided by `ratio`.
+        Return 1 if the file gives neither, as harmonic motion allows.
         """
         if self.length is None and self.ratio is None:
             return 1.0
         return self.length if self.length is not None else radius / cast(Figure, self.ratio)
 
     def with_own(self, own: RodFigures) -> RodFigures:
-        """Return these figures with those of one cylinder, which replace the same figures and any
-        that exclude them.
+        """Return these figures, overridden by those of one cylinder; figures that exclude an
+        overriding one are left out.
         """
         if not (said := own.given):
             return self

@@ -113,8 +113,8 @@ class EngineGas:
         return replace(self, cylinders=tuple(new._replace(share=own.share) for new, own in pairs))
 
     def follow(self, find: Callable[[EngineGas], ArrayLike]) -> Callable[[ArrayLike], Array]:
-        """Return a function that gives a figure of the gas, shape (*speeds, *figure), at speeds,
-        rpm.
+        """Return a function of speeds, rpm, that returns a figure of the gas at each of them, shape
+        (*speeds, *figure).
 
         Args:
             find: Function that returns this figure of the gas at one speed. The figure is linear in
@@ -160,8 +160,8 @@ class EngineGas:
 
 @dataclass(frozen=True, eq=False)
 class GasLaw:
-    """Gas of an engine as a function of its speed. Between nodes it is smooth. Outside the points
-    of the file, it is that of the first or last point.
+    """Gas of an engine as a function of its speed, smooth between nodes. Outside the points of the
+    file, the gas of the first or last point is used.
 
     Attributes:
         solve: Function that returns the gas at a speed, rpm; InputError if no cycle can be
@@ -171,7 +171,8 @@ class GasLaw:
         linear: Whether all pressures are linear in the speed between the nodes.
         power: Power of the speed in which mean pressures are linear between the nodes: 1 for
             points, 2 for the propeller law, which holds beyond the last node as well.
-        least_rpm: Speed up to which the propeller law asks for less than a cycle has without heat.
+        least_rpm: Speed up to which the propeller law demands less imep than a cycle has without
+            heat.
     """
 
     solve: Callable[[float], EngineGas]
@@ -181,17 +182,17 @@ class GasLaw:
     least_rpm: float = 0.0
 
     def list_doubts(self, speeds_rpm: ArrayLike) -> Iterator[str]:
-        """Yield a warning if some speeds (rpm) are beyond the points, or the propeller law asks for
-        less at them than a cycle has without heat.
+        """Yield a warning if some speeds (rpm) are outside the points, or if the propeller law
+        demands less imep at them than a cycle has without heat.
         """
         low, high, least = np.min(speeds_rpm), np.max(speeds_rpm), self.least_rpm
         first, last = self.nodes_rpm[0], self.nodes_rpm[-1]
-        ends = [f"the gas of {first:g} rpm holds at {low:g} rpm"] * bool(low < first)
-        ends += [f"the gas of {last:g} rpm holds at {high:g} rpm"] * bool(high > last)
+        ends = [f"the gas of {first:g} rpm is used at {low:g} rpm"] * bool(low < first)
+        ends += [f"the gas of {last:g} rpm is used at {high:g} rpm"] * bool(high > last)
         if ends and self.power == 1:
-            yield f"gas.at: beyond its points {' and '.join(ends)}"
+            yield f"gas.at: outside its points {' and '.join(ends)}"
         if low < least:
             yield (
-                f"gas.law: up to {least:.4g} rpm it asks for less than the cycle has without heat; "
-                "that cycle holds there"
+                f"gas.law: up to {least:.4g} rpm it demands less imep than the cycle has without "
+                "heat; the cycle without heat is used there"
             )

@@ -24,8 +24,8 @@ from ..file.units import ANGLE, BAR, PRESSURE
 ATMOSPHERE = 101325.0  # absolute pressure minus gauge pressure, Pa
 WIDEST_GAP = 30.0  # largest gap between two rows, deg
 FLAT_GAP = 45.0  # largest gap during gas exchange, where the pressure hardly changes, deg
-_FLAT = 0.01  # a change by less than this share of the highest pressure is hardly any
-_SAME = 1e-6  # deg; rows whose distance is one period within this are the two ends of the period
+_FLAT = 0.01  # the pressure hardly changes: by less than this share of the highest pressure
+_SAME = 1e-6  # deg; tolerance for two rows that are one period apart, the ends of the period
 _OTHERS = ("MPa", "kPa", "Pa", "psi", *GAUGE_UNITS)
 _SYMBOLS = r"(?:in[-\s_]?)?cyl(?:inder|\.)?[\s_]*press(?:ure)?|press|p(?:[\s_]*cyl(?:inder)?)?"
 HEADS = (
@@ -33,7 +33,7 @@ HEADS = (
     Head("pressure_bar", PRESSURE, tuple(f"pressure_{unit}" for unit in _OTHERS), _SYMBOLS),
 )
 LOW_PRESSURE = 0.1  # lowest usual pressure, bar; a throttled engine draws in at 0.3
-ASK_GAUGE = '; is it over the atmosphere? Then give pressure = "gauge"'
+ASK_GAUGE = '; is it a gauge pressure? Then give pressure = "gauge"'
 NEAR_DEG = 45.0  # usual largest distance of the highest pressure from the firing dead centre, deg
 SAME_IMEP = 0.03  # a larger relative difference from the stated imep gives a warning
 
@@ -67,13 +67,13 @@ def build_diagram(
         raise BalcliError(f"{name}: {line}{message}")
     firing = 360.0 if gas.zero == "gas-exchange" else 0.0
     curve = draw_diagram(angle, pressure, strokes=strokes, firing_deg=firing - gas.phase)
-    left = [f"{path}: {name}: has {count} cycles; their mean is taken"] if count > 1 else []
+    left = [f"{path}: {name}: has {count} cycles; their mean is used"] if count > 1 else []
     first, last = (float(pressure[k]) / (columns.scales[1] * BAR) for k in (0, -1))
     if first != last and _is_closed(angle, period):
         unit = _name_unit(columns)
         left.append(
-            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, the first has "
-            f"{first:.4g} {unit}; the first is taken"
+            f"{path}: {name}: the last row closes the cycle with {last:.4g} {unit}, but the first "
+            f"row has {first:.4g} {unit}; the first is used"
         )
     return curve, left
 
@@ -88,7 +88,7 @@ def _average_cycles(angle: Array, pressure: Array, period: float) -> tuple[Array
     cycles are averaged at the angles of the first. A single cycle is returned unchanged.
     """
     steps = np.diff(angle)
-    starts = np.flatnonzero(steps < -period / 2)  # every cycle counts from its own beginning
+    starts = np.flatnonzero(steps < -period / 2)  # the angles of each cycle begin anew
     if len(angle) < 2 or not (np.delete(steps, starts) > 0).all():
         return angle, pressure, 1
     through = angle + period * np.searchsorted(starts, np.arange(len(angle)) - 0.5)
@@ -199,6 +199,6 @@ def list_doubts(
     stated, measured = gas.imep if path == "gas.indicator" else None, imep / BAR
     if stated is not None and abs(measured - stated) > SAME_IMEP * abs(stated):
         yield (
-            f"gas.imep is {stated:g} bar, and the diagram has {measured:.4g} bar; a phase of one "
-            "degree makes 3 to 7 %: is gas.phase right?"
+            f"gas.imep is {stated:g} bar, but the diagram has {measured:.4g} bar; a phase error of "
+            "one degree changes it by 3 to 7 %: is gas.phase right?"
         )

@@ -225,21 +225,21 @@ def _check_firing_order(
         told += f"; write [cylinder.{first}] gas = 0 if cylinder {first} is a dummy piston"
     if in_turn:
         told += (
-            f"; every throw carries a rod of each of the {banks} banks: if they take the throws in "
-            'turn, as in a boxer, say layout.rods = "alternating"'
+            f"; every throw carries a rod of each of the {banks} banks: if the banks take the "
+            'throws in turn, as in a boxer, give layout.rods = "alternating"'
         )
     yield Problem("layout.firing_order", told)
 
 
 def _describe_not_once(given: Sequence[int], wanted: Sequence[int]) -> str:
-    """Return in words which numbers are missing, doubled or unknown."""
+    """Return in words which numbers are doubled, unknown or missing."""
     times = Counter(given)
     doubled = [n for n in sorted(times) if times[n] > 1 and n in wanted]
-    parts = [f"cylinder {n} stands {times[n]} times" for n in doubled]
+    parts = [f"cylinder {n} occurs {times[n]} times" for n in doubled]
     parts += [f"there is no cylinder {n}" for n in sorted(times) if n not in wanted]
     if missing := [n for n in wanted if n not in times]:
-        parts.append(f"missing is {join_words(missing)}")
-    return f"{', '.join(parts)}: each of the cylinders 1 to {len(wanted)} must stand once"
+        parts.append(f"missing: {join_words(missing)}")
+    return f"{', '.join(parts)}; each of the cylinders 1 to {len(wanted)} must occur once"
 
 
 def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()) -> bool:
@@ -257,8 +257,8 @@ def are_places_known(model: EngineFile, plan: Plan, varied: Collection[str] = ()
     return plan.throws == 1 or said or own
 
 
-# Tolerance of angles, deg: files round offsets, angles and intervals, and mistakes are tens of
-# degrees.
+# Tolerance of angles, deg: offsets, angles and intervals of files are rounded, and mistakes are
+# tens of degrees.
 TOLERANCE_DEG = 1.0
 
 
@@ -280,8 +280,8 @@ def find_instants(
 def find_pins(
     fires: Mapping[int, Figure], tops: Mapping[int, Figure], sense: int
 ) -> dict[int, Array]:
-    """Return the crank pin angle that each cylinder needs, counted from the pin of `find_first`,
-    deg in [0, 360).
+    """Return the crank pin angle that each cylinder needs, deg in [0, 360), from the pin of the
+    cylinder that `find_first` returns.
 
     Args:
         fires: Crank angle of firing by cylinder, deg.
@@ -331,10 +331,10 @@ def find_intervals(order: Sequence[int], ready: Mapping[int, float], cycle: floa
             if abs((gap + 180) % 360 - 180) > TOLERANCE_DEG
         )
         told = (
-            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, a "
-            f"cycle has {cycle:g}; evenly, every {each:g} deg, cylinder {next(off, order[-1])} is "
-            "the first that is not at top dead centre when it fires: change firing_order or "
-            "crank.throws, or leave crank.throws out"
+            f"{'-'.join(map(str, order))} would take {total:g} deg with these crank.throws, but a "
+            f"cycle has {cycle:g}; with even firing every {each:g} deg, cylinder "
+            f"{next(off, order[-1])} is the first that is not at top dead centre when it fires: "
+            "change firing_order or crank.throws, or leave crank.throws out"
         )
         raise InputError([Problem("layout.firing_order", told)])
     for _ in range(int(cycle - total) // 360):
@@ -366,7 +366,7 @@ def check_firing(
     tops: Mapping[int, Figure],
     sense: int = 1,
 ) -> Iterator[Problem]:
-    """Yield the first cylinder that is not at top dead centre when it fires.
+    """Yield the mistake of the first cylinder that is not at top dead centre when it fires.
 
     Args:
         fires: Crank angle of firing by cylinder, deg.

@@ -7,14 +7,14 @@ keys of the file, every cylinder is within 1 deg of its dead centre when it fire
 `layout.numbering` is read by these rules:
 
 - If the file gives throws, numbering bank by bank is used if it fits.
-- Otherwise the usual numberings are tried in three tiers, from the most usual on; the first tier
-  with a numbering that fits decides. If this is the first tier and it means one engine, that is
-  used. Otherwise the user has to choose among the engines.
+- Otherwise the usual numberings are tried in up to three tiers, from the most usual on; the first
+  tier with a numbering that fits decides. If the file gives no throws and tier 1 means only one
+  engine, this engine is used. Otherwise the user has to choose among the engines.
 - Two numberings describe the same engine if the firing angles of all places (throw, bank) differ by
   the same shift.
 
-A numbering that the file gives is taken as true; if it does not fit, changes of other keys are
-proposed.
+A numbering in the file is never replaced; if it does not fit, the error proposes changes of single
+keys.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ from .layout import (
 from .parts import Parts
 
 LIST_LENGTH = 3  # largest number of engines in a list to choose from
-NARROW_DEG = 30.0  # largest bank angle of a block with one head, whose axes miss the crank
+NARROW_DEG = 30.0  # largest bank angle of a vee with one head; cylinder axes miss the crank
 FREE_END = (
     "Numbers count from the free end. If the maker counts from the flywheel end, reverse every "
     "list."
@@ -201,9 +201,9 @@ class Candidate:
         )
 
     def rank(self, position: int) -> tuple[float, ...]:
-        """Return the sort key of a line: force and moment that counterweights cannot cancel, splay,
-        and position in the tier. With one rod on each throw, odd and even numbers come before bank
-        by bank.
+        """Return the key for sorting engines: force and moment that counterweights cannot cancel,
+        splay, and position in the tier. With one rod on each throw, numbering along the crank comes
+        before numbering bank by bank.
         """
         if self.parts.plan.rods_on_throw == 1:
             position = {0: 1, 1: 0}.get(position, position)
@@ -296,7 +296,7 @@ def infer_numbering(model: EngineFile) -> EngineFile:
 
 def check_numbering(parts: Parts) -> Iterator[Problem]:
     """Check that the firing order fits the crank and means a single engine. Varied figures do not
-    affect this.
+    affect which engine a file without throws means.
     """
     missed = find_missed(parts)
     if is_open(parts):

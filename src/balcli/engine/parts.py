@@ -2,8 +2,8 @@
 firing angles, masses, places, cylinders.
 
 Each stage is a function of earlier stages. `Parts` runs a stage once, when it is first needed. So a
-file with mistakes has the stages that its other tables allow, and the trial of a numbering computes
-only the stages up to the pins.
+mistake in one table does not prevent the stages that do not need this table, and the trial of a
+numbering computes only the stages up to the pins.
 
 Dicts of cylinders have the cylinder numbers as keys. Angles count from x in the sense of rotation.
 """
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 # ------------------------------------------------------------------ pistons and rods
 def find_masters(parts: Parts) -> dict[int, int]:
-    """Return the cylinder with the master rod of each articulated cylinder."""
+    """Return the number of the cylinder with the master rod, by articulated cylinder."""
     table, cells = parts.model.articulation, parts.plan.cells
     if table is None:
         return {}
@@ -70,8 +70,8 @@ def find_gears(parts: Parts) -> dict[int, RunningGear]:
 
 
 def find_strokes(parts: Parts) -> dict[int, Figure]:
-    """Return the stroke of each cylinder's pin, mm. Number 0 is the first throw, which represents
-    all cylinders. Cylinders with articulated rods have the stroke of their master.
+    """Return the stroke of each cylinder's pin, mm. Key 0 has the stroke of the first throw, for
+    rods in general. Cylinders with articulated rods have the stroke of their master.
     """
     on_pin = {c.number: parts.masters.get(c.number, c.number) for c in parts.plan.cells}
     throws = {c.number: parts.throw_strokes[c.throw] for c in parts.plan.cells}
@@ -86,10 +86,10 @@ class Pins(NamedTuple):
     Attributes:
         axes_deg: Axis of each cylinder.
         tops_deg: Angle of each cylinder's crank pin at top dead centre. With articulated rods, the
-            angle of the axis (nominal dead centre) is used, because only so all cylinders of a
-            throw fire evenly.
-        throws_deg: Angle of each throw, by its index from 0: the given one, or the one that the
-            firing order needs.
+            angle of the axis (nominal dead centre) is used, because all cylinders of a throw then
+            fire evenly.
+        throws_deg: Angle of each throw, by its index from 0: the one in the file, or the one that
+            the firing order needs.
         leads_deg: Angle of each crank pin from cylinder 1's pin.
     """
 
@@ -129,8 +129,8 @@ def set_pins(parts: Parts) -> Pins:
 
 
 def find_true_tops(parts: Parts) -> Mapping[int, Figure]:
-    """Return the angle of each crank pin at top dead centre, deg: `Pins.tops_deg`, but with
-    articulated rods the true dead centres of the pistons' motion.
+    """Return the angle of each crank pin at top dead centre, deg: `Pins.tops_deg`, or with
+    articulated rods (except in arrays of variants) the true dead centres of the pistons.
     """
     pins = parts.pins
     if parts.model.articulation is None or parts.rank:
@@ -200,8 +200,8 @@ class Places(NamedTuple):
     Attributes:
         z: Position of each cylinder, by its number.
         throws: Position of each throw, in the middle of its rods, shape (throws, *trailing).
-        pins: Position of each throw that [crank] gives, else the middle of its rods, shape
-            (throws, *trailing).
+        pins: Position of each throw by [crank], or the middle of its rods if [crank] gives none,
+            shape (throws, *trailing).
         reference: x, y, z of the point about which moments are taken: the point of the file, or the
             point on the crank axis half-way between the first and the last throw.
     """
@@ -378,8 +378,8 @@ class Parts:
         # Sense in which the crank turns, seen from a cylinder.
         self.sense = -1 if model.layout.rotary else 1
         given = model.crank.throws is not None
-        # With given throws, a firing order would have to fit every variant; it is ignored unless
-        # there is gas, which needs it.
+        # If the file gives throws, the firing order would have to fit every variant; the order is
+        # ignored, unless the gas needs it.
         needed = model.gas is not None and not self.rank
         self.order = None if varied and given and not needed else model.layout.firing_order
         self.tables = self.figures.cylinder_tables(model)  # tables of single cylinders, by number

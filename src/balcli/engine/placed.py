@@ -1,8 +1,8 @@
-"""Engines that are geared together one to one: read, built, and seen from the first crank.
+"""Read and build engines that are geared together one to one.
 
-Each is built alone. `build_geared` makes one engine of them, whose `placed` say where each stands
-and how it turns; `share_state` hands speed, devices and point of reference of the whole down to
-each, in its own axes and by its own crank angle.
+Each engine is built alone. `build_geared` joins them to one engine, the whole; its `placed` have
+the place and the sense of rotation of each engine. `share_state` passes speed, devices and point of
+reference of the whole on to each engine, in the engine's own axes and by its own crank angle.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
     """Return a file with [[engine]] and the files of its engines, with all their mistakes.
 
     Args:
-        draft: The file without them.
-        parse: Function of the text and name of one engine's file to its model.
+        draft: The file, whose engines are not yet read.
+        parse: Function that returns the model of one engine from the text and name of its file.
     """
     model, problems = draft.model, list(draft.problems)
     engines = tuple(filter(None, model.engine))
@@ -57,7 +57,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
         keys = [k for k in ("speed", "speed_ripple") if lent.has(k) and not own.has(k)]
         operation = own.model_copy(update={key: getattr(lent, key) for key in keys})
         turning = {"operation": operation}
-        # Of the others the unevenness follows from the first crank's.
+        # The uneven speed of the other cranks follows from that of the first one.
         steady = {"operation": operation.model_copy(update={"speed_ripple": ()})}
         others = [crank.model_copy(update=steady) for crank in cranks[1:]]
         model = model.model_copy(update=turning)
@@ -66,7 +66,7 @@ def read_engines(draft: Draft, parse: Callable[[bytes, str], EngineFile]) -> Dra
 
 
 def _check_engines(model: EngineFile) -> Iterator[Problem]:
-    """Yield the contradictions between the engines of a file, all of which could be read."""
+    """Yield the contradictions between valid [[engine]] tables of a file."""
     engines = model.engine
     if len(engines) < 2:
         yield Problem("engine", f"one engine; analyze {engines[0].file} itself")
@@ -80,7 +80,7 @@ def _check_engines(model: EngineFile) -> Iterator[Problem]:
     names = model.crank_names
     for k, name in enumerate(names):
         if name in names[:k]:
-            told = f'"{name}" is engine {names.index(name) + 1} as well; give each its own name'
+            told = f'"{name}" is also the name of engine {names.index(name) + 1}; give each its own'
             yield Problem(f"engine.{k + 1}.name", told)
     loads = sum(engine.load for engine in engines)
     given = any(engine.has("load") for engine in engines)
@@ -91,11 +91,11 @@ def _check_engines(model: EngineFile) -> Iterator[Problem]:
 
 
 def _check_carriers(model: EngineFile) -> Iterator[Problem]:
-    """Yield the mistakes in what counterweights name as their carriers."""
+    """Yield the counterweights whose engine is unknown, or that name an axle."""
     names = model.crank_names
     for k, weight in enumerate(model.counterweight, 1):
         if weight.engine is not None and weight.engine not in names:
-            told = f'"{weight.engine}" is no engine; there are {", ".join(names)}'
+            told = f'"{weight.engine}" is no engine; the engines are {", ".join(names)}'
             yield Problem(f"counterweight.{k}.engine", told)
         if weight.axle is not None:
             yield Problem(f"counterweight.{k}.axle", "a file with [[engine]] has no axles")
@@ -105,11 +105,11 @@ _IGNORED = ("body", "mount", "point", "torsion", "locomotive", "operation", "fra
 
 
 def _tell_ignored(engines: Sequence[EngineTable], cranks: Sequence[EngineFile]) -> None:
-    """List the tables of engines' files that do not count; the first lends speed and reference."""
+    """Report ignored tables of engines' files; [operation] and [frame] of the first are used."""
     for k, (table, crank) in enumerate(zip(engines, cranks, strict=False)):
         keys = [key for key in (_IGNORED if k else _IGNORED[:5]) if crank.has(key)]
         if keys:
-            note(f"{table.file}: does not count in engine {k + 1}: {', '.join(keys)}")
+            note(f"{table.file}: ignored in engine {k + 1}: {', '.join(keys)}")
 
 
 @contextmanager
@@ -128,7 +128,7 @@ def _collecting(problems: list[Problem], number: int, file: str) -> Iterator[Non
 def build_geared(
     model: EngineFile, varied: Mapping[str, Figure] | None = None, rank: int = 0
 ) -> Engine:
-    """Return the engine that a file with [[engine]] describes; arguments and errors as of `build`.
+    """Return the engine that a file with [[engine]] describes; arguments and errors as for `build`.
 
     Figures of an engine's own file vary by names such as `engine.2.rod.length`.
     """
@@ -166,8 +166,8 @@ def build_geared(
 
 
 def gear_engines(placed: Sequence[Placed]) -> Engine:
-    """Return engines that are geared together as one, at the speed and with the point of reference
-    of the first; it has no devices but those of each.
+    """Return one engine, the whole, of engines that are geared together. It has the speed and the
+    point of reference of the first, and no devices in addition to theirs.
     """
     speed = placed[0].engine.speed_rpm
     placed = [one._replace(engine=one.engine.at_speed(speed)) for one in placed]
@@ -220,8 +220,8 @@ def _add(figures: Iterable[Figure | None]) -> Figure | None:
 
 
 def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
-    """Return the gas of all cylinders by the first crank's angle; that of an engine without gas has
-    the share 0. None where no engine has gas.
+    """Return the gas of all cylinders by the first crank's angle; None if no engine has gas. The
+    cylinders of an engine without gas have the share 0.
     """
     burning = [one.engine.gas for one in placed if one.engine.gas is not None]
     if not burning:
@@ -244,7 +244,7 @@ def _join_gas(placed: Sequence[Placed]) -> EngineGas | None:
 
 
 def _join_laws(placed: Sequence[Placed]) -> GasLaw | None:
-    """Return the law of the gas of all cylinders; None where it is the same at all speeds."""
+    """Return the law for the gas of all cylinders; None if the gas is the same at all speeds."""
     laws = [one.engine.gas.law for one in placed if one.engine.gas and one.engine.gas.law]
     if not laws:
         return None
@@ -277,7 +277,7 @@ def share_state(whole: Engine) -> Iterator[Placed]:
         gas = None if whole.gas is None else own.gas
         if gas is not None and whole.gas is not None:
             seen = (c._replace(like=c.like - start) for c in whole.gas.cylinders[start:stop])
-            pairs = zip(seen, gas.cylinders, strict=True)  # those of all are at their speed
+            pairs = zip(seen, gas.cylinders, strict=True)  # `seen` is at the speed of the whole
             each = (c._replace(nominal_deg=mine.nominal_deg) for c, mine in pairs)
             gas = replace(gas, cylinders=tuple(each))
         yield one._replace(
@@ -294,8 +294,8 @@ def share_state(whole: Engine) -> Iterator[Placed]:
 
 
 def _move(device: Device, one: Placed) -> Device:
-    """Return a device of the whole as one of an engine's own; those off the crankshafts belong to
-    the first, which turns as they count.
+    """Return a device of the whole in the axes of one engine. Devices that are not on a crankshaft
+    belong to the first engine, by whose crank angle they turn.
     """
     moved = device._replace(z=device.z - one.at_m[2], crank=0)
     if device.kind is DeviceKind.COUNTERWEIGHT:

@@ -29,7 +29,7 @@ class RunningGear(NamedTuple):
         offset: Offset of the piston pin's path from the crank axis, m.
         piston: Piston mass, kg.
         small_end: Mass at the piston pin that, with `big_end`, replaces the rod, kg.
-        big_end: Mass at the lower pin, kg.
+        big_end: Mass at the crank pin or knuckle pin, kg.
         spin: Moment of inertia of the rod about its centre of mass, kg m2.
         couple: Moment of inertia of the two masses less that of the rod, `H = m a b - spin`, kg m2.
     """
@@ -127,8 +127,9 @@ def weigh_rod(
 def weigh_harmonic(
     rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
 ) -> RunningGear:
-    """Return the rod of a harmonic motion. Its length only divides the mass; the rod counts as
-    infinitely long and does not swing. Arguments are those of `weigh_rod`.
+    """Return piston and rod of a cylinder in harmonic motion. The length only divides the mass
+    between the ends; the rod counts as infinitely long and does not swing. Arguments are those of
+    `weigh_rod`.
     """
     gear = weigh_rod(rod, length, offset, piston)
     return gear._replace(length=math.inf, spin=0.0, couple=0.0)
@@ -188,7 +189,7 @@ def check_harmonic(place: RodPlace, *, fixed: bool) -> Iterator[Problem]:
         yield Problem(place.path(key), told)
     given = place.rod.given
     if {"mass", "cg"} <= given.keys() and not given.keys() & {*LENGTHS}:
-        told = "it divides rod.mass at rod.cg (or give small_end and big_end)"
+        told = "rod.mass and rod.cg need it (or give small_end and big_end instead)"
         yield Problem.of_missing("rod.length", told)
 
 

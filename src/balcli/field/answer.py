@@ -1,9 +1,9 @@
 """Balance a rotor in the field (`balance_rotor`): compute correction weights, the remaining
 readings, the balance grade, and warnings of doubtful runs.
 
-The corrections x minimise the sum of squares, or the largest (`minimise`), of the readings `|V +
-alpha x|`, where V are the readings to be corrected and alpha the influence
-coefficients. Given places and largest weights constrain x.
+The corrections x minimise the sum of squares of the readings `|V + alpha x|`, or the largest of
+them (`minimise`). V are the readings to be corrected, alpha the influence coefficients. Given
+places and largest weights constrain x.
 """
 
 from __future__ import annotations
@@ -54,10 +54,10 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
     alike = [each for each in result.corrections if each.own_effect < _NEARLY_DEPENDENT]
     if len(alike) > 1:
         yield (
-            f"planes {join_words([each.plane for each in alike])} have nearly the same effect as "
-            f"other planes: all but {min(each.own_effect for each in alike):.1%} of the effect of "
-            f"one can come from others (condition {result.condition:.3g}), so small reading errors "
-            f"change the weights much; if these are large, try --without {alike[0].plane}"
+            f"planes {join_words([each.plane for each in alike])} have nearly the same effect: "
+            f"{1 - min(each.own_effect for each in alike):.1%} of the effect of one can come from "
+            f"others (condition number {result.condition:.3g}), so small errors of readings change "
+            f"the weights much; if the weights are large, try --without {alike[0].plane}"
         )
     if file.grade is not None or file.shares is not None:
         for key, hint in list_missing(file).items():
@@ -77,7 +77,7 @@ def find_doubts(result: FieldBalance) -> Iterator[str]:
 
 
 def _doubt_trials(result: FieldBalance, series: list[Series]) -> Iterator[str]:
-    """Yield warnings of trial weights that changed little, and of corrections far beyond them."""
+    """Yield warnings of trial weights that changed little, and of much larger corrections."""
     for correction in result.corrections:
         plane, weight = correction.plane, abs(correction.weight)
         k = result.file.planes.index(plane)
@@ -127,7 +127,8 @@ def _doubt_runs(result: FieldBalance, series: Series) -> Iterator[str]:
 
 def _predict(series: Series, used: list[int]) -> tuple[Complex, float]:
     """Return the readings predicted by the first runs that determine the coefficients, shape (runs,
-    sensors), and the scale for judging them: the largest reading as found or change by weights.
+    sensors), and the scale for judging errors: the largest reading as found, or the largest change
+    by weights if it is larger.
     """
     count = count_needed(series, used)
     first = series._replace(readings=series.readings[:count], weights=series.weights[:count])
@@ -142,8 +143,8 @@ Weight: TypeAlias = Annotated[complex, Polar("weight", "angle_deg")]
 _READING = Polar("amplitude", "phase_deg")
 
 _NOISE = 1e-14  # a reading below this share of its cancelling terms is rounding
-_NEGLIGIBLE = 1e-9  # smallest weight, as a share of one whose effect is as large as all readings
-_AT_EDGE = 1e3  # a weight is at its limit if it is closer to it than so many negligible ones
+_NEGLIGIBLE = 1e-9  # negligible weight, as a share of one whose effect is the largest reading
+_AT_EDGE = 1e3  # a weight closer to its limit than this many negligible weights is at its limit
 _G_MM = 1e-6  # 1 g mm in kg m
 
 
@@ -264,7 +265,7 @@ class FieldBalance(Result):
         permitted: Permitted residual unbalance; left out if the grade or a key that it needs is
             missing.
         file: File of runs.
-        runs: Readings, coefficients and weights by state.
+        runs: Readings and influence coefficients of all speeds.
     """
 
     format: Literal["balcli.field/1"] = "balcli.field/1"
@@ -429,8 +430,8 @@ def _refuse_dependent(matrix: Complex, planes: list[str], name: str) -> None:
     )
     if dead:
         message = (
-            f"a weight in {dead[0]} changes no reading, so none can be found for it; use a heavier "
-            f"trial weight, or --without {dead[0]}"
+            f"a weight in {dead[0]} changes no reading, so no correction can be found there; use a "
+            f"heavier trial weight, or --without {dead[0]}"
         )
     raise InputError([Problem("planes", message)], name)
 

@@ -24,7 +24,7 @@ def field(
         typer.Option(help="squares: least sum of squared readings; max: smallest largest reading."),
     ] = "squares",
     without: Annotated[
-        list[str] | None, optional("PLANE", "Leave this plane out; may be given again.")
+        list[str] | None, optional("PLANE", "Leave this plane out; repeat for more planes.")
     ] = None,
     plot: Annotated[
         Path | None, optional("FILE", "Draw readings and weights; .svg, .png or .pdf.")
@@ -36,8 +36,8 @@ def field(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Balance a rotor on its machine: compute correction weights, places or drill holes, and the
-    remaining readings, from readings with trial weights.
+    """Balance a rotor on its machine: from readings with trial weights, compute correction weights,
+    places or drill holes, and the remaining readings.
 
     `balcli new field runs.toml` writes a file to start from: planes, a run as found, and a run with
     a trial weight for each plane. Weights and readings are printed in the units of the file.

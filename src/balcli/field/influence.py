@@ -13,7 +13,7 @@ For the scatter of the weights (`find_scatter`), all readings are assumed to hav
 size, which is estimated from the residuals of the fit and of the correction. To first order, the
 errors change the weights by `B h e`, where h is the share of each run in the readings to cancel,
 and B is the (pseudo)inverse of the coefficients. With nu complex degrees of freedom, the square of
-this change over its estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t /
+this change divided by its estimated mean has the distribution F(2, 2 nu), whose tail is `(1 + t /
 nu)^-nu`.
 """
 
@@ -65,9 +65,9 @@ class Influence(NamedTuple):
             without such a run.
         start: Readings to be corrected, shape (readings,): readings with the weights
             `weights_on`, computed from `latest` at speeds whose last run had other weights.
-        factors: Factor of each reading in what is minimised, shape (readings,).
+        factors: Weight of each reading in the sum or maximum that is minimised, shape (readings,).
         trimmed: Name of the last correction run at any speed; empty if there is none.
-        weights_on: Weights on the rotor in that run, shape (planes,); 0 if there is none.
+        weights_on: Weights on the rotor in the last correction run, shape (planes,); 0 without one.
     """
 
     speeds_rpm: tuple[float | None, ...]
@@ -107,8 +107,8 @@ def collect_series(file: RunsFile) -> list[Series]:
 
 
 def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Influence:
-    """Return readings and influence coefficients, which are those of the file or fitted to all
-    runs.
+    """Return readings and influence coefficients. The coefficients are those of the file, or are
+    fitted to all runs.
 
     Args:
         file: Runs.
@@ -119,7 +119,7 @@ def find_influence(file: RunsFile, used: Collection[int], name: str = "") -> Inf
         InputError: The runs do not determine the coefficients of all planes.
     """
     planes, blocks = len(file.planes), []
-    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # of the last correction run
+    trim, goes_on = -1, np.zeros(planes, dtype=complex)  # of the last correction
     for series in collect_series(file):
         count = count_needed(series, used)
         if count is None:
@@ -203,7 +203,7 @@ def find_scatter(file: RunsFile, runs: Influence, used: list[int], step: Complex
     left[np.abs(left) <= _ROUNDING * np.abs(factors * runs.found).max()] = 0
     inverse = np.linalg.pinv(matrix)
     if spare := len(left) - len(used):
-        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # of the errors' variance
+        kept = np.abs(np.eye(len(left)) - matrix @ inverse) ** 2 @ gain  # variance of residuals
         squares += spare * float(np.sum(np.abs(left) ** 2) / kept.sum())
     freedom += spare
     if not freedom:
@@ -254,7 +254,7 @@ def _count_unknowns(series: Series, used: Collection[int]) -> int:
 
 
 def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int]) -> Problem:
-    """Return the problem that the runs at a speed do not determine the coefficients."""
+    """Return a problem that names the runs that are missing at a speed."""
     at = "" if series.speed_rpm is None else f" at {series.speed_rpm:g} rpm"
     tried = np.asarray(series.weights.any(axis=0))
     bare = [file.planes[k] for k in used if not tried[k]]
@@ -266,7 +266,7 @@ def _explain_undetermined(file: RunsFile, series: Series, used: Collection[int])
         lacking = [f"with another ratio of the weights in {join_words(named)}, or with one alone"]
     return Problem(
         "run",
-        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} with "
-        "different weights are needed (one as found, and one for each plane), and there "
-        f"are {len(series.numbers)}; or write `influence`, or leave a plane out (--without)",
+        f"add a run{at} {' and one '.join(lacking)}; {_count_unknowns(series, used)} runs "
+        "with different weights are needed (one as found, and one for each plane; given: "
+        f"{len(series.numbers)}); or write `influence`, or leave a plane out (--without)",
     )

@@ -44,7 +44,7 @@ class PlaneLimits(NamedTuple):
 
     Attributes:
         places_deg: Angles of the places, deg; empty if any angle is allowed.
-        most: Largest weight at one place, of one hole, or in the whole plane; infinite if
+        most: Largest weight at one place, of one hole, or in a plane without places; infinite if
             unlimited.
         find_depth: Function that returns the depth, m, of a hole with the effect of a weight at the
             rim; holes are opposite to the weight. None if weights are put on.
@@ -89,7 +89,7 @@ class PlaneLimits(NamedTuple):
 
         Args:
             weight: Weight to add.
-            negligible: Smaller weights are not put on.
+            negligible: Largest weight that is not put on.
         """
         if abs(weight) <= negligible:
             return ()

@@ -1,6 +1,6 @@
-"""Tables of a file of runs, and their check. Readings are amplitude @ phase, weights amount @
-angle. First all wrong values are reported, each by its path; if there are none, all contradictions
-between values.
+"""Define and check the tables of a file of runs. Readings are amplitude @ phase, weights amount @
+angle. The check reports all wrong values, each with its path; if there are none, it reports all
+contradictions between values.
 
 Readings may have any unit; the unit of weights is `weight_unit`. Lengths are in mm, speeds in rpm,
 the mass of the rotor in kg, angles in degrees.
@@ -83,7 +83,7 @@ class Polar(Number):
         if not (amplitude == 0 or 1e-12 <= amplitude <= 1e12) or abs(angle) > _FARTHEST_DEG:
             raise ValueError(
                 f"{shorten(value)} is too large or small; amplitudes are 0 or 1e-12 to 1e+12, "
-                f"angles up to {_FARTHEST_DEG:g} degrees; turn the angle by 180 in place of a minus"
+                f"angles up to {_FARTHEST_DEG:g} degrees; for a minus, turn the angle by 180"
             )
         return make_polar(amplitude, angle)
 
@@ -92,8 +92,8 @@ class Polar(Number):
 
 
 def make_polar(amplitude: float, angle_deg: float) -> complex:
-    """Return the complex number. It is exact at multiples of 90 degrees, frequent angles of trial
-    weights.
+    """Return a complex number. It is exact at multiples of 90 degrees, which are frequent angles of
+    trial weights.
     """
     quarter, rest = divmod(angle_deg, 90)
     turned = cmath.rect(amplitude, math.radians(rest)) if rest else complex(amplitude)
@@ -109,7 +109,7 @@ class AmountUnit(Label):
             if read_amount_unit(name).powers in (MASS.powers, UNBALANCE.powers):
                 return name
         raise ValueError(
-            f"{shorten(value)} is no unit of weights; write g, kg, oz or lb, or of unbalances "
+            f"{shorten(value)} is no unit of weights; write g, kg, oz or lb, or for unbalances "
             "g mm or oz in"
         )
 
@@ -156,12 +156,12 @@ Amount = Annotated[float, Number(PLAIN, above=0, most=1e9)]
 Factor = Annotated[float, Number(PLAIN, least=1e-6, most=1e6)]
 Places = Annotated[tuple[float, ...], PlaceAngles()]
 Sense = Literal["with", "against"]
-_PHASES = "lag: phases count against rotation, as most instruments do; lead: with it"
-_ANGLES = "with: their angles go the way the rotor turns; against: the other way"
+_PHASES = "lag: phases count against rotation, as in most instruments; lead: with rotation"
+_ANGLES = "with: angles of weights increase the way the rotor turns; against: the other way"
 
 
 class Run(FileTable):
-    """One run of the machine."""
+    """One run of the machine with its readings."""
 
     name: Name | None = None
     """Name of the run. Example: 'trial front'"""
@@ -196,14 +196,14 @@ class RunsFile(FileTable):
     weight_unit: Annotated[str, AmountUnit()] = "g"
     """Unit of the weights: of mass, or of mass times radius. Example: 'g'"""
     reading_weights: BySensor[Factor] | None = None
-    """Weight of each sensor in the fit; left out: equal weights. Example: [1, 2]"""
+    """Weight of each sensor in the minimised readings; left out: equal weights. Example: [1, 2]"""
     influence: BySensor[ByPlane[Coefficient]] | None = None
     """Known influence coefficients: a row for each reading (of each speed), with the change of the
     reading per unit of weight for each plane. Example: [['0.0155 @ 113', '0.009 @ 10']]"""
     radius: ByPlane[Size] | None = None
     """Radius of the weights, or of the rim, by plane. Example: [200, 200]"""
     most: ByPlane[Amount] | None = None
-    """Largest weight of a plane, or at one of its places, by plane. Example: [40, 40]"""
+    """Largest weight of a plane, or at one of its places or holes, by plane. Example: [40, 40]"""
     places: ByPlane[Places] | None = None
     """Places that take weights, by plane: a number of places, evenly spaced from 0 on; a list of
     angles; or "free" for any angle. Example: [12, [0, 30, 60]]"""
@@ -333,7 +333,7 @@ def _check_holes(file: RunsFile) -> Iterator[Problem]:
     if file.drill is not None and file.radius is None:
         yield Problem.of_missing("radius", "a drill needs the radius of the rim, in every plane")
     if file.deepest is not None and file.drill is None:
-        yield Problem.of_missing("drill", "deepest belongs to holes, which have a diameter")
+        yield Problem.of_missing("drill", "deepest is for holes, which need a diameter")
     for key, most, fault in (
         ("drill", 2.0, "is wider than its rim of radius {:g} mm"),
         ("deepest", 1.0, "passes the axis, {:g} mm below the rim"),

@@ -127,8 +127,8 @@ def _explain_corrections(result: FieldBalance) -> Iterator[str]:
     if result.trimmed:
         yield f"Add now: in addition to the weights of '{result.trimmed}'."
     yield (
-        "Own effect: share of a plane's effect that no other planes can produce; condition "
-        f"{number(result.condition, 3)}."
+        "Own effect: share of a plane's effect that no other planes can produce. Condition "
+        f"number of the influence coefficients: {number(result.condition, 3)}."
     )
     for each in result.corrections:
         if each.wanted is not None:
@@ -161,14 +161,14 @@ def _show_pieces(result: FieldBalance, system: System) -> Grid:
             lines.append((each.plane, *[UNKNOWN] * (len(heads) - 1)))
     what = "Holes to drill" if file.drill else "Weights to put on"
     when = f", in addition to '{result.trimmed}'" if result.trimmed else ""
-    note = "Together they are equal to the corrections."
+    note = "In each plane, these weights together replace the single weight above."
     if file.drill:
         note = (
-            "Radial holes in steel, from the rim inwards, opposite to the weights. Each has the "
-            "effect of this weight at the rim; the removed steel, further in, weighs more."
+            "Radial holes in steel, from the rim inwards, opposite to the weights. Each hole has "
+            "the effect of its weight at the rim; the removed steel is farther in and weighs more."
         )
     if result.trimmed and (file.drill or file.most):
-        note += " Limits and depths hold only for these; the file has no earlier ones."
+        note += " Limits and depths ignore earlier weights and holes, which are not in the file."
     return Grid(f"{what}{when}", tuple(heads), tuple(lines), note)
 
 
@@ -186,16 +186,16 @@ def _show_permitted(result: FieldBalance, found: Permitted, system: System) -> G
     )
     plane = ("plane", [each.plane for each in every])
     verdict = ("", [each.verdict for each in every])
-    spread = "largest distance of the true unbalance (95 %), judged by the residuals of the fit"
+    spread = "largest error of 'there now' (95 %), estimated from the residuals of the fit"
     if every[0].scatter_g_mm is None:
-        spread = "unknown, the fit has as many unknowns as readings; add a run"
-    state = f"in '{result.trimmed}'" if result.trimmed else "in the rotor as found"
+        spread = "unknown, because the fit has as many unknowns as readings; add a run"
+    state = f"in '{result.trimmed}'" if result.trimmed else "of the rotor as found"
     return Grid.of_columns(
         f"Permitted residual unbalance, ISO 21940-11, G {file.grade:g}",
         [plane, *columns, verdict, after],
         f"{mass.of(file.mass or 0.0):g} {mass.name} at {file.speed:g} rpm: "
-        f"{number(1e3 * found.specific_mm)} µm. There now: {state}, by its readings; after: "
-        f"what the corrections leave of it. Scatter: {spread}.",
+        f"{number(1e3 * found.specific_mm)} µm. There now: unbalance {state}, from its readings; "
+        f"after: unbalance after the corrections. Scatter: {spread}.",
     )._replace(
         marked=frozenset((k, 4) for k, each in enumerate(every) if not each.reached), words=(0, 4)
     )
@@ -222,11 +222,11 @@ def _show_readings(result: FieldBalance) -> Grid:
     if not result.residual.any():
         note = "All readings are cancelled."
     elif result.bound is not None:
-        which = "No weights that fit" if result.limited else "No weights"
-        note += f"{which} leave a largest reading below {number(result.bound)}."
+        which = "No possible weights" if result.limited else "No weights"
+        note += f"{which} make the largest reading smaller than {number(result.bound)}."
     else:
         which = "that the places and limits allow" if result.limited else "possible"
-        note += f"The sum of their squares is the least {which}."
+        note += f"The sum of squares of the readings is the least {which}."
     return Grid.of_columns("Readings, predicted after the corrections", columns, note)
 
 
@@ -240,7 +240,7 @@ def _show_influence(result: FieldBalance) -> Grid:
         f"phases, {result.phases} rotation."
     )
     if result.trimmed and result.file.influence is None:
-        note += " By least squares over all runs."
+        note += " Fitted to all runs by least squares."
     return Grid.of_columns("Influence coefficients", columns, note)
 
 

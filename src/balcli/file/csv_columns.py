@@ -17,7 +17,7 @@ from .toml import read_bytes
 from .units import ANGLE, FORTRAN, PLAIN, PRESSURE, Dimension, convert
 
 ANGLE_SYMBOLS = r"crank(?:shaft)?[\s_]*(?:angle)?|ca|theta|θ|phi|φ|alpha|α"
-GAUGE_UNITS = ("barg", "psig")  # units of pressures above that of the atmosphere
+GAUGE_UNITS = ("barg", "psig")  # units of pressures above atmospheric pressure
 _CRANK_ANGLE = r"(?i)^(?:deg|°|degrees?)?[\s_.]*(?:ca|cad|ka|kw|crank angle|atdc)$"  # a unit
 _DEGREES_OF_CRANK = r"(?i)cad|(?:°|deg(?:rees?)?)[\s_.]*(?:ca|kw|crank angle|atdc)"
 _THOUSANDS = r"[+-]?[1-9]\d{0,2}\.\d{3}"
@@ -29,10 +29,9 @@ class Head(NamedTuple):
     """A wanted column.
 
     Attributes:
-        usual: Head as the documents write it, such as torque_Nm; other heads begin with the same
-            name.
-        dimension: Dimension of its numbers; with PLAIN, only `usual` itself is a head.
-        others: Further heads, which messages name.
+        usual: Usual head, such as torque_Nm; other accepted heads begin with its name (torque).
+        dimension: Dimension of the numbers; with PLAIN, only `usual` itself is accepted.
+        others: Further accepted heads that messages list.
         symbols: Other names of the quantity, as a regular expression.
     """
 
@@ -42,8 +41,8 @@ class Head(NamedTuple):
     symbols: str = ""
 
     def read(self, head: str, *, by_symbol: bool = False) -> tuple[str, float] | None:
-        """Return the unit in a head and its size in the unit of the dimension; None for another
-        column.
+        """Return the unit in a head, and the size of that unit in the unit of the dimension; None
+        if the head is that of another column.
 
         Args:
             head: Head of a column, with its unit.
@@ -145,7 +144,7 @@ def _list_lines(text: str) -> dict[int, str]:
         if len(line) > LONGEST_ROW:
             raise ValueError(f"line {number}: has more than {LONGEST_ROW} characters")
         if len(lines) > MOST_ROWS:  # not counting the heading
-            raise ValueError(f"has more than {MOST_ROWS} rows; keep the mean of the cycles")
+            raise ValueError(f"has more than {MOST_ROWS} rows; give only the mean of the cycles")
         lines[number] = line.rstrip("\n")
     return lines
 
@@ -153,8 +152,8 @@ def _list_lines(text: str) -> dict[int, str]:
 def _parse(text: str, wanted: Sequence[Head]) -> NumberColumns:
     lines = _list_lines(text)
     first = next(iter(lines.values()), "")
-    # The separator: a comma if the heading has none of these. Tabs after a comma are only white
-    # space.
+    # The separator is the most frequent of these marks in the heading; a comma if there is none.
+    # Tabs after a comma or semicolon are only white space.
     mark = max(",;\t", key=re.sub(r"([,;])\s+", r"\1", first).count)
     if not re.search("[,;\t]", first) and re.search(r"\S\s+\S", first):
         mark = " "
@@ -204,14 +203,14 @@ def _find_head(
         places = [(place, *unit) for place, unit in read if unit]
         if len(places) > 1 and by_symbol:
             several = join_words([shorten(heading[place]) for place, *_ in places])
-            raise ValueError(f"has the columns {several}; head the one that counts {wanted.usual}")
+            raise ValueError(f"has the columns {several}; rename the right one {wanted.usual}")
         if places:
             return places[0]
     usual = mark.join(head.usual for head in every)
     others = [name for head in every for name in head.others]
     also = f" (or {', '.join(others)})" if others else ""
     found = shorten(mark.join(heading))
-    raise ValueError(f"the heading {found} has no {wanted.usual}; head the file {usual}{also}")
+    raise ValueError(f"the heading {found} has no {wanted.usual}; write {usual}{also}")
 
 
 def _find_cells(row: list[str], places: list[int], width: int | None, line: int) -> list[str]:
@@ -222,23 +221,23 @@ def _find_cells(row: list[str], places: list[int], width: int | None, line: int)
         raise ValueError(f"line {line}: has {len(row)} of {max(places) + 1} columns")
     if width is not None and any(re.match(_STARTS_NUMBER, cell) for cell in row[width:]):
         raise ValueError(
-            f"line {line}: has {len(row)} columns, the heading {width}; name every column in the "
-            "heading, or, if decimals have commas, separate columns by semicolons everywhere"
+            f"line {line}: has {len(row)} columns, the heading has {width}; name every column in "
+            "the heading, or, if decimals have commas, separate columns by semicolons everywhere"
         )
     return [row[place].strip() for place in places]
 
 
 def _refuse_thousands(column: Sequence[str], lines: Sequence[int]) -> None:
     """Raise ValueError if points probably separate thousands: three digits follow every point, and
-    other numbers have a decimal comma, or three digits and no point.
+    other numbers have a decimal comma, or end with three digits and have no point.
     """
     pointed = [(cell, line) for cell, line in zip(column, lines, strict=False) if "." in cell]
     others = any(re.match(r"[+-]?\d*(,|\d{3}$)", cell) for cell in column)
     if pointed and others and all(re.fullmatch(_THOUSANDS, cell) for cell, _ in pointed):
         cell, line = pointed[0]
         raise ValueError(
-            f"line {line}: {cell}: is the point between thousands? Write "
-            f"{cell.replace('.', '')}, or {cell}0 if it separates decimals"
+            f"line {line}: {cell}: does the point separate thousands? Write "
+            f"{cell.replace('.', '')}, or {cell}0 if it is a decimal point"
         )
 
 

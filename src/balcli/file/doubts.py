@@ -1,7 +1,7 @@
 """Warn of valid but suspicious figures, which no ordinary engine has; most often the unit is wrong.
 
-The limits are wide: engines from models to ships pass. A warning states the value, the usual range
-and a remedy.
+The limits are wide enough for engines from models to ships. A warning states the value, the usual
+range and a remedy.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ PISTON = 100.0, 5000.0  # mass of a piston over bore^3, kg/m^3
 CROSSHEAD_HEAVY = 40_000.0  # largest mass of piston and crosshead over bore^3, kg/m^3
 LONG_STROKE = 2.5
 LAMBDA = 0.15, 0.4  # crank radius / rod length: engines have 0.2 to 0.35
-CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines, with short rods
+CROSSHEAD_LAMBDA = 0.6  # largest crank radius / rod length of crosshead engines
 BORE = 0.2, 3.0  # bore / stroke: crosshead engines have 0.25 or more, racing engines up to 2.5
 ROD = 0.1, 8.0  # rod mass / piston mass: engines have 0.7 to 2.5
 SMALL_END = 0.55  # largest share of the rod's mass at the small end: rods have 0.2 to 0.4
 # Moment of inertia / (mass x length^2): a bar of even thickness has 1/12, two equal masses at its
-# ends 1/4. A rod has more only by bosses and bolts beyond its two centres.
+# ends 1/4. A rod has more only if bosses and bolts extend beyond its centres.
 INERTIA = 0.02, 0.4
 TWO_MASSES = 1.6  # rod inertia / inertia of two masses at its ends: engines have 0.6 to 1.35
 PISTON_SPEED = 40.0  # largest mean piston speed, m/s; racing engines have up to 30
@@ -36,30 +36,28 @@ CROSSHEAD_STROKE = 1000.0  # mm
 SLOW_SPEED, SLOW_BORES = 250.0, 2.0  # rpm, bores
 OFFSET = 0.2  # largest offset / stroke: up to 0.05 is usual, in narrow-angle vees up to 0.15
 MAX_PRESSURE = 500.0  # largest cylinder pressure, bar; engines have 50 to 250
-# Absolute pressures: 0.26 bar at a height of 10 km, 10 bar after two stages of charging; figures in
-# psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; 100 psi is 7
-# bar.
+# Absolute pressures: 0.26 bar at an altitude of 10 km, 10 bar after two stages of charging; figures
+# in psi or MPa lie outside. Mean pressures: 8 to 30 bar is usual, racing engines had 50; in psi, 7
+# bar are 100, which is outside.
 PRESSURES = {
     **dict.fromkeys(("intake", "exhaust", "crankcase"), (0.15, 12.0, " bar absolute")),
     **dict.fromkeys(("imep", "bmep"), (0.0, 60.0, " bar")),
     "max_pressure": (0.0, MAX_PRESSURE, " bar"),
 }
-# Unbalanced mass of a throw / its rods and pistons: engines have up to 1.4; a whole crankshaft,
-# with counterweights, weighs 4 to 10 times as much as the rods and pistons.
+# Largest unbalanced mass of a throw / mass of its rods and pistons: engines have up to 1.4; a whole
+# crankshaft, with counterweights, weighs 4 to 10 times as much as the rods and pistons.
 THROW = 6.0
 BEARING = 0.5  # largest mass of shells or oil / mass of rod and piston: engines have up to 0.05
-# Doubtful range of the largest difference of two throw angles, deg. Cranks have 60 or more, or 0;
-# lists such as [1, 3, 4, 2] and angles in radians have 1 to 10.
+# Doubtful range of the largest difference between two throw angles, deg. Cranks have 60 or more, or
+# 0; lists such as [1, 3, 4, 2] and angles in radians have 1 to 10.
 THROWS = 1.0, 10.0
 UNBALANCE = 5.0  # largest unbalance / (all moving masses x crank radius); balancing needs 1 or 2
-# Least inertia of a crankshaft or flywheel, as a share of that of rods and pistons at the crank
-# radius; real ones have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
+# Least inertia of a crankshaft or flywheel / inertia of rods and pistons at the crank radius:
+# engines have more than 1. A slip from kg m^2 to kg mm^2 is a factor of a million.
 TURNING = 0.01
-LOSS = (
-    1.0  # largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5; percent is 100 times that
-)
-
-WHEEL_LOAD = 1000  # N, smallest load of a wheel on its rail: those of toys are smaller
+# Largest loss factor: steel has 0.01 to 0.05, rubber up to 0.5. In percent it is 100 times that.
+LOSS = 1.0
+WHEEL_LOAD = 1000  # smallest load of a wheel on its rail, N; only models have less
 SAME_UNIT = "are both in the same unit?"
 DEGREES = (
     'bare numbers are degrees; give another unit as in "1/2 turn" or "3.1416 rad"; numbers of '
@@ -145,7 +143,7 @@ def _round(value: float) -> str:
 
 
 def _find_missing(model: EngineFile) -> Iterator[str]:
-    """Yield warnings for keys that are left out, and probably forgotten, or contradict others."""
+    """Yield warnings for keys that were probably forgotten, and for keys that contradict others."""
     if _weigh_piston(model) == 0:
         yield "piston.mass is 0; give the mass of piston, pin, rings and locks"
     if model.rod.mass and model.rod.cg is None:
@@ -155,7 +153,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
         values * throws if len(values) == 1 else values
         for values in (crank.throw_masses, crank.strokes)
     )
-    pairs = zip(masses, strokes, strict=False)  # lists of a wrong length are refused elsewhere
+    pairs = zip(masses, strokes, strict=False)  # lists of a wrong length are rejected elsewhere
     of_throws = sum(mass * (stroke / 2) ** 2 for mass, stroke in pairs)
     if crank.inertia is not None and crank.inertia < of_throws and not model.layout.rotary:
         yield (
@@ -174,7 +172,7 @@ def _find_missing(model: EngineFile) -> Iterator[str]:
     if "strokes" not in model.layout.model_fields_set and (stroke > CROSSHEAD_STROKE or slow):
         yield (
             f"layout.strokes is not given, and 4 is taken; engines with a stroke of {stroke:g} mm "
-            f"at {speed:g} rpm are two-strokes: give layout.strokes = 2, or 4 if that is right"
+            f"at {speed:g} rpm are mostly two-strokes: give layout.strokes = 2, or 4 if it is right"
         )
     torsion = model.torsion
     if model.flywheel is not None and torsion is not None and not (torsion.front or torsion.rear):
@@ -238,7 +236,7 @@ def _list_cranks(model: EngineFile) -> Iterator[Figure]:
     crank, shares, wheel = model.crank, model.bobweight, model.flywheel
     angles = crank.throws or (0.0,)
     if (span := max(angles) - min(angles)) >= THROWS[0]:
-        name = "crank.throws: the largest difference of two is"
+        name = "crank.throws: the largest difference between two is"
         yield Figure(name, span, THROWS[1], math.inf, " deg", DEGREES)
     throws, rods = _count_throws_and_rods(model)
     one, radius = _weigh_piston(model) + _weigh_rod(model), max(crank.strokes) / 2
@@ -301,8 +299,8 @@ def _weigh_rod(model: EngineFile) -> float:
 
 
 def _count_throws_and_rods(model: EngineFile) -> tuple[int, int]:
-    """Return the numbers of throws and of rods. Without crank.throws, the number of rods is that of
-    the cylinders in the firing order.
+    """Return the numbers of throws and of rods. Without crank.throws, each cylinder in the
+    firing order has a rod.
     """
     layout = model.layout
     banks = 2 if layout.bank_angle is not None else len(layout.banks or ()) or layout.radial or 1

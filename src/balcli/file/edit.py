@@ -21,8 +21,8 @@ def set_keys(text: str, table: str, keys: Mapping[str, object], note: str) -> st
 
     A key keeps its place and its comment, to which the note is added. A new key comes last in its
     table. If the table has a section of its own, only this section is edited, because tomlkit
-    reorders lists of tables that alternate. If the result does not have the wanted values, the file
-    is written anew, without comments.
+    reorders two lists whose tables alternate. If the result does not have the wanted values, the
+    file is written anew, without comments.
 
     Args:
         text: Text of the file.
@@ -84,7 +84,7 @@ def rewrite(data: Mapping[str, object], reason: str) -> str:
     """
     import tomli_w
 
-    head = f"# Comments and lay-out of the original could not be kept: {reason}."
+    head = f"# Comments and layout of the original could not be kept: {reason}."
     return f"{head}\n{tomli_w.dumps(data)}"
 
 
@@ -101,8 +101,8 @@ def format_value(value: object) -> str:
 
 
 def _find_section(text: str, table: str) -> Iterator[tuple[int, int, str]]:
-    """Yield start and end of a table's section, and the table's name if only this section is read;
-    nothing if the table has no section of its own.
+    """Yield start and end of a table's section, and the table's name within it, where a member of a
+    list has the number 1. Yield nothing if the table has no section of its own.
     """
     path, _, number = table.rpartition(".")
     in_list = number.isdigit() and path != "cylinder"

@@ -9,14 +9,14 @@ from .table import Angle, FileTable, Switch, Triple
 
 
 class EngineLabel(Label):
-    """The name of an engine, which stands before those of its cylinders: `upper.3`."""
+    """The name of an engine, with which the names of its cylinders begin: `upper.3`."""
 
-    wanted = "leave out dots, commas and spaces, which part names of cylinders"
+    wanted = "leave out dots, commas and spaces, which separate names of cylinders"
 
     def read(self, value: object) -> str:
         name = super().read(value)
         if any(sign in ",." or sign.isspace() for sign in name):
-            raise ValueError(f"{shorten(value)} is no {self.kind} of an engine; {self.wanted}")
+            raise ValueError(f"{shorten(value)} is not a {self.kind} of an engine; {self.wanted}")
         return name
 
 
@@ -26,20 +26,20 @@ class Engine(FileTable):
     by_number: ClassVar[bool] = True
 
     name: Annotated[str, EngineLabel()] = ""
-    """Its name; left out: A, B and so on. Example: 'upper'"""
+    """Name of the engine; left out: A, B and so on. Example: 'upper'"""
     file: Annotated[str, FileName()]
-    """An engine file in the folder of this file or below it. Several engines may have the same one.
+    """An engine file in the folder of this file or below it. Several engines may share a file.
     Example: 'flat4.toml'"""
     ratio: Annotated[int, OneOf(1, -1, meaning="the cranks turn at one speed")] = 1
-    """1: turns as the first crank; -1: against it. Example: -1"""
+    """1: the crank turns with the first crank; -1: against it. Example: -1"""
     phase: Angle = 0.0
     """Crank angle by which it leads the first engine, in its own sense of rotation; with
-    four-stroke gas over 720 degrees. Example: 180"""
+    four-stroke gas, its period is 720 degrees. Example: 180"""
     at: Triple = (0.0, 0.0, 0.0)
     """x, y, z of its origin (its crank axis at its z = 0) in the axes of this file.
     Example: [-250, 0, 0]"""
     turn: Angle = 0.0
-    """How far it is turned about z. Example: 90"""
+    """Angle by which the engine is turned about z. Example: 90"""
     load: Switch = False
-    """Whether its crank drives the load; left out in all engines: the first one's does. All true:
-    each has a load of its own. Example: true"""
+    """Whether its crank drives the load; left out in all engines: the first crank drives it. True
+    in all: each crank drives its own load. Example: true"""

@@ -88,13 +88,13 @@ def text(name: str) -> str:
 
 
 def locate(name: str) -> Path:
-    """Return the file of an example; errors as of `text`."""
+    """Return the path of an example's file; errors as for `text`."""
     text(name)
     return _find_paths()[name]
 
 
 def list_engine_files(name: str) -> dict[str, str]:
-    """Return the text of each file of an engine that an example with [[engine]] names."""
+    """Return the texts of the engine files that an example names in [[engine]], by file name."""
     named = tomllib.loads(text(name)).get("engine", ())
     place = locate(name).parent
     return {one["file"]: (place / one["file"]).read_text(encoding="utf-8") for one in named}

@@ -31,7 +31,7 @@ RIGID = "rigid"  # infinite stiffness of a flange or a mesh of gears
 
 
 def printable(text: str) -> str:
-    """Return the first 60 characters, with "?" for characters that control a terminal."""
+    """Return the first 60 characters, with "?" for characters that cannot be printed."""
     cut = text[:LONGEST_SHOWN] + ("..." if len(text) > LONGEST_SHOWN else "")
     return "".join(letter if letter.isprintable() else "?" for letter in cut)
 
@@ -176,7 +176,7 @@ class Number(_Field):
         meaning: float = math.nan,
     ) -> None:
         self.dimension, self.above, self.below, self.most = dimension, above, below, most
-        self.word, self.meaning = word, meaning  # text allowed instead of a number, and its figure
+        self.word, self.meaning = word, meaning  # text allowed instead of a number, and its value
         self.least = -most if least is None and above is None else least
 
     def read(self, value: object) -> float:

@@ -38,7 +38,7 @@ MEAN_PRESSURES = ("imep", "bmep")
 
 
 class GasPoint(FileTable):
-    """Gas at one of several speeds. Between them, its figures and pressures are linear."""
+    """Gas at one of several speeds. Between the speeds, its figures and pressures are linear."""
 
     speed: Speed
     """Crank speed. Example: 1000"""
@@ -104,7 +104,7 @@ class Gas(FileTable):
     intake: PressureAbove0 = 1.0
     """Absolute pressure while the cylinder fills. Example: 1.8"""
     exhaust: Pressure = 1.05
-    """Absolute pressure while the cylinder empties; four-stroke. Example: 1.3"""
+    """Absolute pressure while a four-stroke cylinder empties. Example: 1.3"""
     imep: MeanPressure | None = None
     """Indicated mean effective pressure of a computed cycle; with a diagram, its expected value.
     Example: 10
@@ -114,11 +114,11 @@ class Gas(FileTable):
     mechanical_efficiency: Annotated[float, Number(PLAIN, above=0, most=1)] | None = None
     """Brake over indicated mean effective pressure. Example: 0.85"""
     max_pressure: Pressure | None = None
-    """Absolute highest pressure of a computed cycle, or (dual) the pressure of the burn. Example:
-    70
+    """Highest absolute pressure of a computed cycle; in a dual cycle, the pressure of the second
+    part of the burn. Example: 70
     """
     cut_off: CutOff | None = None
-    """Volume after the burn at constant pressure, divided by the volume before. Example: 2"""
+    """Volume after the burn at constant pressure, divided by the volume before it. Example: 2"""
     heat: Heat | None = None
     """Heat supplied per cycle and cylinder. Example: 1400"""
     burn_start: Angle = -15.0
@@ -133,8 +133,8 @@ class Gas(FileTable):
     """Cycle angle at which the intake closes, four-stroke; left out: lower dead centre. Example:
     580"""
     harmonics: NamedFile | None = None
-    """Builders' table: CSV of order,cos,sin of the mean tangential pressure T/(A r), bar, from
-    the firing dead centre. Example: 'tangential.csv'"""
+    """Table of an engine builder: CSV of order,cos,sin of the tangential pressure T/(A r), bar,
+    over the angle from the firing dead centre. Example: 'tangential.csv'"""
     crankcase: Pressure = 1.0
     """Absolute pressure under the pistons. Example: 1.1"""
     at: Annotated[tuple[GasPoint, ...], Field(max_length=MOST_GAS_POINTS)] = ()
@@ -143,7 +143,7 @@ class Gas(FileTable):
     """Law instead of [[gas.at]]: imep (or bmep) is proportional to the square of the speed and has
     its given value at rated_speed. Example: 'propeller'"""
     rated_speed: Speed | None = None
-    """Speed at which, with law, the engine has its imep or bmep. Example: 120"""
+    """Speed at which the engine has the given imep or bmep, with law. Example: 120"""
 
     @property
     def given(self) -> set[str]:
@@ -164,8 +164,8 @@ class Gas(FileTable):
 
     @property
     def goals(self) -> tuple[str, ...]:
-        """Keys of which exactly one must be given, because it sets the heat; a dual cycle has
-        max_pressure in addition.
+        """Keys of which exactly one must be given, because it sets the heat; a dual cycle
+        also needs max_pressure.
         """
         return tuple(key for key in _GOALS if key != "max_pressure" or self.cycle != "dual")
 
@@ -218,7 +218,7 @@ class Gas(FileTable):
             if high <= low:
                 yield (
                     f"at.{k}.speed = {high:g} rpm does not exceed the {low:g} rpm before it; give "
-                    "the points by rising speed"
+                    "the points in order of rising speed"
                 )
         first, *others = (point.model_fields_set for point in self.at)
         for k, keys in enumerate(others, 2):
@@ -264,7 +264,7 @@ class Gas(FileTable):
 
 
 class Flywheel(FileTable):
-    """A flywheel, with all other parts that the crankshaft drives. [torsion] does not use it."""
+    """A flywheel and all other parts that the crankshaft drives; [torsion] does not use it."""
 
     choices = (
         Choice((("inertia",), ("mass", "radius_of_gyration")), required=True, complete=True),

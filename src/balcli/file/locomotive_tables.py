@@ -42,7 +42,7 @@ class _Factor(Number):
 
 
 class _Load(Number):
-    """A force, or the weight of a mass."""
+    """A force, or a mass, whose weight is the force."""
 
     def _measure(self, value: object) -> float:
         if isinstance(value, str):
@@ -58,12 +58,12 @@ class _OnEachSide(OneOrEach):
 
 
 def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> tuple[float, ...]:
-    """Return two places along the axle; ValueError unless they are two and rise."""
+    """Return two positions along the axle; raise ValueError if they are not a rising pair."""
     if isinstance(value, (list, tuple)) and len(value) == 2:
         first, second = read(value)
         if first < second:
             return first, second
-    told = f"{shorten(value)} is no pair that rises"
+    told = f"{shorten(value)} is not a pair in ascending order"
     raise ValueError(f"{told}; give two z in mm, such as [-750, 750]")
 
 
@@ -118,7 +118,7 @@ class Locomotive(FileTable):
         return self.wheel_diameter and rpm * 60e-6 * math.pi * self.wheel_diameter
 
     def list_axles(self, given: tuple[Axle, ...]) -> tuple[Axle, ...]:
-        """Return the coupled axles of the locomotive, front to rear: those of the file, or one."""
+        """Return the coupled axles, front to rear: those of the file, or a single driving axle."""
         return given or (Axle.model_construct(name="driving", driving=True),)
 
     def find_faults(
@@ -134,7 +134,7 @@ class Locomotive(FileTable):
             given: Axles of the file.
             numbers: Numbers of its cylinders.
             weights: Axle of each counterweight; None: it names none.
-            rpm: Crank speed that the file gives; None: none.
+            rpm: Crank speed that the file gives; None: it gives none.
         """
         axles = self.list_axles(given)
         if self.speed is not None and rpm is not None:

@@ -29,7 +29,7 @@ def _find_classes(keys: str) -> dict[str, type[FileTable]]:
 TABLES = _find_classes("crank rod piston crosshead layout bobweight operation frame")
 DEVICES = _find_classes("counterweight shaft slider")
 KNOWN = (*TEXTS, *TABLES, *CHAPTERS, "cylinder", *DEVICES, *CHAPTER_LISTS)
-# What may stand in a file with [[engine]]; the rest stands in the files of its engines
+# Keys allowed in a file with [[engine]]; all other keys stand in the files of its engines
 _OF_WHOLE = ("operation", "frame", "flywheel", "body", *DEVICES, "engine", "mount", "point")
 BESIDE_ENGINES = (*TEXTS, *_OF_WHOLE)
 
@@ -153,8 +153,8 @@ CHAIN = FileKind("a chain file", "balcli torsion reads", frozenset({"node", "exc
 
 
 def refuse_other_kind(head: Container[str], file: str, *wanted: FileKind) -> None:
-    """Raise an error if the keys at the head of a file show that it is of another kind. A list of
-    all its mistakes would not help then.
+    """Raise an error if the keys at the head of a file show that it is of another kind. In that
+    case a list of all its mistakes would not help.
 
     Args:
         head: Keys at the head of the file.

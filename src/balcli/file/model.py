@@ -1,5 +1,5 @@
-"""The tables of an engine file: one pydantic class per part, in its units (mm, kg, degrees, rpm, kg
-mm^2, g mm, s).
+"""The tables of an engine file: one pydantic class per part, in the units of the file (mm, kg,
+degrees, rpm, kg mm^2, g mm, s).
 
 The tables only check figures. Values that follow from them (rod length from its ratio, inertia from
 a pendulum test) are computed by the package `engine`. pydantic builds a validator only for tables
@@ -85,7 +85,7 @@ class Crank(FileTable):
     """Unbalanced mass of one whole throw, referred to the crank radius; its pins share it
     equally; a list has one for each throw. Example: 0.8"""
     inertia: GivenInertia | None = None
-    """Polar moment of inertia of the whole crankshaft with throws and counterweights, for its
+    """Polar moment of inertia of the whole crankshaft with throws and counterweights, for
     uneven speed. Example: 90000"""
     splay: Angle = 0.0
     """Split pins: angle by which each further bank's pin leads the one before it. Example: -30"""
@@ -102,7 +102,7 @@ class Crank(FileTable):
 
 
 class Pendulum(FileTable):
-    """A pendulum test of a rod: swung about one of its bores."""
+    """A pendulum test: the rod swings about one of its bores."""
 
     pivot: Annotated[str, OneOf("small_end", "big_end")]
     """The bore about whose centre the rod swings. Example: 'small_end'"""
@@ -111,7 +111,7 @@ class Pendulum(FileTable):
 
 
 class RodKeys(FileTable):
-    """Keys of all rods."""
+    """Keys that every kind of rod has."""
 
     choices = (
         Choice((("length",), ("ratio",)), required=True),
@@ -166,7 +166,7 @@ class Piston(FileTable):
     mass: Mass | None = None
     """Piston, pin, rings and locks together. Example: 0.5"""
     piston: Mass | None = None
-    """The bare piston, instead of mass, which is then the sum of the parts. Example: 0.36"""
+    """The bare piston; all four parts together replace mass. Example: 0.36"""
     pin: Mass | None = None
     """Piston pin. Example: 0.1"""
     rings: Mass | None = None
@@ -174,7 +174,7 @@ class Piston(FileTable):
     locks: Mass | None = None
     """Both locks (clips) of the pin. Example: 0.004"""
     skirt: Distance | None = None
-    """From the pin's axis to the lowest edge, towards the crank; for the clearance of
+    """Distance from the pin's axis to the edge nearest the crank; for the clearance of
     counterweights. Example: 38"""
     offset: Length = 0.0
     """Offset of the piston pin's path, positive towards the side to which the crank pin moves after
@@ -195,11 +195,11 @@ class Layout(FileTable):
     choices = (Choice((("bank_angle",), ("banks",), ("radial",))),)
 
     bank_angle: Angle | None = None
-    """Angle of a vee: its banks are at minus and plus half of it. Example: 90"""
+    """Angle of a vee: its banks are at minus and plus half this angle. Example: 90"""
     banks: Angles | None = None
     """Angle of every bank. Example: [-90, 90]"""
     radial: Count | None = None
-    """Number of banks, evenly round the crank. Example: 9"""
+    """Number of banks, evenly spaced round the crank. Example: 9"""
     rows: Count | None = None
     """Rows of a radial, each on a throw of its own; left out: one row for each throw. Example:
     2"""
@@ -207,8 +207,8 @@ class Layout(FileTable):
     """Angle by which each further row of a radial is turned from the one before it; left out: the
     banks of all rows are evenly spaced, or in line if rows is left out. Example: 25.714"""
     rods: Annotated[str, OneOf("shared", "alternating")] = "shared"
-    """Shared: every throw carries one rod of each bank; alternating: the throws take the banks
-    in turn. Example: 'alternating'"""
+    """Shared: every throw carries one rod of each bank; alternating: every throw carries one
+    rod, of each bank in turn. Example: 'alternating'"""
     stagger: Length = 0.0
     """Axial distance of adjacent rods on a throw, first bank towards the free end. Example: 22"""
     firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
@@ -347,7 +347,7 @@ class Override(FileTable):
     indicator: Annotated[str, FileName()] | None = None
     """gas.indicator of this cylinder. Example: 'p_3.csv'"""
     stroke: Size | None = None
-    """Twice the radius of this cylinder's pin, where it differs from that of its throw.
+    """Twice the radius of this cylinder's pin, if it differs from that of its throw.
     Example: 85"""
     bank: Angle | None = None
     """Angle of this cylinder's axis. Example: 30"""
@@ -427,7 +427,7 @@ class Counterweight(Device):
         elif is_sized and self.sector.opening == 360:
             yield "has a sector with opening = 360, which has no unbalance; give less than 360"
         elif self.unbalance is not None and self.unbalance < 0:
-            yield f"has a sector and unbalance = {self.unbalance:g}; turn its angle by 180 deg"
+            yield f"has a sector and unbalance = {self.unbalance:g} < 0; turn its angle by 180 deg"
 
 
 class Gear(FileTable):
@@ -438,7 +438,7 @@ class Gear(FileTable):
     radius: Size
     """Pitch radius. Example: 35"""
     direction: Angle
-    """Direction from the shaft's axis to the mesh, from the x axis. Example: 90"""
+    """Direction from the shaft's axis to the mesh, measured from the x axis. Example: 90"""
     pressure_angle: PressureAngle = 20.0
     """Pressure angle. Example: 20"""
 
@@ -460,7 +460,7 @@ class Shaft(Device):
     at: Place = (0.0, 0.0)
     """x, y of the shaft. Example: [-40, 60]"""
     role: Annotated[str, OneOf("balancer", "compensator")] = "balancer"
-    """Compensator: a device far from the engine, whose force makes a moment and is meant to remain.
+    """Compensator: a device far from the engine; its force makes a moment and is meant to remain.
     Example: 'balancer'"""
     inertia: Inertia = 0.0
     """Polar moment of inertia about its own axis, for an uneven speed and for sizing the flywheel.
@@ -470,7 +470,7 @@ class Shaft(Device):
     gear: Gear | None = None
     """The gear that drives it."""
     drag: Drag = 0.0
-    """Torque of friction at the shaft, which its gear transmits. Example: 0.2"""
+    """Friction torque on the shaft, which its gear transmits. Example: 0.2"""
 
     def _check_bearings(self) -> Iterator[str]:
         if self.bearings is not None and self.bearings[0] == self.bearings[1]:
@@ -487,7 +487,7 @@ class Slider(Device):
     angle: Angle = 0.0
     """Phase at crank angle 0: displacement ~ cos(order * theta + angle). Example: 180"""
     at: Place = (0.0, 0.0)
-    """x, y of its middle. Example: [0, 0]"""
+    """x, y of the middle of its path. Example: [0, 0]"""
 
 
 class EngineFile(FileTable):
@@ -539,23 +539,23 @@ class EngineFile(FileTable):
 
     @property
     def cranks(self) -> "tuple[EngineFile, ...]":
-        """The files of the engines that are geared together; an ordinary file is its own."""
+        """Files of the engines that are geared together; of an ordinary file, the file itself."""
         return self._cranks or (self,)
 
     def with_cranks(self, cranks: Sequence["EngineFile"]) -> Self:
-        """Return a copy of this file, which has [[engine]], with these files of its engines."""
+        """Return a copy of this file with the engine files that its [[engine]] tables name."""
         copy = self.model_copy()
         copy._cranks = tuple(cranks)
         return copy
 
     @property
     def crank_names(self) -> tuple[str, ...]:
-        """Names of the engines of [[engine]]: their own, or letters."""
+        """Names of the engines in [[engine]]; an engine without a name has a letter."""
         return tuple(one.name or chr(ord("A") + k) for k, one in enumerate(self.engine))
 
     @property
     def has_gas(self) -> bool:
-        """Whether the engine has [gas], or one of several that are geared together."""
+        """Whether the engine has [gas]; of engines geared together, at least one."""
         return any(crank.gas is not None for crank in self.cranks)
 
     def with_table(self, key: str, **values: object) -> Self:
@@ -593,7 +593,7 @@ class Articulation(FileTable):
 
     master: Counts = 1
     """Number of the bank that carries the master rod; in a radial in rows, place of the master rod
-    in the row. A list has one for each row. Example: 1"""
+    in the row. A list has a number for each row. Example: 1"""
     knuckle_radius: Size
     """Distance from the crank pin to the knuckle pins. Example: 55"""
     knuckle_angles: AnglesOfRows | None = None
@@ -605,5 +605,5 @@ class Articulation(FileTable):
 
     @property
     def masters(self) -> tuple[int, ...]:
-        """Place of the master rod in every row, or the one for all."""
+        """Number (`master`) for each row, or a single number for all rows."""
         return self.master if isinstance(self.master, tuple) else (self.master,)

@@ -44,11 +44,11 @@ class Body(FileTable):
     cg: Triple
     """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
     inertia: Tensor
-    """Elements xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity (products
-    of inertia with minus). Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
+    """Elements xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity; xy, yz and
+    zx are the negative products of inertia. Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
     1.34e6, -0.472e6]"""
     gravity: Direction = (-1.0, 0.0, 0.0)
-    """Direction of the weight, of any length. Example: [-1, 0, 0]"""
+    """Direction of the weight, a vector of any length. Example: [-1, 0, 0]"""
     carries_load: Switch = False
     """Whether the load that takes the engine's torque is also on the body, such as the generator of
     a genset; then no mount carries the mean torque. Example: true
@@ -73,13 +73,13 @@ def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
         if value**2 >= square:
             yield (
                 f"inertia {name} is {as_written(value, UNIT)}; with {2 * name[0]} "
-                f"and {2 * name[1]} it must be within {math.sqrt(square):g} {UNIT}"
+                f"and {2 * name[1]} its magnitude must be below {math.sqrt(square):g} {UNIT}"
             )
             return
     if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
         yield (
             "inertia xy, yz and zx are together too large: the tensor is not positive definite "
-            "(they are elements of the matrix: products of inertia with minus)"
+            "(as elements of the matrix they are the negative products of inertia)"
         )
 
 
@@ -97,8 +97,8 @@ class Mount(FileTable):
     453]
     """
     axes: Directions | None = None
-    """First and second axis of the mount, in the engine's axes, perpendicular, of any length; left
-    out: x, y, z. Example: [[0, 1, 0], [-1, 0, 0]]
+    """First and second axis of the mount: perpendicular vectors of any length in the engine's axes;
+    left out: x and y. Example: [[0, 1, 0], [-1, 0, 0]]
     """
     angles: Turns | None = None
     """Angles by which the mount's axes are turned about x, then y, then z, instead of axes.
@@ -107,7 +107,7 @@ class Mount(FileTable):
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""
     damping: Dampings = (0.0, 0.0, 0.0)
-    """Viscous damping along its three axes, or one figure for all. Example: [0.4, 0.4, 0.4]
+    """Viscous damping along its three axes, or one figure for all three. Example: [0.4, 0.4, 0.4]
     """
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0
     """Ratio of dynamic to static stiffness; not used for the body at rest. Example: 1.3"""

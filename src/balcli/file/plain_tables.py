@@ -102,7 +102,7 @@ def change_tables(model: EngineFile, changes: Mapping[str, object]) -> Node:
     Args:
         model: Engine file.
         changes: Values by dotted names (`rod.length`, `crank.throws.2`, `mount.left.stiffness.1`);
-            None removes a key. Equivalent keys (`rod.ratio` of `rod.length`) are removed, unless
+            None removes a key. Equivalent keys (`rod.ratio` for `rod.length`) are removed, unless
             they are changed as well.
 
     Raises:
@@ -138,7 +138,7 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
             given = known.get(key) if known else getattr(given, key, None)
             place = place.setdefault(key, _write(given) if isinstance(given, tuple) else {})
         if not isinstance(place, (dict, list)):
-            raise InputError([Problem(path, f"{key} is one value, with nothing below it")])
+            raise InputError([Problem(path, f"{key} is a single value without parts")])
     return place, given
 
 
@@ -193,7 +193,7 @@ def choose_assumed(
 
 
 def join_assumed(each: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """Return what engines assume: first the lines that all share, then others after their name."""
+    """Return the defaults of several engines: first those of all, then `NAME.KEY = VALUE` lines."""
     lists = [*each.values()]
     common = [line for line in lists[0] if all(line in lines for lines in lists)]
     own = (f"{name}.{x}" for name, lines in each.items() for x in lines if x not in common)

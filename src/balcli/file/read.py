@@ -43,8 +43,8 @@ T = TypeVar("T", bound=FileTable)
 
 
 def refuse(problems: Iterable[Problem], name: str) -> InputError:
-    """Return one error that lists the first mistakes and the number of the others. A misspelt key
-    is not listed as missing as well.
+    """Return one error that lists the first mistakes and the number of the others. A key
+    that is probably misspelt is not listed as missing as well.
 
     Args:
         problems: All mistakes of a file.
@@ -112,7 +112,7 @@ class TableReader:
             table: Class of the table.
         """
         if isinstance(value, list) and value and all(isinstance(one, Mapping) for one in value):
-            self.add(path, f"is given once, in single brackets: [{path}]")
+            self.add(path, f"may be given only once, in single brackets: [{path}]")
             return None
         if not isinstance(value, Mapping):
             hint = f"write {format_heading(path)} and its keys below it"
@@ -238,11 +238,11 @@ def check_tables(
     """
     refuse_other_kind(data, name, ENGINE)
     inner = data.get("engine")
-    slip = isinstance(inner, Mapping) and "file" not in inner  # a heading for what has none
+    slip = isinstance(inner, Mapping) and "file" not in inner  # a mistaken heading
     geared = bool(inner) and not slip
     body_alone = "body" in data and not geared and not any(key in data for key in REQUIRED)
     if body_alone and not bare:
-        message = "has a body on mounts and no engine, which balcli mounts reads; an engine has "
+        message = "has a body on mounts and no engine: balcli mounts reads it; an engine needs "
         raise InputError([Problem("", f"{message}[crank], [rod] and [piston]")], name)
     reader = TableReader(ENGINE.name, is_engine=True)
     known = [key for key in KNOWN if key != "engine" or not slip]
@@ -335,7 +335,7 @@ def _read_text(reader: TableReader, key: str, value: object) -> str | None:
 
 def _read_cylinders(reader: TableReader, value: object) -> dict[int, Override | None]:
     if isinstance(value, list):
-        reader.add("cylinder", "has a table for each cylinder that differs, such as [cylinder.3]")
+        reader.add("cylinder", "write a table for each cylinder that differs, such as [cylinder.3]")
         return {}
     cylinders: dict[int, Override | None] = {}
     for key, part in value.items() if isinstance(value, Mapping) else [("", value)]:

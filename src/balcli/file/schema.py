@@ -34,7 +34,7 @@ def describe_engine_file() -> Node:
         for choice in table.choices:
             if choice.required:
                 others = [*choice.instead, *([choice.unless] if choice.unless else [])]
-                others += ["at"] * (table is chapters["Gas"])  # its points may have the key
+                others += ["at"] * (table is chapters["Gas"])  # [[gas.at]] may have the key instead
                 ways = (*choice.groups, *((key,) for key in others))
                 rules.append({"anyOf": [{"required": list(group)} for group in ways]})
             for group, other in combinations(choice.groups, 2):

@@ -133,7 +133,7 @@ class FileTable(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
     choices: ClassVar[tuple[Choice, ...]] = ()
-    by_number: ClassVar[bool] = False  # whether dotted names count such tables, whatever their name
+    by_number: ClassVar[bool] = False  # whether dotted names always have numbers
 
     @model_validator(mode="after")
     def _consistent(self) -> FileTable:
@@ -158,7 +158,7 @@ class FileTable(BaseModel):
         return self.model_fields_set
 
     def check_below(self, inner: str, outer: str) -> Iterator[str]:
-        """Yield the contradiction if a length (mm) such as a bore is not below the one around it.
+        """Yield the contradiction if a length (mm) such as a bore is not below that around it.
 
         Args:
             inner: Key of the length.
@@ -208,7 +208,7 @@ def document_keys(table: type[FileTable]) -> dict[str, KeyDocument]:
         if issubclass(base, FileTable) and base is not FileTable:
             found |= _read_documents(base)
     for key, field in table.keys().items():
-        if field.description:  # a table that uses pydantic's own words
+        if field.description:  # a table may use pydantic's own descriptions
             found[key] = KeyDocument(field.description, *(field.examples or ())[:1])
     return found
 

@@ -47,7 +47,7 @@ def read_bytes(source: str | Path) -> bytes:
         BalcliError: The file cannot be read.
     """
     if not str(source):
-        raise BalcliError('no file is named: ""')
+        raise BalcliError('a file name is missing: ""')
     try:
         if str(source) == "-":
             return sys.stdin.buffer.read(LARGEST_FILE_BYTES + 1)

@@ -36,14 +36,14 @@ _PendulumOrder = Annotated[float, Number(PLAIN, above=0, most=1e3)]
 _PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
-STEEL = 7.85  # g/cm3
+STEEL = 7.85  # density of steel, g/cm3
 
 
 class ShaftKeys(FileTable):
     """Keys of a shaft: its stiffness, or the dimensions and modulus from which it follows."""
 
     stiffness: Stiffness | None = None
-    """Torsional stiffness at the shaft's own speed; "rigid" for a flange or a mesh. Example:
+    """Torsional stiffness, not reduced by gears; "rigid" for a flange or a mesh. Example:
     1.25e6"""
     diameter: Size | None = None
     """Diameter of the shaft, needed for its stress. Example: 85"""
@@ -83,7 +83,7 @@ class ShaftKeys(FileTable):
 
     def _check_density(self) -> Iterator[str]:
         if self.density is not None and (self.length is None or self.diameter is None):
-            yield "has a density, and no length and diameter of a plain shaft that has it"
+            yield "has a density; also give length and diameter of a plain shaft, or leave it out"
 
 
 _KEYS_OF_KIND = {
@@ -180,7 +180,7 @@ def find_shaft_inertia(shaft: ShaftKeys, density: float | None) -> float:
 
     Args:
         shaft: Table of the shaft.
-        density: Density of its steel, g/cm3.
+        density: Density of its material, g/cm3.
     """
     length = (shaft.length or 0.0) / 1e3
     return (density or 0.0) * 1e3 * _find_polar_moment(shaft) * length if length else 0.0
@@ -257,7 +257,7 @@ class Torsion(ChainKeys):
     throw_diameter: Size | None = None
     """Diameter of the crankshaft between throws, needed for its stress. Example: 85"""
     throw_bore: Size | None = None
-    """Diameter of its bore, if it has one. Example: 30"""
+    """Diameter of the crankshaft's bore between throws, if it has one. Example: 30"""
     damping: Damping = 0.0
     """Damping at every cylinder against ground. Example: 2"""
     front: _Parts = ()

@@ -50,8 +50,8 @@ A amp ampere V volt ohm mol mole cd candela = 1 of_another_kind
 _AMBIGUOUS = """
 gr = g, or grain (65 mg)?; gm = g, or gigametre?; Mm = mm, or megametre?; MG = mg, or Mg (1000 kg)?
 NM = N m, or nanometre?; ton = t (1000 kg), or 2000 lb, or 2240 lb?; cwt = 100 lb, or 112 lb?
-barg = bar over the atmosphere? Absolute it is 1.01325 bar more,
-psig = psi over the atmosphere? Absolute it is 14.696 psi more,
+barg = bar above the atmosphere? The absolute pressure is 1.01325 bar higher,
+psig = psi above the atmosphere? The absolute pressure is 14.696 psi higher,
 grad grade Grad = deg, or gon (0.9 deg)?; cycle = turn, or the two of a four-stroke engine?
 cpm = rpm, or cycles of two turns in a minute?; cal = 4.184 J, or 4.1868 J?
 kcal = 4184 J, or 4186.8 J?
@@ -121,7 +121,7 @@ class Dimension(NamedTuple):
 
     @property
     def powers(self) -> tuple[int, ...]:
-        """Exponents of its unit."""
+        """Exponents of m, kg, s and turns in its unit."""
         return read_unit(self.unit, self).powers
 
 
@@ -225,7 +225,7 @@ _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,4})?"
 _FACTOR = r"[A-Za-zµμ°_]+(?:(?:\^|\*\*)-?[1-9]|[23])?"
 _JOINT = r"\s*[*·⋅/]\s*|[.-]|\s+"
 _UNIT = rf"{_FACTOR}(?:(?:{_JOINT}){_FACTOR})*"
-_WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # of "3 1/2" and "3-1/2"
+_WHOLE = r"(\d+)(?:\s+|-)(?=[1-9]\d*\s*/)"  # the 3 of "3 1/2" or "3-1/2"
 FIGURE = rf"\s*([+-]?)(?:{_WHOLE})?({_NUMBER})(?:\s*/\s*({_NUMBER}))?\s*({_UNIT})?\s*"
 _LARGE_AND_SMALL = r"\s*([+-]?)(\d+ *[A-Za-z]+) +(\d.*[A-Za-z])\s*"  # 1 lb 4 oz, 3 ft 2 1/2 in
 # A crank speed in 1/min or Hz counts turns. 1/s is rejected, because it often means rad/s.
@@ -324,7 +324,7 @@ def _measure(figure: str, dimension: Dimension) -> Fraction:
         one = re.sub(r"\d+", "1", large)
         whole, rest, least = (_measure(part, dimension) for part in (large, small, one))
         if rest >= least:
-            raise ValueError(f'has "{small}" after "{large}", which is not less than "{one}"')
+            raise ValueError(f'has "{small}" after "{large}"; it must be less than "{one}"')
         return -(whole + rest) if sign == "-" else whole + rest
     if found is None:
         raise ValueError(f"{_explain(figure)} {wanted(dimension)}")
@@ -355,11 +355,11 @@ def _explain(figure: str) -> str:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """Return a speed in turns, and an angle in multiples of pi as a number with the unit pi."""
+    """Return a speed spelt in turns, and an angle in multiples of pi spelt with the unit pi."""
     if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
         counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
         return re.sub(_PER_MINUTE, r"\1 rpm", counted)
-    # "3 pi/4 rad" -> "3/4 pi", half a turn being the unit
+    # "3 pi/4 rad" -> "3/4 pi"; the unit pi is half a turn
     parts = re.fullmatch(_PI, figure, re.ASCII) if dimension is ANGLE else None
     return f"{parts[1]}{parts[2] or 1}/{parts[3] or 1} pi" if parts else figure
 
@@ -379,7 +379,7 @@ def _split(figure: str) -> tuple[Fraction, str] | None:
 
 @cache
 def read_unit(names: str, dimension: Dimension) -> Unit:
-    """Return the product of the parts of a unit.
+    """Return a unit as the product of its parts.
 
     Args:
         names: Names of the parts, such as "kg mm^2".

@@ -3,15 +3,15 @@ and loads of the main bearings.
 
 Inertia: the shaft is rigid. At each section the shear force is the sum of all loads towards the
 free end, and the bending moment is their moment about the section, `i sum (z_i - z) F_i` (M_x +
-iM_y). Behind the last load, these are the free force and moment (about the last load). The bending
-moment is linear between loads, so its largest values are at loads.
+iM_y). Behind the last load, these are the free force and the free moment about this load. The
+bending moment is linear between loads, so its largest values are at loads.
 
 Gas and inertia: the shaft is treated as cut in each main bearing, so that every span is statically
 determinate. The shaft carries the forces of the rods, of the masses that turn with the throws and
-of counterweights, and the bearings hold it. The block carries the gas on each head, the piston on
-each cylinder wall, the shaft on each bearing, and balancer shafts and sliders. Gas presses equally
-on throw and head. So in every section, the loads of shaft and block add up to the inertia loads
-(with the devices of the block).
+of counterweights, and the bearings hold it. The block carries the forces of gas on heads, of
+pistons on cylinder walls, of the shaft on bearings, and of balancer shafts and sliders. Gas presses
+equally on throw and head. So in every section, the loads of shaft and block add up to the inertia
+loads (including those of balancer shafts and sliders).
 """
 
 from __future__ import annotations
@@ -258,8 +258,8 @@ class BearingsUnknownError(BalcliError):
 
 
 def add_gas_loads(inner: InnerLoads, engine: Engine, orders: Array | None = None) -> InnerLoads:
-    """Return the internal loads with loads of inertia and gas, if they are known; other errors as
-    for `compute_loads_with_gas`.
+    """Return the internal loads with those of inertia and gas; if these are not known, with the
+    reason (`obstacle`). Other errors are as for `compute_loads_with_gas`.
 
     Args:
         inner: Internal loads of inertia.

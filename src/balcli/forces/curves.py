@@ -5,7 +5,7 @@ crank speed omega, crank acceleration xi and a prime for the derivative by the c
 force is -(omega^2 G' + xi G), the couple -(omega^2 h' + xi h) and the inertia torque -(1/2 I'
 omega^2 + xi I). Sums below the rounding error of their terms (docs/theory.md) are set to 0.
 
-Gas: torque of all cylinders on the crank over the cycle, with and without the inertia torque.
+Gas: the torque of all cylinders on the crank over the cycle, with and without inertia torque.
 """
 
 from __future__ import annotations
@@ -49,17 +49,6 @@ def divide_revolution(step: float = 1.0, revolutions: int = 1) -> Array:
     return np.round(steps * step, 12)  # 3 steps of 0.1 are 0.3
 
 
-def compute_cylinder_torque(engine: Engine, row: int, crank_deg: Array) -> Array:
-    """Return the inertia torque of one cylinder, N m, shape (angles,).
-
-    Args:
-        engine: Engine without trailing axes.
-        row: Row of the cylinder, from 0.
-        crank_deg: Crank angles, deg, shape (angles,).
-    """
-    return _torque_of_cylinders(EngineMotion(engine, crank_deg))[row]
-
-
 def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
     """Return the inertia torque of all cylinders on the crank, N m, shape (angles,).
 
@@ -68,7 +57,7 @@ def compute_inertia_torque(engine: Engine, crank_deg: Array) -> Array:
         crank_deg: Crank angles, deg, shape (angles,).
     """
     motions = (EngineMotion(one.engine, crank_deg + one.phase_deg) for one in engine.cranks)
-    return np.asarray(sum(_torque_of_cylinders(motion).sum(axis=0) for motion in motions))
+    return np.asarray(sum(torque_of_cylinders(motion).sum(axis=0) for motion in motions))
 
 
 def compute_piecemeal(
@@ -162,7 +151,7 @@ def compute_device_forces(engine: Engine, crank_deg: Array) -> Complex:
     return rows
 
 
-def _torque_of_cylinders(motion: EngineMotion) -> Array:
+def torque_of_cylinders(motion: EngineMotion) -> Array:
     """Return the inertia torque of each cylinder on the crank, N m, shape (cylinders, angles), from
     I = m_rec s'^2 + m_rot r^2 - H spin^2 (+ masses of the linkage).
     """
@@ -214,7 +203,7 @@ def find_torque_curves(engine: Engine) -> TorqueCurves:
 
     gas, times = take_gas(engine), count_repeats(engine)
     cylinders = [(c.torque, c.fires, c.share) for c in gas.cylinders]
-    # A two-stroke engine's cycle comes twice in the one of a four-stroke engine geared to it
+    # A two-stroke engine geared to a four-stroke one has two cycles in each of the other's
     twice = [c for c in gas.cylinders if engine.placed and 1.5 * c.torque.curve.period < gas.cycle]
     cylinders += [(c.torque, c.fires + c.torque.curve.period, 0.0) for c in twice]
     once = crank_torque(cylinders, gas.cycle / times)
@@ -271,8 +260,8 @@ def find_moving_inertia(engine: Engine) -> Function:
 
 
 def find_constant_inertia(engine: Engine) -> float | None:
-    """Return the moment of inertia of all that turns in a constant ratio to the crank, at the
-    crank, kg m2; None where the file gives none.
+    """Return the moment of inertia of all parts that turn in a constant ratio to the crank,
+    referred to the crank, kg m2; None where the file gives none.
     """
     crank = None if engine.rotary else engine.crank_inertia
     found = float(engine.find_turning_inertia().energy)

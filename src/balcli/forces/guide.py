@@ -1,5 +1,5 @@
-"""Compute guide-force moments of inertia and gas, as builders of large engines state them. As
-quantities of variants, they are called `guide.6.H` and `guide.4.5.X`.
+"""Compute guide-force moments of inertia and gas, as builders of large engines state them. Sweep,
+search and scatter name them `guide.6.H` and `guide.4.5.X`.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def compute_guide_moments(
     about_crank = replace(engine, reference_m=(0.0, 0.0, z_ref))
     roll = "roll" if engine.gas is None else "roll_total"
     every = find_relevant_orders(engine) if orders is None else orders
-    if orders is None and engine.gas is not None:  # no more orders than are shown for gas
+    if orders is None and engine.gas is not None:  # only orders that are listed for gas
         few = every[every <= HIGHEST_GAS_ORDER_UNASKED]
         every = merge_orders(few, list_gas_orders(engine))
     rolls = compute_spectra(about_crank, every, [roll], each=True)[roll]
@@ -91,7 +91,7 @@ def _sum_weighted(rolls: Phasors, weights: Array) -> Phasors:
 
 
 def list_names(model: EngineFile) -> Iterator[str]:
-    """Yield the names of an engine's quantities, with N for the order."""
+    """Yield the names of the guide-force quantities that an engine has, with N for the order."""
     if model.engine:
         return
     yield "guide.N.H"
@@ -113,8 +113,8 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     for q in quantities:
         if parse_order(q.target) is None:
             raise BalcliError(
-                f"{q.name} is not a quantity: after guide comes an order to {HIGHEST_ORDER}, as in "
-                "guide.6.H"
+                f"{q.name} is not a quantity: after guide comes an order up to {HIGHEST_ORDER}, as "
+                "in guide.6.H"
             )
     of_x = [q for q in quantities if q.part == "X"]
     if of_x and _find(model).x is None:

@@ -1,7 +1,7 @@
 """Define quantities, the single figures of an engine that sweep, search and scatter evaluate.
 
-Their names are such as `force.2.major` or `peak.moment`; names of figures of a mode, mount or other
-target are such as `mode.3.Hz`, `mount.left.force` or `guide.6.H`.
+They have names such as `force.2.major` or `peak.moment`; figures of a mode, mount or other target
+have names such as `mode.3.Hz`, `mount.left.force` or `guide.6.H`.
 """
 
 from __future__ import annotations
@@ -190,7 +190,8 @@ def _group_by_orders(quantities: Iterable[Quantity]) -> list[tuple[list[float], 
 
 @dataclass(frozen=True)
 class TargetQuantity:
-    """One figure of a chapter, such as torsion or mounts; most have a target: `kind.target.part`.
+    """One figure of a chapter such as torsion or mounts. Most figures have a target, such as a
+    mount: `kind.target.part`.
 
     Attributes:
         name: Name as a user writes it.

@@ -4,8 +4,8 @@ along the rod and on its lower pin. They are exact for a rod of distributed mass
 In the cylinder's frame, u points along the axis away from the crank, and v is 90 deg ahead in the
 sense of rotation. The piston pin is at p, the lower pin of the rod (crank pin, or knuckle pin of an
 articulated rod) at f, and `d = p - f`. A rod is equivalent to two masses at its ends (a at the
-small end, b at the big end) and a massless couple of inertia -H (docs/theory.md). With the gas
-force P towards the crank, the piston mass M and the rod's angular acceleration alpha,
+small end, b at the big end) and a massless body with the moment of inertia -H (docs/theory.md).
+With the gas force P towards the crank, the piston mass M and the rod's angular acceleration alpha,
 
     W_x = M Re p'' + P                                    rod on piston
     W_y = (Im d (W_x + a Re p'') + H alpha + S)/Re d - a Im p''
@@ -14,7 +14,7 @@ force P towards the crank, the piston mass M and the rod's angular acceleration 
 
 Derivatives are by time; p'' has a component across the axis only if the cylinder itself turns. K
 are the forces of articulated rods on the knuckle pins of a master rod, S is their moment about its
-crank pin. The crank pins, at c, make the torque `Im(conj(c) (-Q))`, which agrees with virtual work.
+crank pin. The crank pin, at c, gives the torque `Im(conj(c) (-Q))`, which agrees with virtual work.
 """
 
 from __future__ import annotations
@@ -116,7 +116,7 @@ def list_hung_rows(engine: Engine) -> dict[int, list[int]]:
     are none.
     """
     linkage = engine.cylinders.linkage
-    rods = getattr(linkage, "hung", linkage)  # those of a rotary engine are part of its linkage
+    rods = getattr(linkage, "hung", linkage)  # a rotary engine has them in `Rotary.hung`
     found: dict[int, list[int]] = {}
     for row, master in enumerate(getattr(rods, "master", np.zeros(0)).tolist()):
         if row != master:

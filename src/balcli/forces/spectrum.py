@@ -157,7 +157,7 @@ def compute_spectra(
 
 
 def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: bool) -> Spectra:
-    """Return the spectra of engines that are geared together; arguments as of `compute_spectra`."""
+    """Return the spectra of engines that are geared together; arguments as in `compute_spectra`."""
     if not GAS_KINDS.keys().isdisjoint(kinds) and engine.gas_of_variants is None:
         take_gas(engine)
     every = [place_spectra(one, orders, kinds, each=each) for one in engine.cranks]
@@ -171,18 +171,18 @@ def _add_cranks(engine: Engine, orders: Array, kinds: Collection[str], *, each: 
 def place_spectra(
     one: Placed, orders: Array, kinds: Collection[str], *, each: bool = False
 ) -> dict[str, Phasors]:
-    """Return phasors of an engine where it stands among others, by the crank angle of the first.
+    """Return the phasors of one of several geared engines, over the crank angle of the first one.
 
     A crank that turns against the first makes its engine a mirror image (y changes its sign): a
     force becomes its conjugate, and moment and couple change their sign as well. Kinetic energies
-    add, so that a torque counts as it is, whichever way its crank turns; the frame does not bear
-    what the load takes: the roll is the couple less the torque in the sense of the load.
+    add, so a torque keeps its sign, whichever way its crank turns. The load takes part of the
+    reaction: the roll of the frame is the couple less the torque in the sense of the load.
 
     Args:
-        one: The engine, about the point of reference of all.
+        one: The engine, with the point of reference of all engines.
         orders: Orders, shape (orders,).
         kinds: Names of the kinds.
-        each: Phasors of each of its cylinders, as of `compute_spectra`.
+        each: Whether to return the phasors of each cylinder, as in `compute_spectra`.
     """
     fires = one.engine.gas is not None or one.engine.gas_of_variants is not None
     parts = {part for name in kinds for part in EVERY_KIND[name].parts}
@@ -199,7 +199,7 @@ def place_spectra(
 
 
 def _see(one: Placed, kind: Kind, own: Phasors) -> Phasors:
-    """Return the phasors of a kind as all see them, from those of an engine alone."""
+    """Return the phasors of a kind in the common axes, from those of an engine alone."""
     n = own.orders.reshape(-1, *(1,) * (own.forward.ndim - 1))
     lead = unit(n * one.phase_deg)
     forward, backward = lead * own.forward, np.conj(lead) * own.backward
@@ -289,7 +289,7 @@ def with_only(engine: Engine, moving: ArrayLike) -> Engine:
 def _compute_inertia(
     engine: Engine, orders: Array, parts: Collection[str], each: bool
 ) -> dict[str, Phasors]:
-    """Return the phasors of some kinds of inertia by name; arguments as for `compute_spectra`."""
+    """Return the phasors of some kinds of inertia by name; arguments as in `compute_spectra`."""
     c, (x, y, z), uneven = engine.cylinders, engine.reference_m, bool(engine.ripple)
     names = [name for name in KINDS if name in parts]
     if not names:
@@ -418,7 +418,7 @@ def find_relevant_orders(engine: Engine) -> Array:
 
 def list_gas_orders(engine: Engine, highest: float = HIGHEST_GAS_ORDER_UNASKED) -> Array:
     """Return orders of gas torque, shape (orders,): multiples of 1/2 (of 1 in two-stroke engines).
-    If the order of firing is higher, add it and its double, because all lower ones may cancel.
+    If the order of firing is above `highest`, add it and its double: all lower ones may cancel.
 
     Args:
         engine: Engine with gas.
@@ -466,7 +466,7 @@ def merge_orders(*several: Iterable[float]) -> Array:
     return np.array(sorted({float(order) for orders in several for order in orders}))
 
 
-_LEAST = 24  # the largest harmonic is among this number of harmonics
+_LEAST = 24  # the largest harmonic of a gas torque is among the first of this number
 _QUADRATURE = 8 * EPS  # error of a coefficient, relative to the largest one
 
 
@@ -521,7 +521,7 @@ def follow_gas(engine: Engine, find: Callable[[Engine], Complex]) -> GasAtSpeeds
 
 
 def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> Phasors:
-    """Return the torque of the gas on the crank, N m; small orders are not yet set to 0.
+    """Return the torque of the gas on the crank, N m; rounding errors are not yet set to 0.
 
     Args:
         engine: Engine with gas, without trailing axes, or variants with `gas_of_variants`.
@@ -552,7 +552,7 @@ def compute_gas_torque(engine: Engine, orders: Array, *, each: bool = False) -> 
 
 
 def _turn(cylinder: CylinderGas, orders: Array) -> Complex:
-    """Return e^{-i n f}. The turn by the nominal angle is exact, so that evenly firing cylinders
-    cancel exactly.
+    """Return e^{-i n f} by order n, f being the crank angle of firing. The turn by the nominal
+    angle is exact, so that evenly firing cylinders cancel exactly.
     """
     return np.exp(-1j * orders * cylinder.piston.top) * unit(-orders * cylinder.nominal_deg)

@@ -2,11 +2,11 @@
 
 Each cylinder contributes two vectors to an order of the free force: one turns with the crank, one
 against it (`core.phasors`). Drawn from one point, at crank angle 0, the vectors that turn one way
-are the star of the order; in a line of equal cylinders, that of order n has the directions n times
-the crank angles. Put one after the other, they form a polygon. If it closes, the sum is 0 and this
-part of the force is balanced. The same holds for the moment, whose vectors are those of the force
-times their distance along the crank, a quarter turn ahead. Source: W. Thomson, Fundamentals of
-Automotive Engine Balance.
+are the star of the order; in an in-line engine with equal cylinders, the directions in the star of
+order n are n times the crank angles. Put one after the other, the vectors form a polygon. If it
+closes, their sum is 0 and this part of the force is balanced. Moments have stars as well: each
+vector is that of the force times the cylinder's distance along the crank, turned ahead by a quarter
+turn. Source: W. Thomson, Fundamentals of Automotive Engine Balance.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Bank(NamedTuple):
     """Vectors of the cylinders of one bank, and their sums.
 
     Attributes:
-        axis_deg: Direction of the bank, from x; null for cylinders that stand alone.
+        axis_deg: Direction of the bank, from x; null if several banks count as one (`Star.banks`).
         force: Sum of the vectors of force.
         cylinders: Vectors of each cylinder, by number.
         moment: Sum of the vectors of moment; omitted if it is not known.
@@ -59,8 +59,8 @@ class Bank(NamedTuple):
 
     @property
     def directions(self) -> dict[float, list[CylinderNumber]]:
-        """Cylinders by the direction of their force, deg, ascending; those without force are left
-        out.
+        """Cylinders by the direction of their force, deg, ascending; cylinders without force are
+        left out.
         """
         found: dict[float, list[CylinderNumber]] = {}
         for ray in self.cylinders:
@@ -76,8 +76,8 @@ class Star(NamedTuple):
         order: Order.
         turns: "forward": with the crank; "backward": against it.
         force: Sum of all vectors of force.
-        banks: Vectors of each bank. More than two cylinders that stand alone, as in a radial, count
-            as one bank.
+        banks: Vectors of each bank. More than two banks with one cylinder each, as in a radial,
+            count as one bank.
         moment: Sum of all vectors of moment; omitted if it is not known.
     """
 
@@ -130,7 +130,7 @@ def find_direction(vector: complex) -> float:
 
 
 def _list_banks(engine: Engine) -> list[list[CylinderNumber]]:
-    """Return the cylinders of each bank, by number; one list if more than two stand alone."""
+    """Return the cylinders of each bank, by number; one list for a radial (`Star.banks`)."""
     ends = [*engine.cylinders.starts, len(engine.numbers)]
     banks = [sorted(engine.numbers[slice(*pair)]) for pair in pairwise(ends)]
     alone = len(banks) > 2 and max(map(len, banks)) == 1

@@ -3,14 +3,14 @@ cylinder's, and whether an order is balanced by symmetry or by chance.
 
 Multiples: textbooks state forces of order n as multiples of one cylinder's `F_n = A_n F1`, with `F1
 = m_rec r omega^2`, and moments as multiples of `F_n a`, where a is the smallest distance of
-neighbouring throws. The cylinder is number 1; if its rod is articulated, that of its master rod.
+neighbouring throws. The cylinder is number 1, or its master cylinder if its rod is articulated.
 Textbooks consider only reciprocating masses, each in the plane of its throw, because counterweights
 balance rotating masses. Source: Bosch, Automotive Handbook, "Free forces and moments of the 1st and
 2nd order".
 
 Symmetry (docs/theory.md): an order that is balanced by symmetry stays balanced if masses, rod
-length or gas change equally in all cylinders. So the engine is computed a few times with other
-values of these. If an order is still balanced to rounding, the layout balances it. The speed is a
+length or gas change equally in all cylinders. So the engine is computed a few times with such
+changes. If an order is still balanced to rounding, the layout balances it. The speed is a
 common factor of all forces and needs no test.
 """
 
@@ -178,7 +178,7 @@ class Reason(NamedTuple):
         verdict: "none": no cylinder has this order; "symmetry": balanced for any masses and rod
             length that all cylinders have in common; "chance": balanced for these figures only;
             "nearly": less than 1 % of one cylinder remains; "unbalanced".
-        size: Remaining amplitude, as a multiple of the largest of one cylinder.
+        size: Remaining amplitude, as a multiple of the largest amplitude of a single cylinder.
         reciprocating: Remaining amplitude of only the reciprocating masses, as textbooks state it,
             in `unit`.
         built: Remaining amplitude of the engine as built, in `unit`.
@@ -205,7 +205,7 @@ class Reason(NamedTuple):
             if alone == "0":
                 rest = f"{built} {self.unit} as built (0 without rotating masses and stagger)"
         return {
-            "none": "no cylinder has any",
+            "none": "zero in every cylinder",
             "symmetry": "balanced by symmetry of the layout",
             "chance": "balanced by chance, for these figures only",
             "nearly": f"nearly balanced: {self.size:.1g} of one cylinder",
@@ -246,8 +246,8 @@ def explain_symmetry(
     """Find out whether the cylinders alone, without devices and at steady speed, are balanced by
     symmetry or by chance.
 
-    Moments are about the engine's point of reference; in couple, torque and roll the displacement
-    of this point is left out.
+    Moments are about the engine's point of reference; couple, torque and roll are about the crank's
+    axis.
 
     Args:
         engine: Engine without trailing axes.
@@ -271,7 +271,7 @@ def explain_symmetry(
     return Symmetry(
         tuple(sorted(reasons, key=attrgetter("order"))),
         describe_firing(engine),
-        f"of the cylinders alone: {left_out}" if left_out else None,
+        f"cylinders only: {left_out}" if left_out else None,
     )
 
 

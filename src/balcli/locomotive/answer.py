@@ -1,13 +1,13 @@
 """Compute the balance masses in the wheels of a locomotive, the hammer blow and the forces along
 the track: `analyze_locomotive`.
 
-Everything that revolves is an unbalance with an axle, a position z along it, and a complex product
-of mass and radius, whose angle counts from cylinder 1's crank pin: the pins with the masses that
-turn on them, coupling masses, and the counterweights of the file. The lever rule divides each
-unbalance between the two planes of its axle's balance masses. The reciprocating masses of all
-cylinders enter as if a share c of them turned with the crank, divided between the axles by their
-shares f. Let S be the unbalance that revolves in a plane, and Q that of the reciprocating masses. A
-wheel then gets the balance mass `B = -(S + c f Q)`. The remaining unbalance `S + B` loads and
+Each revolving mass is an unbalance: a complex product of mass and radius, whose angle counts from
+cylinder 1's crank pin, on an axle at a position z. The revolving masses are those of the crank
+pins, the coupling masses, and the counterweights of the file. The lever rule divides each unbalance
+between the two planes of its axle's balance masses. A share c of the reciprocating masses of all
+cylinders is balanced as if it turned with the crank; each axle balances its part f of this share.
+Let S be the revolving unbalance in a plane, and Q the unbalance of all reciprocating masses in it.
+The wheel then gets the balance mass `B = -(S + c f Q)`. The remaining unbalance `S + B` loads and
 unloads the rail once a turn: the hammer blow is `|S + B| w^2`, not `|B| w^2`. For an inclined
 cylinder, Q takes the crank angle minus the bank angle, so that the balance mass points straight
 back along the track when the piston is at the outer dead centre.
@@ -43,7 +43,7 @@ from ..show.result import Result
 from ..sizing.remedy import Remedy, fit_devices
 
 _ROUNDING = 1e-12  # a sum below this share of its terms is 0
-_WHY = "In the wheels, opposite all that revolves"
+_WHY = "In the wheels, opposite all revolving masses"
 NO_TABLE = "write [locomotive] with planes and factor, or start from `balcli new locomotive`"
 NO_SPEED = "give km/h (with wheel_diameter), or operation.speed in rpm"
 _NOTE = "by balcli locomotive"
@@ -163,8 +163,8 @@ class Unbalances(NamedTuple):
     """Unbalances in the planes of the balance masses, from cylinder 1's crank pin, kg m.
 
     Attributes:
-        revolving: Unbalance that revolves with each axle, shape (axles, 2).
-        reciprocating: Share of each axle in the reciprocating masses, shape (axles, 2).
+        revolving: Unbalance of the revolving masses of each axle, shape (axles, 2).
+        reciprocating: Unbalance of each axle's part of the reciprocating masses, shape (axles, 2).
         size: Sum of the magnitudes of all terms, to which rounding errors are proportional.
     """
 
@@ -178,7 +178,7 @@ class Unbalances(NamedTuple):
 
 
 def find_unbalances(engine: Engine, axles: Sequence[Axle], planes_m: Array) -> Unbalances:
-    """Return the unbalances in the wheels of a locomotive, without balance masses to size.
+    """Return the unbalances in the wheels of a locomotive, before balance masses are sized.
 
     Args:
         engine: Engine.
@@ -214,8 +214,8 @@ def analyze_locomotive_of_engine(
     hammer_blow: float | str | None = None,
     speed: float | str | None = None,
 ) -> LocomotiveBalance:
-    """Return the balance masses in the wheels of a locomotive, rail loads, and the variation of
-    tractive effort and the swaying couple that are left.
+    """Return the balance masses in the wheels of a locomotive, the rail loads, and the remaining
+    variation of tractive effort and swaying couple.
 
     Args:
         engine: Engine of a file with [locomotive]. The speed is taken as steady.
@@ -252,7 +252,7 @@ def analyze_locomotive_of_engine(
     added = unbalances.drop_noise(left - unbalances.revolving)
     names = [axle.name if model.axle else None for axle in axles]
     weights = _list_weights(table, names, added)
-    share = f" and {c:.4g} of what reciprocates" if c else ""
+    share = f" and {c:.4g} of the reciprocating ones" if c else ""
     remedy = Remedy("locomotive").add_devices(weights, f"{_WHY}{share}")
     fitted = fit_devices(engine, remedy)
     found = compute_spectra(fitted, find_relevant_orders(fitted), ("force", "moment"))
@@ -320,7 +320,7 @@ def _read_speed(table: Locomotive, speed: float | str) -> float:
 def _list_wheels(
     engine: Engine, table: Locomotive, axle: Axle, added: Complex, left: Complex
 ) -> tuple[WheelLoads, ...]:
-    """Return both wheels of an axle; unbalances of balance masses and remainders in kg m."""
+    """Return both wheels of an axle, from added and remaining unbalances in their planes, kg m."""
     load = table.wheel_load if axle.wheel_load is None else axle.wheel_load
     rpm, square, wheels = float(engine.speed_rpm), float(engine.omega) ** 2, []
     for z, new, rest in zip(table.planes, added.tolist(), left.tolist(), strict=True):
@@ -361,7 +361,7 @@ def _list_weights(
 
 def insert_weights(text: bytes, result: LocomotiveBalance, file: str, rpm: float | None) -> str:
     """Return the text of an engine file with the balance masses as counterweights and without
-    its factor.
+    `locomotive.factor`.
 
     Args:
         text: Text of the file, UTF-8.

@@ -21,10 +21,10 @@ Factor = Annotated[
 ]
 HammerBlow = Annotated[
     str | None,
-    optional("N", "Largest hammer blow of a wheel, instead of a factor, such as '40 kN'."),
+    optional("N", "Allowed hammer blow of a wheel instead of a factor, such as '40 kN'."),
 ]
 _LITTLE = 0.01  # at a smaller balance factor the hammer blow was probably meant in kN
-Speed = Annotated[str | None, optional("KM_H|RPM", "Such as '80 km/h', '50 mph', or 300 (rpm).")]
+Speed = Annotated[str | None, optional("KM_H|RPM", "Speed: '80 km/h', '50 mph', or 300 (rpm).")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
 
 
@@ -69,9 +69,9 @@ def locomotive(
     warn_each(results[0].doubts, name_file(path))
     if hammer_blow is not None and results[0].factor == 1:
         blow = max(wheel.hammer_blow_N for wheel in results[0].wheels)
-        warn(f"--hammer-blow: is not reached; the factor 1 makes at most {blow:.4g} N")
+        warn(f"--hammer-blow: not reached; the factor 1 makes at most {blow:.4g} N")
     elif hammer_blow is not None and (results[0].factor or 0.0) < _LITTLE:
-        warn(f"--hammer-blow: leaves a factor of {results[0].factor:.3g}; bare numbers are N")
+        warn(f"--hammer-blow: gives a factor of {results[0].factor:.3g}; bare numbers are N")
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         rpm = None if speed is None else results[0].speed_rpm

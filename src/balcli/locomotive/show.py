@@ -67,7 +67,7 @@ def sheet(result: LocomotiveBalance, system: System) -> Sheet:
     pairs = (
         ("balance factor", UNKNOWN if result.factor is None else given(result.factor, 4)),
         ("hammer blow per rail", " and ".join(blows)),
-        ("of the engine", size_text(result.hammer_blow_N, force)),
+        ("hammer blow of engine", size_text(result.hammer_blow_N, force)),
         ("tractive effort", _tell_variation(*tractive, force)),
         ("swaying couple", _tell_variation(*swaying, system.moment)),
     )

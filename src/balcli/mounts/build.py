@@ -126,27 +126,27 @@ def _find_axes(mount: Mount) -> Real:
 
 
 def find_mounting_faults(
-    model: EngineFile, legible: frozenset[str] = frozenset({"body", "mount", "point"})
+    model: EngineFile, readable: frozenset[str] = frozenset({"body", "mount", "point"})
 ) -> Iterator[Problem]:
-    """Yield problems: missing tables of body and mounts, repeated names.
+    """Yield problems of body, mounts and points: missing or too many tables, and repeated names.
 
     Args:
         model: Engine file.
-        legible: Tables that could be read.
+        readable: Tables that could be read.
     """
-    if "body" in legible and model.body is None:
+    if "body" in readable and model.body is None:
         yield Problem.of_missing("body", 'give it, such as "[body]" and "mass = 163.9" below it')
-    if "mount" in legible and not model.mount:
+    if "mount" in readable and not model.mount:
         yield Problem.of_missing("mount", "write [[mount]] for every mount")
     lists: dict[str, Sequence[Mount | Point]] = {"mount": model.mount, "point": model.point}
     for key, tables in lists.items():
         if len(tables) > MOST_MOUNTS:
             yield Problem(key, f"is given {len(tables)} times; at most {MOST_MOUNTS} are allowed")
-        names = [table.name for table in tables if key in legible]
+        names = [table.name for table in tables if key in readable]
         for number, name in enumerate(names, 1):
             if (first := names.index(name) + 1) < number:
                 text = f"{shorten(printable(name))} is also the name of {key}.{first}"
-                yield Problem(f"{key}.{number}.name", f"{text}; each needs one of its own")
+                yield Problem(f"{key}.{number}.name", f"{text}; each needs its own name")
 
 
 # ------------------------------------------------------------------ equations of motion
@@ -278,7 +278,7 @@ def check_mounted(draft: Draft, name: str) -> tuple[EngineFile, Engine | None, t
 
 
 def _find_doubts(model: EngineFile) -> Iterator[str]:
-    """Yield warnings of impossible figures of body and mounts; most likely their unit is wrong."""
+    """Yield warnings of impossible or unlikely figures of body and mounts, such as wrong units."""
     body, mounts = model.body, model.mount
     if body is None:
         return
@@ -288,14 +288,14 @@ def _find_doubts(model: EngineFile) -> Iterator[str]:
     if largest > others:
         yield (
             f"body.inertia: {name} of {largest:g} is more than the others together ({others:g}), "
-            "which no body has; are the axes right? z is the crankshaft's"
+            "which is impossible; are the axes right? z is along the crankshaft"
         )
     across = math.sqrt(largest / body.mass)
     farthest = max(math.dist(mount.at, body.cg) for mount in mounts)
     if not SMALL_BODY * farthest <= across <= farthest / SMALL_BODY:
         yield (
-            f"body.inertia: {largest:g} kg mm^2 means {body.mass:g} kg within {across:.2g} mm, and "
-            f"the farthest mount is {farthest:.3g} mm away; are they in kg mm^2 and mm?"
+            f"body.inertia: {name} of {largest:g} kg mm^2 is a radius of gyration of {across:.2g} "
+            f"mm, and the farthest mount is {farthest:.3g} mm away; are they in kg mm^2 and mm?"
         )
     sag = STANDARD_GRAVITY * body.mass / sum(sum(mount.stiffness) / 3 for mount in mounts)
     if not SAG_LEAST <= sag <= SAG_MOST:

@@ -44,12 +44,12 @@ def mounts(
     units: UnitsOption = Units.SI,
     output: Output = None,
 ) -> None:
-    """Vibration of an engine on its mounts: natural modes, rest, forces of the mounts on the frame
+    """Vibration of an engine on its mounts: natural modes, position at rest, forces on the frame
     and motion of points over a range of speeds.
 
     The file has [body], [[mount]] and, for the motion of points, [[point]]; `balcli new mounts`
-    writes one to start from. If it has no engine, only modes and rest are printed. Engines of
-    further files are placed on the same mounts and compared.
+    writes one to start from. If it has no engine, only modes and position at rest are printed.
+    Engines of further files are placed on the same mounts and compared.
 
     \b
     Example:

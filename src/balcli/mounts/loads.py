@@ -44,11 +44,11 @@ _MOST_COUNTED = 1 << 26  # limit of samples times orders, which takes seconds
 def compute_spectra_in_time(
     engine: Engine, orders: Array, kinds: Collection[str]
 ) -> tuple[Spectra, float]:
-    """Return the spectra of an engine by orders of the time; arguments as for `compute_spectra`.
-    At uneven speed, the mean over the time is not the mean over the crank angle.
+    """Return the spectra of an engine by orders of time; arguments as for `compute_spectra`. At
+    uneven speed, the mean over the time is not the mean over the crank angle.
 
     Returns:
-        The spectra, and the ratio of the mean speed over the time to that over the angle.
+        The spectra, and the ratio of the mean speed over the time to the mean over the crank angle.
 
     Raises:
         BalcliError: The crank almost stops, or a kind includes gas but the engine has none.
@@ -63,15 +63,14 @@ def compute_spectra_in_time(
     samples = 1 << math.ceil(math.log2(32 * len(fastest) / slowest))
     if samples > MOST_SAMPLES or samples * len(orders) > _MOST_COUNTED:
         raise BalcliError(
-            f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed; "
-            "its orders of the time need more samples than are computed; give a smaller amplitude "
-            "or lower orders"
+            f"operation.speed_ripple: the crank slows down to {slowest:.3g} of its mean speed, so "
+            "that orders of time need too many samples; give a smaller amplitude or lower orders"
         )
     step = float(fastest[1])
     timetable = find_timetable(find_speed(engine.ripple, step), step, samples)
     reach = find_reach(timetable, highest)
     in_time: dict[str, Phasors] = {}
-    for name in kinds:  # the series of gas is infinite: all orders that reach the orders of time
+    for name in kinds:  # the series of gas is infinite: take all that reach the orders of time
         most = max(of_inertia, reach) if name in GAS_KINDS else of_inertia
         found = compute_spectra(engine, dense_orders(most, mixed), [name])
         in_time[name] = count_in_time(found[name], timetable, orders)
@@ -112,7 +111,7 @@ class BodyLoads(NamedTuple):
         return load
 
     def to_crank_rpm(self, omega: Real) -> Real:
-        """Return the mean speeds over the crank angle, rpm, for those over the time, rad/s."""
+        """Convert mean speeds over the time, rad/s, into mean speeds over the crank angle, rpm."""
         return np.asarray(omega / self.turns / RPM)
 
     @property
@@ -128,13 +127,13 @@ class BodyLoads(NamedTuple):
 
 
 def list_gas_kinds(engine: Engine) -> list[str]:
-    """Return the kinds by which `find_gas_reaction` is known."""
+    """Return the kinds of spectra that `find_gas_reaction` needs."""
     return ["roll", "roll_total"] if engine.placed else ["gas"]
 
 
 def find_gas_reaction(found: Spectra) -> Phasors:
-    """Return the torque of the gas that the load takes from the frame, N m: of geared engines in
-    the sense of the load, which is not that of the first crank everywhere.
+    """Return the gas torque whose reaction acts on the frame, N m. In geared engines it counts in
+    the sense in which the load turns, even if a crank turns against the load.
     """
     return found["gas"] if found.gas is not None else found["roll"] - found["roll_total"]
 

@@ -67,7 +67,7 @@ class Variants:
         places = [(kind, name) for kind in ("mount", "point") for name in targets[kind]]
         self._place = {q: places.index((q.kind, q.target)) for q in quantities if q.kind != "mode"}
         self._curves = sorted({self._place[q] for q in quantities if q.part in ("force", "motion")})
-        # Whether the mean gas torque, minus friction, loads the mounts at rest.
+        # Whether forces at rest are requested, which depend on the mean torque of the gas.
         self._leans = model.has_gas and any(q.part == "static" for q in quantities)
         self._engines = EngineVariants(model)
 

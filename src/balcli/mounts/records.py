@@ -283,8 +283,8 @@ class MountReport(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of speeds for which the file gives no gas, and about the mount that travels
-        most, if no mount travels as far.
+        """Warnings of speeds for which the file gives no gas, and of the mount that travels most,
+        if it travels farther than stops allow.
         """
         if self.response is None:
             return ()
@@ -300,8 +300,8 @@ class MountReport(Result):
             return of_gas
         told = (
             f"the mount {printable(self.response.mounts[farthest].name)} would travel by "
-            f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, where stops "
-            "hold others at 10 to 20; are loss and damping right, and does it run at that speed, "
-            "or pass it?"
+            f"{1e3 * travel:.3g} mm or more at {worst[farthest].speed_rpm:.4g} rpm, but stops "
+            "usually allow 10 to 20 mm; are loss and damping right, and does the engine run at "
+            "that speed, or only pass through it?"
         )
         return (*of_gas, told)

@@ -44,7 +44,7 @@ from .records import (
 )
 from .rigid_body import ROLL, carry_points, couple_mounts, drop_rounding
 
-_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds, from a resonance, in its widths
+_BESIDE = np.array([-0.5, -0.25, 0, 0.25, 0.5])  # added speeds: distance to a resonance, in widths
 RESONANT = 0.05  # an order is in resonance within this relative distance from a mode's frequency
 _PART = 0.25  # a resonance is reported if it has this share of the largest order
 _AT = 1e-9  # relative difference below which speeds are equal
@@ -86,14 +86,14 @@ class RunningBody(NamedTuple):
         """Return the running body with the curves of all mounts and points.
 
         By default it has all orders that contribute. Gas orders above the usual ones are added if
-        their sum exceeds _BEYOND times the largest order, for any curve at any examined speed.
+        their sum exceeds _BEYOND times the largest order in any curve at any examined speed.
 
         Args:
             mounted: Body on its mounts.
             modes: Equations of motion and modes of the body.
             engine: Engine that shakes the body.
             omega: Rising speeds, rad/s, shape (speeds,).
-            orders: Orders of the load.
+            orders: Orders of the load; default: all that contribute.
             ranged: Whether the speeds represent a whole range, so that resonances between them
                 count.
 

@@ -2,7 +2,7 @@
 
 A motion is a vector of six numbers along the engine's axes: displacement of the centre of gravity
 (m) and rotation (rad). A load has the corresponding forces (N) and moments about the centre of
-gravity (N m). Motions and loads of an order are phasors; see `vibration`.
+gravity (N m). Motions and loads of an order are phasors; see `core.vibration`.
 
 `name_mode` describes a mode in words. Pictures show the body as a block of even density with its
 mass and moments of inertia.
@@ -108,8 +108,8 @@ def stretch_mounts(body: Body, mounts: Mounts) -> Real:
 
 
 def couple_mounts(body: Body, mounts: Mounts) -> tuple[Complex, Real]:
-    """Return the force on every mount along the engine's axes, shape (mounts, 3, 6) each: of
-    springs with loss for a unit of each motion, and of dashpots for a unit of each velocity.
+    """Return the forces on every mount along the engine's axes: spring forces, with loss, for a
+    unit of each motion, and dashpot forces for a unit of each velocity, shape (mounts, 3, 6) each.
     """
     travel = stretch_mounts(body, mounts)
     springs = mounts.axes @ ((mounts.stiffness * (1 + 1j * mounts.loss))[..., None] * travel)
@@ -180,8 +180,8 @@ def elastic_centre(stiffness: Real, centre: ArrayLike) -> Real:
     moments, in mean square over all directions of a unit force.
 
     A displacement u needs the force `F = K_uu u` and the moment `K_ru u = N F` with `N = K_ru
-    K_uu^-1`. A force at the point p has the moment `p x F`. Hence p is the antisymmetric part of N;
-    the symmetric part is the same for any point.
+    K_uu^-1`. A force at the point p has the moment `p x F`. Hence p follows from the antisymmetric
+    part of N; the symmetric part is the same for any point.
     """
     moments = np.linalg.solve(stiffness[:3, :3].T, stiffness[3:, :3].T).T
     skew = (moments - moments.T) / 2

@@ -140,7 +140,7 @@ def _explain(result: MountReport, response: BodyResponse, worst: WorstForce | Wo
     for end, rpm in (("slowest", speeds[0]), ("fastest", speeds[-1])):
         if len(speeds) > 1 and abs(worst.speed_rpm / rpm - 1) < 1e-9:
             return f"This is the {end} speed of the range; most of the force is from {named}."
-    return f"Most of it is from {named}; this order has {number(hertz, 3)} Hz."
+    return f"Most of the force is from {named}; this order has {number(hertz, 3)} Hz."
 
 
 def _grid_worst(result: MountReport, kind: Kind) -> Grid:
@@ -154,7 +154,7 @@ def _grid_worst(result: MountReport, kind: Kind) -> Grid:
         if response is result.response:
             columns.append(("largest order", [order_name(worst.order) for worst in every]))
             columns.append(("alone", [kind.show(worst[3]) for worst in every]))
-    note = "Largest over the cycle and all speeds of the range, orders added with their phases."
+    note = "Largest value in the cycle at any speed of the range; orders add with their phases."
     title = f"Largest {kind.figure} of each {kind.part}, {kind.unit.name}"
     return Grid.of_columns(title, columns, note)
 
@@ -172,8 +172,8 @@ def _grid_modes(result: MountReport) -> Grid:
     if any(mode.loss_factor for mode in modes):
         columns.append(("damping %", [f"{50 * mode.loss_factor:.1f}" for mode in modes]))
     note = (
-        "Shares of the kinetic energy of moving along x, y, z and turning about them; products of "
-        "inertia may make one negative. Frequencies are without damping, with dynamic stiffness."
+        "x to rz: shares of motion along and rotation about the axes in the kinetic energy; "
+        "products of inertia may make one negative. Hz: with dynamic stiffness, without damping."
     )
     return Grid.of_columns("Natural modes", columns, note)._replace(words=(0, 2))
 

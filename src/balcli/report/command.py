@@ -29,21 +29,21 @@ from ..show.formats import Units
 from ..show.units import SYSTEMS
 from .names import OF_TORSION, PAGES, check_page
 
-PAGE = "Write the page here; - is standard output."
-PICTURE = "Write here; .svg, .png or .pdf."
+PAGE = "File to write; - is standard output."
+PICTURE = "File to write; .svg, .png or .pdf."
 SPEEDS = "Speeds for torsion, rpm; default: 0.5 to 1.5 times the file's speed."
 WHAT = (
     "overview: locus of the force (of the moment if the force is balanced), and spectrum; "
-    "polar: loci; orders: both vectors of each order; spectrum: bars; curves: over the "
+    "polar: loci; orders: both vectors of each order; spectrum: bars; curves: values over the "
     "crank angle; all: loci, bars and curves on one page; "
-    "ladder: loci with the devices of each balancing step; "
-    "factor: over the balance factor; bank: the force of a vee over its bank angle, with --scheme "
-    "two-shaft the radii of its shafts; inner: along the crankshaft; stars: vectors of each "
-    "cylinder and their polygons; piston: travel, velocity and acceleration, with [gas] side "
-    "thrust and rod force; journals: torque in the main journals; with [gas]: pressure, p-v, "
-    "torque (with its surplus areas), pin and main (polar diagrams of bearing loads); with "
-    "[torsion]: modes, campbell, response, waterfall. Several pages form one "
-    "PDF, or one file each (v8-pin.svg)."
+    "ladder: loci with the devices of each balancing step; factor: peaks over the balance factor; "
+    "bank: force of a vee over its bank angle (with --scheme two-shaft, radii of the shafts); "
+    "inner: loads along the crankshaft; stars: vectors of all cylinders and their polygons; "
+    "piston: travel, velocity and acceleration (with [gas], also side thrust and rod force); "
+    "journals: torque in the main journals; with [gas]: pressure, p-v, "
+    "torque (with surplus areas), pin and main (polar diagrams of bearing loads); with "
+    "[torsion]: modes, campbell, response, waterfall. Several pages are written as one "
+    "PDF, or as one file each (v8-pin.svg)."
 )
 
 

@@ -2,8 +2,9 @@
 
 The page computes the engine itself (`assets/engine.js`). Axes, crank pins and positions of the
 cylinders are linear functions of numbers of the file (throws, splay, bank angle, spacing, stagger).
-The page gets the constant and the coefficients of each; coefficients are found by adding 1 to one
-number after the other. All other figures of a cylinder are given by dotted names of numbers.
+The page gets the constant and the coefficients of each function. The coefficients are found by
+adding 1 to one number at a time. All other figures of a cylinder are given by dotted names of
+numbers.
 """
 
 from __future__ import annotations
@@ -114,7 +115,7 @@ def describe_engine(model: EngineFile, engine: Engine, text: str) -> Node:
     parts = Parts(model)
     numbers = list(_list_numbers(model))
     speed = float(engine.speed_rpm)
-    throws: dict[int, int] = {}  # cylinder whose firing determines the angle of a throw
+    throws: dict[int, int] = {}  # by throw, the cylinder whose firing determines its angle
     if not parts.throws_given and parts.order is not None:
         fired = (cell for cell in reversed(parts.plan.cells) if cell.number in parts.order)
         throws = {cell.throw: cell.number for cell in fired}
@@ -161,7 +162,7 @@ def describe_one(
         system: Units of the drawings.
         text: Text of the file.
         name: Name of the file; empty if unknown.
-        small: Share of one cylinder's first order below which a part is small.
+        small: Share of one cylinder's first order below which a force or moment is small.
     """
     if explain_still(engine):
         return None
@@ -184,7 +185,7 @@ def make_book(
         system: Units of the drawings.
         file: Name of the file; empty if unknown.
         choice: Initial engine if the reader can choose among several; empty if there is one engine.
-        small: Share of one cylinder's first order below which a part is small.
+        small: Share of one cylinder's first order below which a force or moment is small.
     """
     return {
         "engines": engines,
@@ -212,12 +213,12 @@ def make_book(
 
 
 def name_unit(unit: ShownUnit) -> Node:
-    """Return the names of a unit and of a thousand of it; the latter is empty if it has none."""
+    """Return the names of a unit and of its thousandfold; the latter is empty unless it is SI."""
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
 
 
 def make_examples() -> Node:
-    """Return the data of the panel for a choice among all example engines."""
+    """Return the data of the panel for a choice among the example engines that it can compute."""
     engines = {}
     for name in examples.names():
         written = examples.text(name)
@@ -322,8 +323,8 @@ def _find_forms(
     model: EngineFile, parts: Parts, throws: Mapping[int, int], numbers: Mapping[str, float]
 ) -> dict[str, list[Node]]:
     """Return the linear functions for axes and crank pins (deg) and positions (mm) of the
-    cylinders, and for positions of the throws. Each has a constant, and coefficients by the names
-    of numbers.
+    cylinders, and for positions of the throws. Each function has a constant, and coefficients by
+    the names of numbers.
 
     If the firing of a cylinder determines the throw, the angle of its pin does not include the
     shift of top dead centre by the piston offset: the page adds it.
@@ -345,7 +346,7 @@ def _find_forms(
 
 
 def _measure(parts: Parts, throws: Mapping[int, int]) -> dict[str, list[float]]:
-    """Return axes and leads of crank pins (deg), and positions of cylinders and throws (mm)."""
+    """Return cylinder axes and pin leads (deg), and positions of cylinders and throws (mm)."""
     cells, pins, places = parts.plan.cells, parts.pins, parts.places
     tops = {n: float(pins.tops_deg[n] - axis) for n, axis in pins.axes_deg.items()}
     first = next(cell for cell in cells if cell.number == 1)

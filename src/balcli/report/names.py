@@ -11,7 +11,7 @@ OF_GAS = ("pressure", "p-v", "torque", "pin", "main")
 OF_PARTS = ("stars", "piston", "journals")
 OF_TORSION = ("modes", "campbell", "response", "waterfall")
 PAGES = (
-    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # pages of a Balance as well
+    *("overview", "all", "polar", "orders", "spectrum", "curves"),  # also pages of a Balance
     *("ladder", "factor", "bank", "inner"),
     *OF_PARTS,
     *OF_GAS,

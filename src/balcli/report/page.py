@@ -89,9 +89,9 @@ def scene(now: Analysis, shown: Mapping[str, Analysis], system: System) -> Node:
 
 
 def _cylinder_entries(engine: Engine) -> list[Node]:
-    """Return an entry for each cylinder, mm and degrees: axis, its own crank angle at crank angle
-    0, rod (0 in harmonic motion), offset, position; crank radius if these differ; knuckle pin and
-    the master's row.
+    """Return an entry for each cylinder, mm and degrees: axis, the cylinder's own angle at crank
+    angle 0, rod length (0 in harmonic motion), offset and position; its crank radius if the radii
+    differ; for an articulated rod, its knuckle pin and the row of its master.
     """
     c, linkage = engine.cylinders, engine.cylinders.linkage
     rods = linkage.hung if isinstance(linkage, Rotary) else linkage
@@ -254,14 +254,14 @@ def _warning(chapter: str) -> Iterator[None]:
 def page(
     found: Answers, system: System, tell: Tell = tell_nobody, *, live: Node | None = None
 ) -> str:
-    """Return the report on an engine, a remedy, its vibration on mounts, torsional vibration, and
-    gas. All text from the engine file is escaped.
+    """Return the page of an engine: forces and moments, a remedy, vibration on mounts, torsional
+    vibration, and gas. All text from the engine file is escaped.
 
     Args:
         found: Results to show.
         system: Units of figures and pictures.
-        tell: Called with the share of the pictures of forces and moments that is drawn.
-        live: Data of the numbers to change on the page, from `live.make_book`; None: none.
+        tell: Progress callback; it receives the share of the panels that are drawn.
+        live: Data of the numbers to change, from `live.make_book`; None: no panel for them.
 
     Raises:
         BalcliError: The engine does not have the cylinder whose piston is wanted.
@@ -275,7 +275,7 @@ def page(
     alone = _choose_panels(now, _PICTURES, told)
     beside = _choose_panels(after, compared, told)
     drawn, stars, still = None, None, list[Panel]()
-    if not result.engine.placed:  # of several cranks, no mechanism is shown
+    if not result.engine.placed:  # a mechanism of several cranks is not drawn
         drawn = scene(result, _list_variants(result, balanced), system)
         stars = PageSubject(compute_study(result.engine, "stars"), system)
         still = _choose_panels(now, _STILL, told)
@@ -353,8 +353,8 @@ def make_play_page() -> str:
 
 
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
-    """Return the analyses to show, by label: with the devices of each step of the ladder, and with
-    those of a scheme that is not a step.
+    """Return the analyses to show, by label: the engine with the devices of each step of the
+    ladder, and with the devices of the scheme if the scheme is not a step.
     """
     remedy, ladder = balanced.remedy, balanced.ladder
     shown = {"as in the file": result}

@@ -68,8 +68,8 @@ _LARGEST_RATIO = 10.0  # largest ratio of radii that is drawn
 _JUMP = 0.5  # a larger change of a radius between neighbouring angles is a change of its sign
 _MOST_STARS = 8
 _STARS = (
-    "Forces of the cylinders at crank angle 0, by number, without devices; then the polygons of\n"
-    "force and moment, bank by bank in a colour each. Dashed: their sum; dot: 0."
+    "Left: forces of the cylinders (numbers) at crank angle 0, without devices. Then: polygons of\n"
+    "force and moment, with a colour for each bank. Dashed: the sum; a dot: the sum is 0."
 )
 _BANKS_DEG = (0, 30, 60, 90, 120, 150, 180)
 
@@ -103,7 +103,7 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
         xlim=(0, 180),
         xticks=_BANKS_DEG,
         xlabel="bank angle, deg (dotted: this engine)",
-        ylabel="radius over the longest; ratio",
+        ylabel="radius / longest radius; ratio",
     )
     if banks.own_deg <= 180:
         ax.axvline(banks.own_deg, color=INK, linewidth=0.9, linestyle=":")
@@ -113,8 +113,9 @@ def draw_radii(ax: Axes, banks: Banks) -> None:
 
 def draw_radius_roses(ax: Any, banks: Banks) -> None:
     """Draw the curves of `draw_radii` in polar coordinates, in the directions of both banks. For a
-    flat-plane V8 (Liu, figure 8), the backward radius is a circle, the forward one a rose of three
-    leaves, and the ratio a rose of four; the ratio goes on over a whole turn, thin beyond 180 deg.
+    flat-plane V8 (Liu, figure 8), the backward radius is a circle, the forward radius a rose of
+    three leaves, and the ratio a rose of four. The ratio continues over a whole turn; its line is
+    thin beyond 180 deg.
     """
     half = np.radians(banks.angles_deg) / 2
     ax.set_theta_zero_location("N")
@@ -130,7 +131,7 @@ def draw_radius_roses(ax: Any, banks: Banks) -> None:
     marks = np.arange(0, 360, 30)
     angles = np.where(marks > 180, 720 - 2 * marks, 2 * marks)
     ax.set_thetagrids(marks, [f"{angle}°" if angle <= 180 else "" for angle in angles])
-    ax.set_title("The same in the directions of the banks", pad=6)
+    ax.set_title("Radii and ratio in the directions of the banks", pad=6)
 
 
 def draw_roses(ax: Any, banks: Banks, unit: ShownUnit) -> None:
@@ -227,7 +228,7 @@ class PageSubject:
         return [quantity for quantity, said in words.items() if not said], line
 
     def title(self, what: str, quantity: str) -> str:
-        """Return the title of one of the pictures of a quantity."""
+        """Return the title of a picture of a quantity."""
         title = _TITLES[quantity]
         if quantity == ABOUT and self.now.engine.gas is not None:
             title += ", with gas" if what == "spectrum" else ", of inertia only"
@@ -248,7 +249,7 @@ def make_page(subject: PageSubject, what: str, *, titled: bool = True) -> Figure
     Args:
         subject: Engine, units and cylinder.
         what: One of `PAGES` except those of torsion.
-        titled: Whether the name of the engine is its title.
+        titled: Whether the page has the name of the engine as its title.
     """
     width, height, lay_out = _LAYOUTS[what]
     engine, remedy = subject.now.engine, subject.study.remedy

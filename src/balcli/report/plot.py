@@ -50,7 +50,7 @@ Shown: TypeAlias = (
     Engine | Analysis | Balance | Swept | TorqueAnalysis | TorsionAnalysis | MountReport
 ) | FieldBalance
 _DRAWN = (
-    "give an Engine, or an answer of analyze, balance, sweep, analyze_torque, analyze_torsion, "
+    "give an Engine, or a result of analyze, balance, sweep, analyze_torque, analyze_torsion, "
     "analyze_mounts or balance_rotor"
 )
 
@@ -73,19 +73,20 @@ def plot(
 
     Args:
         shown: Engine, or result of a function such as `analyze` or `sweep`.
-        what: Page of an engine, its analysis or balance: "overview" (default: one locus, and the
+        what: Page of an engine, its analysis or balance: "overview" (default; one locus and the
             spectrum), "polar" (loci of force and moment), "orders" (both vectors of each order),
-            "spectrum", "curves", "all" (these except orders), "inner" (along the crankshaft),
-            "ladder" (loci, step by step), "bank" (a vee over its bank angle; with scheme
-            "two-shaft", the radii of its shafts), "factor" (over the balance factor), "stars" (each
-            cylinder's vectors), "piston", "journals"; with gas "pressure", "p-v", "torque", "pin",
-            "main"; for torsion "all", "modes", "campbell", "response", "waterfall". Other results
-            have one picture.
+            "spectrum", "curves", "all" (loci, spectra and curves), "inner" (loads along the
+            crankshaft), "ladder" (loci for each balancing step), "bank" (force of a vee over its
+            bank angle; with scheme "two-shaft", the radii of the shafts), "factor" (peaks over the
+            balance factor), "stars" (each cylinder's vectors), "piston", "journals"; with gas
+            "pressure", "p-v", "torque", "pin", "main"; with torsion "modes", "campbell",
+            "response", "waterfall". A result of `analyze_torque` has the pages with gas, one of
+            `analyze_torsion` those with torsion and "all". Other results have one picture.
         orders: Orders of an engine to draw; default: all that are not negligible.
         scheme: Balance scheme of an engine to compare with.
         speeds_rpm: Speeds for torsion of an engine; default: 0.5 to 1.5 times its speed.
         small: Share of one cylinder's first order below which the ladder of an engine ignores a
-            part.
+            force or moment.
         cylinder: Number of the cylinder whose piston is drawn.
 
     Raises:
@@ -151,7 +152,7 @@ def _plot_torsion(result: TorsionAnalysis, what: str) -> Figure:
     return make_torsion(result, check_page(what, known))
 
 
-_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # the only results of pages
+_SHOWN = {"inner": "inner", "bank": "force", "ladder": "ladder"}  # result that a page shows
 
 
 class Asked(NamedTuple):

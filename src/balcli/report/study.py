@@ -54,9 +54,9 @@ class Banks(NamedTuple):
         moment, as shares of the longest radius, and their ratio, which is nan where no force turns
         with the crank. Each has the shape (angles,).
 
-        Radii are inversely proportional to the forces. Their sign is Liu's: above 0, one shaft is
-        above and one below the crank on the same side of the middle plane; below 0, both are above
-        or both below it, on opposite sides (docs/theory.md).
+        Radii are inversely proportional to the forces. Their sign follows Liu: it is
+        positive if one shaft is above and one below the crank, on the same side of the middle
+        plane; negative if both are above or both below it, on opposite sides (docs/theory.md).
         """
         forward, backward = self.force.forward[0], self.force.backward[0]
         alike = forward * backward * unit(-2 * self.middle_deg)
@@ -72,12 +72,12 @@ class Study(NamedTuple):
 
     Attributes:
         now: Analysis of the engine.
-        before: Analysis of the engine without fitted devices; None if there are none.
+        before: Analysis of the engine without fitted devices; None if no device is fitted.
         remedy: Fitted devices.
         factors: Peaks by balance factor, ascending, including the best factor.
         banks: One order over the bank angle.
         pair: Whether the page shows the two shafts that cancel the force at each bank angle.
-        bent: Loads along the crankshaft now, and before.
+        bent: Loads along the crankshaft now, and before devices were fitted.
         steps: Engine with the devices of each step of the ladder, by name.
     """
 
@@ -191,7 +191,7 @@ def swing_banks(engine: Engine, order: float) -> Banks:
     axes = np.ravel(c.axis_deg)
     if len(axes) != 2 or c.linkage is not None:
         raise BalcliError(
-            f"--what bank swings the two banks of a vee; this engine has {len(axes)} "
+            f"--what bank needs the two banks of a vee; this engine has {len(axes)} "
             f"bank{'s' if len(axes) > 1 else ''}"
             f"{' and articulated or turning cylinders' if c.linkage is not None else ''}"
         )

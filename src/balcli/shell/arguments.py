@@ -131,8 +131,8 @@ def check_inertia(name: str, value: object) -> float | None:
         value: Value to check.
 
     Raises:
-        BalcliError: It is not above 0, or too large to compute with.
-        TypeError: It is not a number.
+        BalcliError: The value is not above 0, or too large to compute with.
+        TypeError: The value is not a number.
     """
     if value is None:
         return None
@@ -152,8 +152,8 @@ def check_count(name: str, value: object, least: int = 1, most: int | None = Non
         most: Largest allowed number; None: no limit.
 
     Raises:
-        BalcliError: It is too small or too large.
-        TypeError: It is not a whole number.
+        BalcliError: The value is too small or too large.
+        TypeError: The value is not a whole number.
     """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
         raise wrong_type(name, value, f"give a whole number from {least}")
@@ -172,7 +172,7 @@ def read_position(name: str, value: object) -> tuple[float, float, float]:
         value: Value to check.
 
     Raises:
-        TypeError: It is not three numbers.
+        TypeError: The value is not three numbers.
     """
     wanted = "give x, y and z in m, such as (0.3, 0, 0)"
     if not isinstance(value, Iterable) or len(numbers := list(islice(value, 4))) != 3:

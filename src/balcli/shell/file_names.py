@@ -29,7 +29,7 @@ TEXTS = {
 SERIES = {".csv": Format.CSV, ".json": Format.JSON}  # long series of numbers
 VARIANTS = {**TEXTS, ".parquet": Format.PARQUET}
 PICTURES: dict[str, Form] = {".svg": "svg", ".png": "png", ".pdf": "pdf"}
-# Endings of other formats, which --format cannot override.
+# Endings of known formats, which --format cannot override.
 _KNOWN = {*TEXTS, *PICTURES, ".html", ".htm", ".toml", ".parquet", ".xlsx", ".jpg", ".jpeg"}
 
 
@@ -92,7 +92,7 @@ def format_option(formats: Iterable[Format], text: str) -> object:
 
 
 def text_format(output: Path | None, asked: Format | None) -> Format:
-    """Return the format of a result; a table by default. Raises as `format_of` does.
+    """Return the format of a result, by default a table; raise the errors of `format_of`.
 
     Args:
         output: File to write; None: standard output.
@@ -108,7 +108,7 @@ def format_of(
     default: F | None = None,
     option: str = "--output",
 ) -> F:
-    """Return the format of a file: by its ending, or by `--format` if it has none.
+    """Return the format of a file: by its ending, or by `--format` if the ending is unknown.
 
     Args:
         output: File; None: standard output.
@@ -137,11 +137,11 @@ def format_of(
 
 
 def picture_form(output: Path, option: str = "--output") -> Form:
-    """Return the format of a picture: svg, png or pdf. Raises as `format_of` does.
+    """Return the format of a picture: svg, png or pdf; raise the errors of `format_of`.
 
     Args:
         output: File to write.
-        option: Option that names it.
+        option: Option that names the file.
     """
     return format_of(output, None, PICTURES, option=option)
 

@@ -59,8 +59,8 @@ def read_engine(
     Args:
         path: Path of the file.
         speed_rpm: Crank speed of the engine instead of the file's.
-        asked: Names of requested quantities and tables; None: all that the command shows. Without
-            moments among them, no warning of unknown moments is printed.
+        asked: Names of requested quantities and tables; None: all that the command shows. If
+            none of them needs moments, unknown moments cause no warning.
         prepare: Function that changes the file before the engine is built.
         over: Speeds for which results are computed, rpm; None: the engine's own speed.
 
@@ -234,8 +234,8 @@ def named_by_file(engine: Engine, path: str) -> Engine:
 
 
 def name_engines(names: Sequence[str], paths: Sequence[str]) -> list[str]:
-    """Return distinct names of engines: the name of each, or its file if it has no name or shares
-    the name with another.
+    """Return distinct names of engines: the engine's name, or its file if it has no name or shares
+    its name with another engine.
 
     Args:
         names: Names of the engines; may be empty.

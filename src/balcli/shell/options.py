@@ -68,8 +68,8 @@ Orders = Annotated[
     ),
 ]
 _ONLY = (
-    f"Only some of {', '.join(KINDS)}, peak, sizing, ladder, gas; inner (shear, bending, bearing "
-    "loads along crankshaft and block), guide (H- and X-type)"
+    f"Show only these: {', '.join(KINDS)}, peak, sizing, ladder, gas, inner (shear, bending, "
+    "bearing loads along crankshaft and block), guide (H- and X-type)"
 )
 Only = Annotated[str | None, optional("WHAT,...", f"{_ONLY}.", "--only")]
 OnlyParts = Annotated[
@@ -77,8 +77,8 @@ OnlyParts = Annotated[
     optional(
         "WHAT,...",
         f"{_ONLY}, journals (torque along the crankshaft), masses, parts (balancer shafts in their "
-        "bearings, counterweights as sectors), pru (power related unbalance); or as views: xy "
-        "(components), textbook (multiples of F1), verdict.",
+        "bearings, counterweights as sectors), pru (power related unbalance); or these "
+        "views: xy (components), textbook (multiples of F1), verdict.",
         "--only",
     ),
 ]
@@ -93,7 +93,7 @@ Misfire = Annotated[
     list[str] | None,
     optional(
         "N|NAME.N",
-        "Cylinder without gas pressure (NAME.N: of the engine NAME of several); repeat it for "
+        "Cylinder without gas pressure (NAME.N: cylinder N of engine NAME of several); repeat for "
         "more cylinders. If it still compresses, give [cylinder.N] heat = 0 in the file.",
     ),
 ]
@@ -165,7 +165,7 @@ def parse_only(text: str | None) -> list[str] | None:
     words = [word.lower() for word in re.split(r"\s*,\s*|\s+", text.strip())]
     if "all" in words:
         raise BalcliError(
-            "--only all: leave --only out for the usual tables, or give --all for all"
+            "--only all: leave --only out for the usual tables, or give --all instead"
         )
     return [word[:-1] if word[:-1] in (*KINDS, "peak", "guide") else word for word in words]
 

@@ -40,7 +40,7 @@ def show(
 
     Args:
         results: Results of one kind.
-        renderer: Writer of this kind.
+        renderer: Renderer of this kind.
         form: Format of the output.
         output: File to write; None: standard output.
         units: System of units.
@@ -64,7 +64,7 @@ def emit(text: str, output: Path | None = None) -> None:
         output: File to write; None: standard output.
 
     Raises:
-        BalcliError: The file cannot be written; an older one is unchanged.
+        BalcliError: The file cannot be written; an existing file is unchanged.
     """
     text = text if text.endswith("\n") else text + "\n"
     if output is not None:
@@ -100,7 +100,7 @@ def write_file(content: str | bytes, target: Path) -> None:
         target: File to write.
 
     Raises:
-        BalcliError: The file cannot be written; an older one is unchanged.
+        BalcliError: The file cannot be written; an existing file is unchanged.
     """
     data = content.encode() if isinstance(content, str) else content
     with replacing(target) as place:
@@ -108,7 +108,7 @@ def write_file(content: str | bytes, target: Path) -> None:
 
 
 def write_figure(figure: Figure, form: Form, target: Path) -> None:
-    """Write the file of a picture in one step; raises as `write_file` does.
+    """Write the file of a picture in one step; raise the errors of `write_file`.
 
     Args:
         figure: Picture.
@@ -214,7 +214,7 @@ def refuse_leaving_files(text: bytes, source: str, target: Path) -> None:
         with suppress(OSError):
             if (folder / name).read_bytes() == (target.parent / name).read_bytes():
                 continue
-        raise BalcliError(f'{target}: "{name}" of the engine file must be copied from {folder}')
+        raise BalcliError(f'{target}: first copy "{name}", which the file names, from {folder}')
 
 
 def _list_named_files(source: Path) -> list[Path]:

@@ -28,26 +28,26 @@ Scheme = Annotated[
         autocompletion=complete_schemes,
     ),
 ]
-Order = Annotated[int | None, optional("N", "Order to balance; default: the lowest.")]
+Order = Annotated[int | None, optional("N", "Order to balance; default: lowest suitable order.")]
 At = Annotated[
     list[str] | None,
-    optional("X,Y", "Position of a shaft, mm; for two shafts twice, that at -N first."),
+    optional("X,Y", "Position of a shaft, mm; for two shafts twice, the shaft at -N first."),
 ]
 Position = Annotated[
-    str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two for compensators.")
+    str | None, optional("Z|Z,Z", "Axial position of new devices, mm; two values for compensators.")
 ]
 Planes = Annotated[
     str | None,
     optional(
         "ends|throws|Z,Z...",
-        "Planes of the weights: end throws, every throw, or z in mm.",
+        "Planes of the weights: at the end throws, at every throw, or at z in mm.",
     ),
 ]
 Factor = Annotated[
     str | None,
     optional("K|K:K:STEP", "Balance factor, such as 51% or 50%:54%:1%."),
 ]
-Measured = Annotated[str | None, optional("MASS", 'Mass that now balances a pin: "812 g".')]
+Measured = Annotated[str | None, optional("MASS", 'Mass that balances a bare pin: "812 g".')]
 Roll = Annotated[str | None, optional("zero", "Place two shafts so that they cancel roll.")]
 
 
@@ -130,7 +130,7 @@ def _parse_planes(text: str, units: Units) -> str | tuple[float, ...]:
 
 
 def parse_factors(text: str) -> tuple[float, ...]:
-    """Return the factors of `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (ends included)."""
+    """Return the factors in `0.5`, `51%`, `0.4,0.5` or `0:1:0.1` (both ends are included)."""
     wanted = "a share of the reciprocating mass such as 51% or 0.51, or a range such as 50%:54%:1%"
     parts = [read_share("--factor", part, wanted) for part in re.split("[:,]", text)]
     if ":" not in text:

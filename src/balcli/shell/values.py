@@ -120,7 +120,8 @@ def as_bare_angles(option: str, text: str) -> str:
     """Return a range or list of angles converted to bare degrees: `0:180:5` for `0 deg:0.5 turn:5
     deg`. Angles without a unit are unchanged.
 
-    Raises: BalcliError: A text is not an angle; the error names it and the option.
+    Raises:
+        BalcliError: A text is not an angle; the error names the text and the option.
     """
     parts = re.split(r"([:,])", text)
     with_unit = [any(map(str.isalpha, part.replace("e", ""))) or "°" in part for part in parts]
@@ -195,12 +196,12 @@ def optional(metavar: str, text: str, *names: str, **more: Any) -> object:
 
 
 def argument(metavar: str, text: str, **more: Any) -> object:
-    """Return an argument of a command whose help shows no default; parameters as of `optional`."""
+    """Return an argument of a command whose help shows no default; parameters as for `optional`."""
     return typer.Argument(metavar=metavar, help=text, **{"show_default": False, **more})
 
 
 def parse_cylinder(text: str) -> int | str:
-    """Return a cylinder as an engine names it: `3`, or of geared engines `upper.3`."""
+    """Return a cylinder as an engine names it: `3`, or `upper.3` in geared engines."""
     return int(text) if text.isascii() and text.isdecimal() and len(text) < 6 else text
 
 

@@ -50,16 +50,17 @@ _TURNING = '"with the crank" means with the cylinders, which carry the counterwe
 def engine_facts(
     engine: Engine, system: System, *, higher: bool, whole: bool, speeds_rpm: Sequence[float] = ()
 ) -> Facts:
-    """Return cylinders, crank, firing, speed, included masses, and devices. If the whole engine is
-    shown, highest order, reference of moments and source follow. Of several engines, each is in a
-    line, followed by what they have in common.
+    """Return cylinders, crank, firing, speed, included masses, and devices. If `whole`, the
+    highest order, the reference of moments and the source follow. Several engines have a line each,
+    followed by the facts that they have in common.
 
     Args:
         higher: Whether there may be orders above the default range.
+        whole: Whether all facts are returned.
         speeds_rpm: Ascending speeds of the figures, if there are several.
     """
     single = not engine.placed
-    orders = f"to {HIGHEST_ORDER_UNASKED}; --orders asks for higher ones" if higher else ""
+    orders = f"to {HIGHEST_ORDER_UNASKED}; for higher ones use --orders" if higher else ""
     reference = tell_reference(engine.reference_m, system, known=engine.places_known)
     pairs = (
         *(_list_mechanism(engine, system) if single else _list_placed(engine, system)),
@@ -157,8 +158,8 @@ def _speeds(engine: Engine, speeds_rpm: Sequence[float]) -> str:
 
 def _throws(engine: Engine) -> str:
     """Return the angles of the throws relative to cylinder 1's pin, from the free end to the
-    flywheel end. With split pins, the angles are those of one bank, followed by the lead of the
-    next. Empty for one throw with one pin.
+    flywheel end. With split pins, these are the angles of one bank, followed by the lead of the
+    next bank. The text is empty for one throw with one pin.
     """
     pins: dict[int, list[float]] = {}
     for weighed, pin in zip(engine.weighed, engine.pins_deg.values(), strict=True):
@@ -262,7 +263,7 @@ def _firing(engine: Engine) -> str:
     """
     if not engine.fires_deg:
         said = engine.model is not None and "strokes" in engine.model.layout.model_fields_set
-        return tell_strokes(engine) if said or engine.gas is not None else ""  # not if assumed
+        return tell_strokes(engine) if said or engine.gas is not None else ""  # not assumed
     instants = [*engine.fires_deg.values(), 180.0 * engine.strokes]
     gaps = [b - a for a, b in pairwise(instants)]
     intervals, even, splay = f"every {gaps[0]:.4g}", "", engine.splay_for_even_firing

@@ -86,7 +86,7 @@ class FreeMoment(Vector):
 
 
 class Harmonic(NamedTuple):
-    """One order of a torque: cos * cos(order * angle) + sin * sin(order * angle).
+    """One order of a couple, torque or roll: cos * cos(order * angle) + sin * sin(order * angle).
 
     Attributes:
         cos: Cosine part, N·m.
@@ -111,7 +111,7 @@ class OrderFigures:
         order: Order, in multiples of the crank speed; four-stroke engines have half orders.
         force_N: Free force.
         moment_Nm: Free moment about the point of reference.
-        couple_Nm: Free couple about the crank's axis.
+        couple_Nm: Free couple about z through the point of reference.
         inertia_torque_Nm: Torque of the inertia on the crank.
         roll_Nm: Roll of the frame: couple minus inertia torque.
         gas_torque_Nm: Torque of the gas on the crank.
@@ -154,7 +154,7 @@ class EngineSize(NamedTuple):
         name: Name of the engine.
         cylinders: Number of cylinders.
         displacement_m3: Displacement; null if the file gives no bore.
-        engines: Engines that are geared together, of a file that has several.
+        engines: Engines that are geared together, if the file has several.
     """
 
     name: str
@@ -246,8 +246,8 @@ def describe_state(engine: Engine) -> EngineState:
 def list_assumed(
     names: Sequence[str], assumed: Iterable[tuple[str, ...] | None]
 ) -> tuple[str, ...] | None:
-    """Return values taken because the files of several engines leave them out: first those common
-    to all, then those of single engines, with their names; None: no value.
+    """Return the values that are assumed because the files of several engines leave them out: first
+    those common to all, then those of single engines after the engine's name; None: no value.
 
     Args:
         names: Names of the engines.

@@ -90,7 +90,7 @@ def stamp(document: object) -> Any:
 
 
 class Format(StrEnum):
-    """Format of a written result; the last three are of one command each."""
+    """Format of a written result; only one command has each of the last four."""
 
     TABLE = "table"
     JSON = "json"
@@ -133,7 +133,7 @@ class Columnar(Generic[Shown]):
 
 @dataclass(frozen=True, kw_only=True)
 class Renderer(Columnar[Shown]):
-    """Conversion of one kind of result to sheets and CSV as well.
+    """Conversion of one kind of result to documents, columns, sheets and CSV.
 
     Attributes:
         sheet: Function that returns the sheet in given units.

@@ -225,8 +225,8 @@ def draw_order(
 _BANKS = (BLUE, RED, GREEN, SOFT)
 _WAYS = {"forward": "with the crank", "backward": "against it"}
 _SAME = 1e-6  # vectors whose directions differ by less are parallel
-# Sideways shift of a number from its vector, and of a vector that runs back along the one before,
-# as a share of half the side of the picture.
+# Sideways shift of a number from its vector, and of a vector that runs back along the vector before
+# it, as a share of half the side of the picture.
 _GAP = 0.07
 
 
@@ -282,7 +282,7 @@ def draw_polygon(ax: Axes, star: Star, quantity: str, turn_deg: float, unit: Sho
     places = []
     for (vector, name, bank), start in zip(rays, corners, strict=False):
         way = vector / abs(vector)
-        if abs(way + last) < _SAME:  # it runs back along the one before
+        if abs(way + last) < _SAME:  # it runs back along the vector before
             shift += 1j * last * _GAP * limit
         last, place = way, complex(start) + shift
         _draw_arrow(ax, place, place + vector, **_look(bank, len(star.banks)))
@@ -306,7 +306,7 @@ def _look(bank: int, banks: int) -> Look:
 
 
 def _set_up_square(ax: Axes, middle: complex, limit: float) -> None:
-    """Make the axes an invisible square: its centre, and half its side."""
+    """Make the axes an invisible square with this centre and half side."""
     ends = np.array([-limit, limit])
     ax.set(aspect="equal", xlim=middle.imag + ends, ylim=middle.real + ends)
     ax.set_axis_off()
@@ -321,7 +321,7 @@ def _write_numbers(ax: Axes, numbers: Iterable[tuple[complex, complex, str]]) ->
         near = (one for one, (way, _) in found.items() if abs(one + way - place - out) < abs(out))
         found.setdefault(next(near, place), (out, []))[1].append(name)
     for place, (out, names) in found.items():
-        wide = abs(out.imag) / abs(out)  # how far the text itself reaches in this direction
+        wide = abs(out.imag) / abs(out)  # share of the shift along the text
         spot = place + out * (1 + 0.5 * wide * (len(names) - 1))
         middle: Look = {"ha": "center", "va": "center", "bbox": _BOX}
         ax.text(spot.imag, spot.real, ", ".join(names), fontsize=7, **middle)

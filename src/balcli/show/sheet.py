@@ -35,7 +35,7 @@ def get_digits(usual: int = USUAL_DIGITS) -> int:
 NAMELESS = "engine without a name"
 # An order below this share of one cylinder's value, or of the largest order, is negligible.
 NEGLIGIBLE = 1e-3
-NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown one
+NOTHING, UNKNOWN = "balanced", "–"  # words for a force of 0, and for an unknown force
 
 
 class Grid(NamedTuple):

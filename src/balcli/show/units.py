@@ -18,8 +18,8 @@ class ShownUnit(NamedTuple):
         name: Name as it is written.
         size: Size in SI units.
         larger: Unit for large values.
-        most: Value in this unit from which `larger` is used; 0: always (only programs use this
-            unit).
+        most: Value in this unit from which `larger` is used; 0: always, so that tables do not
+            show this unit.
     """
 
     name: str
@@ -125,8 +125,8 @@ SYSTEMS = {"si": SI, "imperial": IMPERIAL}
 
 
 def unit_of_name(name: str) -> ShownUnit:
-    """Return the unit of this name. Units of force, moment and stress come with larger ones for
-    large values.
+    """Return the unit of this name. Units of force, moment and stress have larger units for large
+    values.
     """
     scaled = (SI.force, SI.moment, SI.stress)
     return next((unit for unit in scaled if unit.name == name), ShownUnit(name, 1))

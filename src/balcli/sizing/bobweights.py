@@ -21,8 +21,8 @@ DEFINITION = (
     "locks, rod small ends"
 )
 NO_THROW = (
-    "counts as 0, because crank.throw_mass is 0 or not given; with it, the counterweights are "
-    "heavier by the mass of the throw at the crank radius"
+    "counts as 0, because crank.throw_mass is 0 or not given; a throw mass would make the "
+    "counterweights heavier by this mass at the crank radius"
 )
 WHOLE_PISTON = "piston complete"
 ROTATING = ("big end", "rod bearing", "oil")
@@ -35,8 +35,8 @@ class CardLine(NamedTuple):
 
     Attributes:
         part: Name of the part, such as "rings".
-        rotates: Whether it turns with the pin; otherwise it reciprocates.
-        each_g: Mass for each rod on the pin, g.
+        rotates: Whether the part turns with the pin; otherwise it reciprocates.
+        each_g: Mass of the part for each rod on the pin, g.
     """
 
     part: str
@@ -55,7 +55,7 @@ class Bobweight(NamedTuple):
     Attributes:
         throw: Number of the throw, from 1.
         cylinders: Numbers of the cylinders whose rods are on the pin.
-        factor: Share of the reciprocating mass that counts.
+        factor: Share of the reciprocating mass that the bobweight includes.
         piston_g: Pistons with rings, pins and locks.
         small_end_g: Small ends of the rods.
         big_end_g: Big ends of the rods.
@@ -64,8 +64,8 @@ class Bobweight(NamedTuple):
         rotating_g: Sum of all rotating parts.
         reciprocating_g: Sum of all reciprocating parts.
         bobweight_g: Rotating mass plus factor times reciprocating mass.
-        throw_g: This pin's share of the mass of the throw at the crank radius; counterweights
-            balance it in addition to the bobweight.
+        throw_g: Share of this pin in the throw mass at the crank radius; counterweights balance it
+            in addition to the bobweight.
         lines: All parts that are weighed, in the order of the card.
     """
 
@@ -139,10 +139,10 @@ def _list_lines(masses: list[CylinderMasses]) -> tuple[CardLine, ...]:
 
 
 class _FromPin(Polar):
-    """Mark of an unbalance: its angle counts from cylinder 1's pin, deg, in (-180, 180]."""
+    """Annotation of an unbalance whose angle counts from cylinder 1's pin, deg, in (-180, 180]."""
 
     def split(self, value: complex) -> Node:
-        """Return size and angle."""
+        """Return size and angle of the unbalance."""
         angle = measure_direction(value) if value else None
         return {self.magnitude: abs(value), self.angle: angle}
 
@@ -152,7 +152,7 @@ class PlaneNeed(NamedTuple):
 
     Attributes:
         position_mm: Position of the plane along the crankshaft.
-        wanted: Counterweight that this plane needs for the pins, kg m.
+        wanted: Counterweight that the masses on the pins require in this plane, kg m.
         present: Unbalance of the file's counterweights in this plane, kg m.
         missing: Unbalance that has to be added, kg m.
     """
@@ -172,10 +172,10 @@ class FactorPeaks:
         factor: Balance factor.
         peak_force_N: Largest force.
         along_N: Largest component of the force along the axis of the first bank.
-        across_N: Largest component across it.
+        across_N: Largest component of the force at right angles to this axis.
         peak_moment_Nm: Largest moment.
         bobweight_g: Bobweight of the first pin.
-        counterweight_kg_m: Largest weight that is missing.
+        counterweight_kg_m: Largest counterweight to add.
         by_moment: Whether the moment determines the best factor, because the pins balance each
             other and no factor changes the force much.
     """

@@ -28,8 +28,8 @@ from .options import SchemeOptions
 from .planes import SAME_PLACE, find_unbalance, move_along, read_planes
 from .remedy import Remedy, fit_devices, remove_counterweights
 
-_NEARLY = 0.05  # masses nearly cancel below this share of the largest one; pistons differ by less
-_FLAT = 1e-9  # factors whose peaks differ by less than this share of the largest are equally good
+_NEARLY = 0.05  # masses nearly cancel if their vector sum is below this share of the largest
+_FLAT = 1e-9  # factors are equally good if their peaks differ by less than this share of the peak
 _ROUNDS = 32  # steps of the search, which narrow the range of factors to 2e-7
 _MEASURED = "Opposite the pin: the counterweights that the measured mass implies"
 _UNCHANGED = 1e-9  # a change of a weight by a smaller share counts as 0
@@ -74,9 +74,9 @@ def size_by_factor(engine: Engine, options: SchemeOptions) -> Remedy:
     the weight belongs; otherwise each pin has its own plane.
 
     For several factors, the peaks of each are listed, and the factor with the smallest peak force
-    is fitted; if the pins balance each other (`FactorPeaks.by_moment`), that with the smallest peak
-    moment. The details list the best factors between the smallest and the largest, or between 0 and
-    1.
+    is fitted. If the pins balance each other (`FactorPeaks.by_moment`), the factor with the
+    smallest peak moment is fitted instead. The details list the best factors between the smallest
+    and the largest given one; for a single factor, between 0 and 1.
 
     Raises:
         BalcliError: A factor is out of range, planes are given but moments are not known, or the
@@ -180,11 +180,11 @@ def _list_curves(
 
 
 def _note(fitting: Fitting, factor: float, z: Array, own: bool) -> str:
-    """Return a note on an unusual factor, or a moment that remains; `own`: whether the file has
-    counterweights.
+    """Return a note on a moment that remains, or on why nothing is fitted; else an empty text.
+    `own`: whether the file has counterweights.
     """
     engine = fitting.engine
-    if len(set(z)) == 1 and engine.places_known:  # a moment about the only plane remains
+    if len(set(z)) == 1 and engine.places_known:  # a single plane cannot take a moment
         pins, (places, weights) = _list_pins(engine, factor), _find_counterweights(engine)
         arms = np.array([*(pin.z for pin in pins), *places]) - z[0]
         vectors = np.array([*(pin.unbalance for pin in pins), *weights])
@@ -268,7 +268,7 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
         BalcliError: The engine has no reciprocating mass, or no crankshaft can have such a mass.
     """
     if measured < 0:
-        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin is not negative")
+        raise BalcliError(f"--measured {1e3 * measured:g} g: a mass on the pin cannot be negative")
     card = fill_card(engine, 0.0)
     reciprocating = sum(one.reciprocating_g for one in card)
     rotating = sum(one.rotating_g for one in card)
@@ -278,8 +278,8 @@ def find_measured_factor(engine: Engine, measured: float) -> float:
     told, turning = f"--measured {1e3 * measured:g} g", f"{rotating / len(card):.5g}"
     if not abs(factor) <= LARGEST_FACTOR:
         raise BalcliError(
-            f"{told}: would balance {factor:.3g} times the reciprocating mass; {turning} g on a "
-            "pin rotate; is the unit right?"
+            f"{told} would balance {factor:.3g} times the reciprocating mass ({turning} g on a pin "
+            "rotate); is the unit right?"
         )
     if factor < 0:
         warn(
@@ -341,7 +341,9 @@ def _choose_planes(engine: Engine, options: SchemeOptions) -> tuple[float, ...] 
 
 
 def _describe(engine: Engine, options: SchemeOptions, factor: float) -> Node:
-    """Return the factor by both definitions, and the measured mass if given."""
+    """Return the factor as a share of all mass on the pin and as a share of one cylinder's, and the
+    measured mass if given.
+    """
     details: Node = {
         "factor": factor,
         "factor_of_one_cylinder": factor * len(engine.rows_by_pin[0]),
@@ -370,7 +372,7 @@ def _fit_factor(
     fitting = Fitting.start(engine, "factor", 1)
     counted = "; less the counterweights of the file"
     less = counted if _find_counterweights(engine)[1].any() else ""
-    taken = f"all rotating mass and {factor:.6g} of the reciprocating mass"
+    taken = f"weight for all rotating mass and {factor:.6g} of the reciprocating mass"
     found = _find_needs(engine, factor, planes)
     slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]
     missing = found.needs[2].tolist()
@@ -415,7 +417,7 @@ def _find_needs(engine: Engine, factor: float, planes: tuple[float, ...] | None)
 def _size_each(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights to geared engines, to each on its own crank as if it were alone."""
     if options.measured is not None or len(options.factor or ()) > 1:
-        raise BalcliError("factor of geared engines: give one --factor, or run this on one of them")
+        raise BalcliError("geared engines take one --factor, no --measured; or balance one alone")
     remedy, cards, needs = Remedy("factor", 1), list[Bobweight](), list[PlaneNeed]()
     for one in map(move_along, engine.cranks):
         own = size_by_factor(one.engine, options)
@@ -456,8 +458,8 @@ def _list_pins(engine: Engine, factor: float) -> list[_Pin]:
 
 
 def _find_centre(masses: Array, places: Array) -> float:
-    """Return the centre along z of masses at these positions, m, rounded to 1e-12 m if that changes
-    it by no more than rounding.
+    """Return the centre of masses along z, m. It is rounded to 1e-12 m if this changes it by no
+    more than rounding errors.
     """
     z = float(masses @ places) / float(masses.sum())
     rounded = round(z, 12) + 0.0

@@ -1,5 +1,5 @@
-"""Fit the unbalances of devices that an engine file leaves open (`unbalance = "fit"`), together, by
-least squares over the quantities to cancel.
+"""Fit all unbalances that an engine file leaves open (`unbalance = "fit"`) together, by least
+squares of the quantities to cancel.
 
 The effect of a device is linear in its complex unbalance and has a single order, so each order is
 solved separately. Force, moment and roll are weighted as shares of one cylinder's first order.
@@ -41,8 +41,8 @@ TARGETS = {
     ROLL_TOTAL.name: (ROLL,),
 }
 _LOST = 1e-10  # singular values below this share of the largest count as 0
-_NOTHING = 1e-12  # unbalances below this share of the largest of their order are rounding
-_REASON = "Placed as in the file; smallest sum of squares of the remaining {} at its order"
+_ROUNDING = 1e-12  # unbalances below this share of the largest of their order are rounding
+_REASON = "Place from the file; smallest sum of squares of the {} left at the device's order"
 
 
 def list_to_fit(model: EngineFile) -> list[tuple[str, DeviceTable]]:
@@ -89,7 +89,7 @@ def size_fit(engine: Engine, model: EngineFile, targets: Sequence[str] | None = 
         effects, target = _set_up(engine, order, tables.values(), chosen)
         solution = least_squares.solve(np.concatenate(effects, axis=1), target, lost=_LOST)
         unknowns, rank = unknowns + len(solution.x), rank + solution.rank
-        x = np.where(np.abs(solution.x) < _NOTHING * np.abs(solution.x).max(), 0, solution.x)
+        x = np.where(np.abs(solution.x) < _ROUNDING * np.abs(solution.x).max(), 0, solution.x)
         largest = max(np.abs(each).max() for each in effects)
         for (name, table), each in zip(tables.items(), effects, strict=True):
             values, x = np.split(x, [each.shape[1]])
@@ -125,13 +125,13 @@ def _check_targets(engine: Engine, targets: Sequence[str] | None) -> tuple[str, 
 def _set_up(
     engine: Engine, order: int, tables: Iterable[DeviceTable], targets: Sequence[str]
 ) -> tuple[list[Array], Array]:
-    """Return the effect of each device of an order, shape (readings, unknowns), and the readings to
-    cancel, shape (readings,), as shares of one cylinder's. A device has one unknown if its angle is
-    given, else two.
+    """Return the effect of each device of an order, shape (values, unknowns), and the values to
+    cancel, shape (values,). Values are real and imaginary parts of the targets as shares of one
+    cylinder's first order. A device has one unknown if its angle is given, else two.
     """
     residual, scales = find_residual(engine, order), find_scales(engine)
     if not scales.force:
-        raise BalcliError('"fit" needs reciprocating masses, with which forces are compared')
+        raise BalcliError('"fit" needs reciprocating masses, because forces are compared with them')
     parts, there, weights = [], [], []
     for target in targets:
         scale = scales.roll if ROLL in TARGETS[target] else getattr(scales, target)

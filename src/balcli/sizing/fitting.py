@@ -1,15 +1,15 @@
 """Size devices order by order by least squares, and explain them in sentences.
 
-Each order is fitted to the residual with all earlier devices. A reason is one sentence: the part
-that a device cancels, and why a simpler device does not. Sizes are in the tables, in the reader's
-units.
+Each order is fitted to the residual with all earlier devices. A reason is one sentence: it names
+the part that a device cancels, and why a simpler device does not. Sizes are not in the reasons but
+in the tables, which use the units of the reader.
 
 The effect of a device is linear in its complex unbalance (docs/theory.md), so all sizing is
 weighted linear least squares. In units of `n^2 omega^2`, a device of order n with unbalance u at z
-and place p adds `u` to the free force, `(z - z_ref) u` to the moment (over i) and `Im(conj(p) u
-...)` to the roll; a slider adds to both rotating vectors. A *slot* is a place and kind for a
-device, a *part* is one rotating vector of force or moment, or the roll. A scheme chooses slots and
-the parts to cancel.
+and place p adds `u` to the free force, `(z - z_ref) u` to the moment divided by i, and `Im(conj(p)
+u ...)` to the roll; a slider adds to both rotating vectors. A *slot* is a place and
+kind for a device. A *part* is one rotating vector of force or moment, or the roll. A scheme chooses
+slots and the parts to cancel.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ from .residual import (
 )
 
 _ROTATING = "Weights opposite the rotating mass of throws and rods"
-_LEFT_OF = {  # parts of an order whose size a detail with this key states
+_LEFT_OF = {  # keys of details, and the parts whose remaining size each detail states
     "force_left_N": FORCE,
     "moment_left_Nm": MOMENT,
     "couple_left_Nm": (BACKWARD_MOMENT,),
@@ -80,7 +80,7 @@ class Slot(NamedTuple):
         place: Position x + iy in the plane, m.
         direction_deg: Direction of a slider's path, from x.
         role: Role of a shaft.
-        carrier: Of geared engines, the one whose crank carries a counterweight.
+        carrier: For geared engines, the engine whose crank carries the counterweight.
     """
 
     kind: Literal["counterweight", "shaft", "slider"]
@@ -94,7 +94,7 @@ class Slot(NamedTuple):
 
     @classmethod
     def on_crank(cls, one: Placed, z: float) -> Slot:
-        """Return the place of a counterweight on a crank: of the engine, or of one of several."""
+        """Return the slot of a counterweight on a crank: of the only engine, or of a geared one."""
         if not one.name:
             return cls("counterweight", 1, 1, z)
         place = complex(place_in_plane(*one.at_m[:2]))
@@ -201,7 +201,8 @@ def solve_exactly(
     """Return unbalances that cancel these parts completely, up to rounding.
 
     Raises:
-        BalcliError: These slots cannot produce the parts (its text is `reason`), or are too alike.
+        BalcliError: The slots cannot cancel the parts (the message is `reason`), or are too close
+            to each other.
     """
     fit = size_unbalances(slots, residual, parts)
     weights = _weigh(slots, residual, parts)
@@ -280,7 +281,6 @@ class Fitting(NamedTuple):
             reason: Reason for these devices.
             residual: Residual with the devices so far; None: it is computed.
 
-
         Raises:
             BalcliError: The slots cannot cancel the parts.
         """
@@ -355,8 +355,8 @@ def _size_total_roll(engine: Engine, order: int) -> float:
 
 
 def explain_counterweights(residual: Residual, sense: int = 1) -> str:
-    """Return the reason for counterweights against the part of order 1 that turns with a crank, in
-    the sense of the first one or against it.
+    """Return the reason for counterweights against the part of order 1 that turns in this sense: 1
+    as the first crank, -1 against it.
     """
     both = "both" if residual.force(sense) and residual.moment(sense) else "it"
     turn = "counterweights also turn with it and cancel"
@@ -374,7 +374,7 @@ def explain_shaft(
         residual: Residual of the order.
         sense: Sense of rotation: 1 with the crank, -1 against it.
         count: Number of eccentrics.
-        stays: Words on the moment that remains (`tell_moment`); empty if none remains.
+        stays: Words on the moment that remains (`tell_moment`); empty if no moment remains.
         halves: Whether the eccentric is divided into two halves.
     """
     what = f"Order {residual.order} force" if stays else _name(residual, sense)

@@ -46,8 +46,8 @@ SHAFT = "shaft at -1"
 SHAFTS = "shafts at +2 and -2"
 
 _AT_THROWS = (
-    "At every throw, against the part of order 1 that turns with the crank, so that main bearings "
-    "and crankshaft do not carry this part"
+    "Counterweights at every throw cancel the part of order 1 that turns with the crank where it "
+    "arises, so main bearings and crankshaft do not carry it"
 )
 
 
@@ -147,11 +147,11 @@ class Ladder(NamedTuple):
         if name in names[1:]:
             return name
         rows = ", ".join(f"{k} {name}" for k, name in enumerate(names) if k)
-        rows = rows or "none, as nothing is worth fitting"
+        rows = rows or "none, because nothing is worth fitting"
         for out in self.left_out:
             if out.step == name:
                 raise BalcliError(f'step "{name}" is left out: {self._explain(out)}')
-        raise BalcliError(f'step "{step[:60]}": choose from {rows}; 0 is the engine as drawn')
+        raise BalcliError(f'step "{step[:60]}": the choices are {rows}; 0 is the engine as drawn')
 
     def _explain(self, out: LeftOut) -> str:
         """Return in words the effect of an omitted step, and the option that lists it, if there is
@@ -166,7 +166,7 @@ class Ladder(NamedTuple):
 
     def measure(self, out: LeftOut) -> float:
         """Return the part that an omitted step would cancel, or the reduction of the main bearing
-        load, in % of one cylinder's first order; nan if that is 0.
+        load, in % of one cylinder's first order; nan if one cylinder has none.
         """
         sizes = [(out.force_N, self.scale.force_N), (out.moment_Nm or 0.0, self.scale.moment_Nm)]
         if out.main_bearing_N is not None:
@@ -176,10 +176,10 @@ class Ladder(NamedTuple):
 
 # ------------------------------------------------------------------ devices
 def add_at_throws(fitting: Fitting) -> Fitting:
-    """Return the fitting with a counterweight at every throw, against the forward force of order 1
-    of the throw's cylinders; each counterweight of the file counts at the nearest throw. If a force
-    or moment remains (from stagger, or weights of the file), the smallest additional unbalances
-    cancel it.
+    """Return the fitting with a counterweight at every throw, against the part of its cylinders'
+    force of order 1 that turns with the crank. Each counterweight of the file is subtracted at the
+    nearest throw. If a force or moment remains (from stagger, or weights of the file), the smallest
+    additional unbalances cancel it.
     """
     engine, throws = fitting.engine, fitting.engine.joined_throws_m
     forward = compute_spectra(engine, [1], ("force",), each=True)["force"].forward[0]
@@ -198,7 +198,7 @@ def add_at_throws(fitting: Fitting) -> Fitting:
 
 def add_at_ends(fitting: Fitting, first: Residual, sense: int = 1) -> Fitting:
     """Return the fitting with weights in the end planes for the part that turns with the crank. In
-    geared engines, they are on the first crank that turns in the sense `sense`.
+    geared engines, the weights are on the first crank that turns in the sense `sense`.
     """
     one = find_carrier(fitting.engine, sense)
     if one is None:
@@ -225,7 +225,7 @@ def add_shafts(fitting: Fitting, residual: Residual, senses: Iterable[int]) -> F
 
 
 def ignore_compensators(engine: Engine) -> Engine:
-    """Return the engine with the moments, but without the forces, of its compensators: for each, an
+    """Return the engine with the moments of its compensators but without their forces: for each, an
     opposite force is added at the point of reference.
     """
     *_, z = engine.reference_m

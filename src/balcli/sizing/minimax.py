@@ -34,8 +34,8 @@ from .planes import (
 from .remedy import Remedy, remove_counterweights
 from .residual import FORWARD, FORWARD_FORCE, NothingToBalanceError
 
-_SAME = 8 * EPS  # share of the radius; a point outside by no more than this is on the circle
-_TOUCHING = 1e-11  # share of the radius; limit of the same kind for the reported angles
+_SAME = 8 * EPS  # radii are equal if they differ by no more than this share of the amplitude sum
+_TOUCHING = 1e-11  # share of the radius by which a point at a reported angle may lie inside
 _APART = 1e-3  # rad; angles closer together are one peak
 _FIXED = 1e-9  # share of the radius by which a point that fixes a circle may lie inside it
 _ROUNDS = 60
@@ -48,8 +48,8 @@ class Circle(NamedTuple):
         centre: Centre x + iy, in the unit of the curve.
         radius: Largest distance of the curve from the centre.
         theta: Angles (rad, ascending) at which the curve touches the circle.
-        excess: Bound of the excess of the radius over the smallest possible one; 0 if it is no more
-            than `noise`.
+        excess: Upper bound of the difference between the radius and the smallest possible one; 0 if
+            it is no more than `noise`.
         noise: Rounding error of the radius.
     """
 
@@ -100,7 +100,7 @@ def enclose_points(points: Complex) -> tuple[complex, list[int]]:
     with np.errstate(all="ignore"):  # three points in line have no circle
         centres = np.where(across, a + rise / across, middle)
         farthest = np.abs(points[:, None] - centres).max(axis=0)
-        fixed = np.abs(a - centres) >= farthest * (1 - _FIXED)  # its points are on it
+        fixed = np.abs(a - centres) >= farthest * (1 - _FIXED)  # no point is outside
     best = int(np.where(fixed, farthest, np.inf).argmin())
     return complex(centres[best]), sorted({*triples[best].tolist()})
 
@@ -178,8 +178,9 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
     """Return the counterweight with which the force of order 1 runs on an ellipse whose major axis
     has the given direction, and whose axes have the given ratio (Wang, conclusion 5).
 
-    A counterweight changes V+ alone. The axis lies at (arg V+ + arg V-)/2, the axes are |V-| + |V+|
-    and |V-| - |V+|; the other solution, |V+| > |V-|, has larger axes.
+    A counterweight changes only V+, the rotating vector that turns with the crank; V- turns against
+    it. The major axis lies at (arg V+ + arg V-)/2; the half axes are |V-| + |V+| and |V-| - |V+|.
+    The other solution, |V+| > |V-|, has larger axes.
 
     Raises:
         BalcliError: Direction or ratio is missing, or the given planes cannot take the moment.
@@ -187,7 +188,7 @@ def size_ellipse(engine: Engine, options: SchemeOptions) -> Remedy:
     """
     if options.direction is None or options.ratio is None:
         raise BalcliError(
-            "ellipse: give the force to leave: --direction and --ratio, such as 90 and 50%"
+            "ellipse: give --direction and --ratio of the force to leave, such as 90 and 50%"
         )
     fitting = Fitting.start(engine, "ellipse", 1)
     residual = fitting.find_residual(1)
@@ -231,8 +232,8 @@ def _split(
 
 
 def _compare_with_half(engine: Engine, circle: Circle) -> dict[str, float]:
-    """Return the largest force with counterweights of factor 0.5 instead of the engine's own, and
-    the relative improvement over it; empty for a rotary engine, which has no factor.
+    """Return the largest force with counterweights of factor 0.5 instead of those of the file, and
+    the relative improvement of the circle over it; empty for a rotary engine, which has no factor.
     """
     if engine.rotary:
         return {}

@@ -1,5 +1,5 @@
-"""Define the balance schemes: their names, a line that describes each, and the options of each,
-which are checked here for command and Python function. This module does not load numpy.
+"""Define the balance schemes: the name, the one-line description and the options of each. Options
+are checked here for both the command and the Python function. This module does not load numpy.
 """
 
 from __future__ import annotations
@@ -14,32 +14,32 @@ from ..file.fields import nearest
 from ..limits import FARTHEST_DEVICE_M, HIGHEST_SHAFT_ORDER, MOST_SMALL, SMALL
 
 DESIGNS = ("a", "b")  # a: pin on the shaft, slot in the disc; b: pin on the disc, slot on the shaft
-CRITERIA = ("largest", "mean")  # force that shafts of uneven speed leave, to be minimised
+CRITERIA = ("largest", "mean")  # value of the remaining force that eccentric-slider minimises
 LADDER = ("auto", "step")  # schemes that fit steps of the ladder
 KNUCKLES = "knuckles"  # fits no device, but changes the engine file (balcli.balancing.answer)
 FIT = "fit"  # fits the devices that the file leaves open (balcli.sizing.fit)
 
 # Name, options and meaning of each scheme.
 _SCHEMES = """
-auto | | orders 1 and 2: counterweights, then shafts where they cancel enough
-complete | | all of orders 1 and 2, however small: counterweights, then shafts
-step | step | a step of the ladder that balance prints, by its name or number
-counterweights | order planes | against rotating masses and what turns with the crank in order 1
+auto | | orders 1 and 2: counterweights, and shafts that cancel enough
+complete | | all of orders 1 and 2: counterweights, and even small shafts
+step | step | a step of the ladder that balance prints, by name or number
+counterweights | order planes | counterweights for the part of order 1 turning with the crank
 factor | factor measured planes | the shop's balance factor, with the bobweight card
 minimax | planes position orders | the counterweight that leaves the smallest peak force
-ellipse | direction ratio planes position | the counterweight that leaves order 1 a wanted \
+ellipse | direction ratio planes position | counterweight that gives order 1 a wanted \
 direction and shape
 single-shaft | order at position planes | one shaft against the crank, and counterweights for the \
 rest
 two-shaft | order at position roll | two shafts turning against each other: force of one order
-four-shaft | at position | two such pairs, for the forces of orders 1 and 2
+four-shaft | at position | two pairs of such shafts: forces of orders 1 and 2
 couple-shaft | order at planes | shafts with two opposite eccentrics: moment of one order
-compensator | order at position | pairs of masses far from the engine: vertical moment of one order
-slider | order at position | reciprocating masses along the axes of one order's ellipse
+compensator | order at position | pairs of masses far away: vertical moment of one order
+slider | order at position | reciprocating masses along the axes of the force of one order
 eccentric-slider | design criterion radius | a pair of shafts of variable speed, for one cylinder
 oldham | radius | an Oldham coupling for orders 1 and 2 of one cylinder
 knuckles | even | knuckle angles for even dead centres or strokes (articulated)
-fit | target | devices whose unbalance is "fit" in the file, in their places
+fit | target | the devices of the file that have unbalance = "fit"
 """
 _ROWS = [[cell.strip() for cell in row.split("|")] for row in _SCHEMES.strip().splitlines()]
 MEANINGS = {name: meaning for name, _, meaning in _ROWS}
@@ -47,7 +47,7 @@ NAMES = tuple(MEANINGS)
 OPTIONS = {name: tuple(options.split()) for name, options, _ in _ROWS}
 SCHEMES = {name: options for name, options in OPTIONS.items() if name not in (KNUCKLES, FIT)}
 
-# Kind of number of each option, and words for a right value.
+# Type of number that each option takes, and words for a valid value.
 _NUMBERS: dict[str, tuple[type, str]] = {
     "order": (Integral, "a whole number, such as 2"),
     "at": (Complex, "places x + iy in m, such as (-0.04 + 0.06j,)"),
@@ -78,14 +78,14 @@ class SchemeOptions(NamedTuple):
         factor: Shares of the reciprocating mass to try; the best one is fitted; default: 0.5.
         measured: Mass on each bare pin that balances the crank, kg; replaces a factor.
         roll: "zero" places two shafts such that they also cancel the inertia roll of their order.
-        orders: Orders of the force whose largest value is minimised; default: all.
+        orders: Orders of the force whose largest value scheme minimax minimises; default: all.
         small: Share of one cylinder below which a part of an order is left unbalanced.
         step: Name or number of a step of the ladder (scheme step).
         radius: Radius of the weights of eccentric-slider and oldham; default: the crank radius.
         direction: Direction of the largest force of order 1 that is to remain, deg from x.
         ratio: Smallest over largest force of order 1 that is to remain.
-        design: Design of shafts that turn unevenly, one of `schemes.DESIGNS`.
-        criterion: Criterion by which these shafts are sized, one of `schemes.CRITERIA`.
+        design: Design of shafts that turn unevenly, one of `DESIGNS`.
+        criterion: Criterion by which these shafts are sized, one of `CRITERIA`.
     """
 
     order: int | None = None
@@ -122,9 +122,7 @@ class SchemeOptions(NamedTuple):
         if strangers := [name for name in given if name not in taken]:
             others = " or ".join(name for name in SCHEMES if {*given} <= {*SCHEMES[name]})
             if scheme == "auto" and others:
-                raise BalcliError(
-                    f"scheme auto has no --{strangers[0]}; add --scheme with {others}"
-                )
+                raise BalcliError(f"scheme auto has no --{strangers[0]}; choose --scheme {others}")
             names = ", ".join(f"--{name}" for name in taken)
             has = f"it takes {names}" if taken else "it takes no options"
             raise BalcliError(f"scheme {scheme} has no --{strangers[0]}; {has}")
@@ -132,7 +130,7 @@ class SchemeOptions(NamedTuple):
             raise BalcliError(f"--order {self.order}: give 1 to {HIGHEST_SHAFT_ORDER}")
         check_small(self.read_small())
         if scheme == "step" and self.step is None:
-            raise BalcliError("scheme step: name one, such as --step 1; balance prints them all")
+            raise BalcliError("scheme step: give one, such as --step 1; balance lists all steps")
         if not isinstance(self.step, (str, int, NoneType)):
             raise wrong_type("SchemeOptions: step", self.step, "give a name or number, such as 1")
         if self.radius is not None and not 0 < self.radius < math.inf:
@@ -176,7 +174,7 @@ class SchemeOptions(NamedTuple):
         """
         at = self.at or (0j,)
         if len(at) > 1:
-            raise BalcliError("--at: this scheme has one device; give one place")
+            raise BalcliError("--at: this scheme fits its devices at one place; give one")
         return at[0]
 
 
@@ -211,7 +209,7 @@ def find_taken(scheme: str) -> tuple[str, ...]:
     if scheme in SCHEMES:
         return SCHEMES[scheme]
     if scheme in (KNUCKLES, FIT):
-        raise BalcliError(f"scheme {scheme} is fitted by `balcli balance --scheme {scheme}` alone")
+        raise BalcliError(f"only `balcli balance --scheme {scheme}` runs the scheme {scheme}")
     near = nearest(scheme, NAMES)
     meant = f"did you mean {near}? " if near else ""
     raise BalcliError(f"there is no scheme {scheme[:60]!r}: {meant}choose from {', '.join(NAMES)}")

@@ -1,6 +1,6 @@
 """Choose positions of devices along the crank, and handle devices as tables of the engine file (g
-mm, degrees, mm). The figures in these tables are analyzed, so results are those of the written
-file.
+mm, degrees, mm). Analyses use the figures of these tables, so the written file gives the same
+results.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ def find_ends(engine: Engine) -> tuple[float, float]:
 
 
 def find_carrier(engine: Engine, sense: int) -> Placed | None:
-    """Return the first crank that turns in this sense (1 as the first one), along z where it
-    stands; None: there is none.
+    """Return the first crank that turns in this sense (1: as the first crank, -1: against it),
+    moved to its position along z; None if no crank does.
     """
     return next(map(move_along, (one for one in engine.cranks if one.ratio == sense)), None)
 
 
 def move_along(one: Placed) -> Placed:
-    """Return an engine whose places along z count as those of the engines to which it is geared."""
+    """Return a geared engine with its places along z in the coordinates of all engines together."""
     own, z = one.engine, float(one.at_m[2])
     if not z:
         return one
@@ -178,8 +178,8 @@ def find_unbalance(device: DeviceTable) -> float:
 
 
 def find_free(devices: Sequence[DeviceTable]) -> tuple[bool, ...]:
-    """Return whether each device belongs to a shaft that may be anywhere: its eccentrics together
-    make a moment but no force, and no position is given.
+    """Return whether each device belongs to a shaft that may be anywhere: the eccentrics of the
+    shaft together make a moment but no force, and x and y are not given.
     """
     shafts = [device for device in devices if isinstance(device, Shaft) and not any(device.at)]
     free: list[Shaft] = []

@@ -54,17 +54,17 @@ class Remedy(NamedTuple):
 
     @property
     def counterweights(self) -> tuple[Counterweight, ...]:
-        """Devices on the crankshaft."""
+        """Counterweights among the devices."""
         return tuple(device for device in self.devices if isinstance(device, Counterweight))
 
     @property
     def shafts(self) -> tuple[Shaft, ...]:
-        """Eccentrics of balancer shafts."""
+        """Eccentrics of balancer shafts among the devices."""
         return tuple(device for device in self.devices if isinstance(device, Shaft))
 
     @property
     def sliders(self) -> tuple[Slider, ...]:
-        """Reciprocating devices."""
+        """Sliders among the devices."""
         return tuple(device for device in self.devices if isinstance(device, Slider))
 
     @property
@@ -94,7 +94,7 @@ class Remedy(NamedTuple):
 
 
 def fit_devices(engine: Engine, remedy: Remedy) -> Engine:
-    """Return the engine with the devices of a remedy added, in the order of its file's tables."""
+    """Return the engine with the devices of a remedy added, in the order of an engine file."""
     new = (build_fitted(table, engine) for table in remedy.devices)
     everything = (*engine.devices, *new, *remedy.beyond)
     devices = tuple(sorted(everything, key=lambda device: device.kind))

@@ -19,7 +19,7 @@ from ..forces.spectrum import compute_spectra
 from ..limits import HIGHEST_ORDER_SOUGHT
 from .options import SchemeOptions
 
-PartKind = Literal["force", "moment", "roll"]  # names of kinds
+PartKind = Literal["force", "moment", "roll"]  # names in `forces.kinds`
 
 
 class ResidualPart(NamedTuple):
@@ -101,7 +101,7 @@ class Scales(NamedTuple):
 
 
 def find_scales(engine: Engine) -> Scales:
-    """Return the scales of an engine at its speed; of geared engines the largest."""
+    """Return the scales of an engine at its speed; for geared engines, the largest of each."""
     if engine.placed:
         each = (find_scales(one.engine) for one in engine.cranks)
         return Scales(*map(max, zip(*each, strict=True)))
@@ -115,13 +115,13 @@ def find_scales(engine: Engine) -> Scales:
 
 def find_size(residual: Residual, sense: int, scales: Scales) -> float:
     """Return the size of the parts that turn in a sense (1 with the crank, -1 against it): the
-    larger of force and moment as shares of one cylinder's.
+    larger of force and moment, as shares of one cylinder's first order.
     """
     return max(find_share(residual, part, scales) for part in list_parts(sense))
 
 
 def find_share(residual: Residual, part: ResidualPart, scales: Scales) -> float:
-    """Return the size of a force or moment as a share of one cylinder's."""
+    """Return the size of a force or moment as a share of one cylinder's first order."""
     size, scale = residual.size(part), scales.moment if part.kind == "moment" else scales.force
     return (size / scale if scale else math.inf) if size else 0.0
 
@@ -225,15 +225,15 @@ def _find_lowest(
         raise OnlySmallError(tell_small(sought, found, scales, least))
     raise NothingToBalanceError(
         f"there is no free {what} of orders 1 to {HIGHEST_ORDER_SOUGHT}: nothing to balance; "
-        "--order names a higher one"
+        "--order selects a higher one"
     )
 
 
 def tell_small(
     sought: Sequence[ResidualPart], found: Sequence[Residual], scales: Scales, least: float
 ) -> str:
-    """Return the text for `OnlySmallError`: the largest part that the scheme could cancel, and
-    which scheme cancels the largest of all parts, if possible of those that turn the same way.
+    """Return the text for `OnlySmallError`. It states the largest part that the scheme could
+    cancel, and which other scheme cancels a large part, preferably one turning in the same sense.
 
     Args:
         sought: Parts that the scheme cancels.
@@ -247,7 +247,7 @@ def tell_small(
 
     one, part = max(product(found, sought), key=find_size_of)
     told = (
-        f"the largest {part.kind} {tell_sense(part.sense)} is {_tell_size(one, part)} "
+        f"the largest {part.kind} turning {tell_sense(part.sense)} is {_tell_size(one, part)} "
         f"(order {one.order}), small compared with one cylinder's; --order {one.order} fits it"
     )
     every = product(found, (*FORWARD, *BACKWARD))
@@ -261,7 +261,7 @@ def tell_small(
     takes = "couple-shaft" if part.kind == "moment" else "two-shaft"
     takes = "single-shaft" if part == BACKWARD_FORCE else takes
     takes = "counterweights" if ratio == 1 else takes
-    return f"{told}. {takes} cancels the {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
+    return f"{told}. Scheme {takes} cancels a {part.kind} of {_tell_size(one, part)} at {ratio:+d}"
 
 
 def tell_sense(sense: int) -> str:
@@ -277,5 +277,5 @@ def _tell_rest(residual: Residual) -> str:
     """Return the parts that an order has, and the schemes that cancel them."""
     parts = [part for part in (*FORWARD, *BACKWARD) if residual.parts[part]]
     takes = {"force": "two-shaft", "moment": "couple-shaft"}
-    told = (f"{part.kind} {tell_sense(part.sense)} ({takes[part.kind]})" for part in parts)
-    return f"; it has {join_words(told)}" if parts else ""
+    has = (f"a {part.kind} turning {tell_sense(part.sense)} ({takes[part.kind]})" for part in parts)
+    return f"; it has {join_words(has)}" if parts else ""

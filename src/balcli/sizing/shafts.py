@@ -51,7 +51,7 @@ from .residual import (
 _ROUNDING_M = 1e-9
 _COMPENSATES = (
     "Order {} moment about y: two masses that turn in opposite directions make a force along x, "
-    "whose moment is the opposite one; the force remains"
+    "whose moment cancels it; the force remains"
 )
 
 
@@ -60,8 +60,8 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     counterweights for the part that turns with the crank.
 
     By default, one eccentric cancels the force. Its axial distance from the force leaves a couple,
-    which the details list; unless a position is given, it is where this couple is smallest. Two
-    eccentrics in given planes also cancel the moment.
+    which the details list. Unless a position is given, the eccentric is where this couple is
+    smallest. Two eccentrics in given planes also cancel the moment.
     """
     two = options.planes is not None
     if two and options.position is not None:
@@ -89,8 +89,8 @@ def size_single_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit shafts at +N and -N for the moment of order N, each with two opposite eccentrics in two
-    planes. If the moment turns in only one sense, fit only one shaft.
+    """Fit shafts at +N and -N for the moment of order N. Each shaft has two opposite eccentrics in
+    two planes. If the moment turns in only one sense, fit only one shaft.
     """
     residual = choose_residual(engine, options, ("moment",))
     low, high = read_two_planes(engine, options)
@@ -98,7 +98,7 @@ def size_couple_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
     at = options.at or ()
     if len(at) > len(senses):
         told = "two shafts" if len(senses) == 2 else "one shaft"
-        raise BalcliError(f"--at: this moment takes {told}; give no more places")
+        raise BalcliError(f"--at: this moment takes {told}; give no further places")
     fitting = Fitting.start(engine, "couple-shaft", residual.order)
     for sense, place in reversed([*zip(senses, (*at, 0j, 0j), strict=False)]):
         slots = [Slot("shaft", residual.order, sense, z, place) for z in (low, high)]
@@ -130,11 +130,11 @@ def size_two_shaft(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
-    """Fit compensators, at one place or fore and aft, for the moment of order N about y (of the
-    forces along x). Each is a pair of equal masses at +N and -N, which make a force along x.
+    """Fit compensators, at one place or fore and aft, for the moment of order N about y, which the
+    forces along x make. Each is a pair of equal masses at +N and -N that make a force along x.
 
-    With `m` the amplitude of this moment, the force at one place is `-m/(z - z_ref)`; at two places
-    it is `-m/(z1 - z2)` at the first and its opposite at the second.
+    With `m` the amplitude of this moment, a single compensator makes the force `-m/(z - z_ref)`.
+    The first of two makes `-m/(z1 - z2)`, the second the opposite force.
     """
     if options.position is None:
         raise BalcliError("--scheme compensator: give --position Z, or Z,Z for fore and aft")
@@ -145,7 +145,7 @@ def size_compensator(engine: Engine, options: SchemeOptions) -> Remedy:
     residual = find_residual(engine, order)
     moment = _find_moment_about_y(residual)
     if not moment:
-        raise NothingToBalanceError(f"Order {order} has no moment; nothing to compensate")
+        raise NothingToBalanceError(f"Order {order} has no moment about y: nothing to compensate")
     forces = _place_forces(-moment, places, residual.reference.z)
     fitting = Fitting.start(engine, "compensator", order)
     for z, force in forces.items():
@@ -178,12 +178,12 @@ def _find_moment_about_y(residual: Residual) -> complex:
 
 
 def _place_forces(moment: complex, places: Sequence[float], z_ref: float) -> dict[float, complex]:
-    """Return the force (kg m) at each place (z, m) that together make a moment (kg m^2)."""
+    """Return the forces (kg m) by place (z, m) that together make a moment (kg m^2)."""
     if len(places) > 2:
         raise BalcliError("--position takes one z or two")
     first, other = places[0], places[1] if len(places) > 1 else z_ref
     if first == other:
-        raise BalcliError(f"--position {1e3 * first:g}: no lever to z = {1e3 * other:g}")
+        raise BalcliError(f"--position {1e3 * first:g}: no lever arm to z = {1e3 * other:g}")
     force = moment / (first - other)
     return {first: force} if len(places) == 1 else {first: force, other: -force}
 
@@ -234,13 +234,13 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
         raise BalcliError(
-            "--at: a pair of shafts has two places; give first that of the shaft against the crank"
+            "--at: a pair of shafts has two places; the first is of the shaft against the crank"
         )
     if not (forward and backward):
         if options.roll:
             way = "with" if forward else "against"
             raise BalcliError(
-                f"order {residual.order}: its force turns only {way} the crank, so that one shaft "
+                f"order {residual.order}: its force turns only {way} the crank, so one shaft "
                 "cancels it; leave out --roll"
             )
         place = at[0] if at else 0j
@@ -258,8 +258,8 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
 
 
 def _describe_places(places: Places) -> dict[str, float]:
-    """Return distance from the crank axis and direction of the shafts of each sense, and the ratio
-    of distances (shaft with the crank : shaft against it).
+    """Return distance from the crank axis and direction of the shafts for each sense, and the ratio
+    of distances (that of the shaft with the crank over that of the shaft against it).
     """
     details = {}
     for sense, name in ((1, "with_crank"), (-1, "against_crank")):

@@ -178,8 +178,8 @@ def _evaluate(c: Array, theta: Array, derivative: int = 0) -> Array:
 
 
 def _find_zeros(c: Array, derivative: int = 0) -> Array:
-    """Return 0, the zeros of a derivative between 0 and pi, and pi; by Newton's method within grid
-    cells.
+    """Return 0, the zeros of a derivative of a series between 0 and pi, and pi; by Newton's method
+    within grid cells.
     """
     values = _evaluate(c, _GRID, derivative)
     if derivative == 1:  # the function is even about 0 and pi
@@ -195,8 +195,8 @@ def _find_zeros(c: Array, derivative: int = 0) -> Array:
 
 # ------------------------------------------------------------------ the two criteria
 def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array:
-    """Repeat steps from x until they converge, and return the end. A step changes k by at most the
-    share `farthest`.
+    """Repeat steps from x until they converge, and return the last x. A step changes k by at most
+    the share `farthest`.
     """
     for _ in range(_ROUNDS):
         move = step(x)
@@ -209,7 +209,7 @@ def _iterate(step: Callable[[Array], Array], x: Array, farthest: float) -> Array
 
 def _step_to_peak(design: str, engine: Array, x: Array) -> Array:
     """Return the step d that minimises the largest of `|values + slopes d|` over the extremes of P.
-    It is fixed by the three extremes with the highest bound (de la Vallee-Poussin).
+    The step is fixed by the three extremes with the highest bound (de la Vallee-Poussin).
     """
     remaining, by_x = _linearize(design, engine, x)
     theta = _find_zeros(remaining, 1)
@@ -259,10 +259,10 @@ _SPEED_LAW = (
     "times crank speed"
 )
 _OLDHAM = (
-    "each side has a first-order weight of m r/2 opposite the piston's motion, and a block with "
-    "block mass x e = A2 m r/8, where m is the reciprocating mass and e half the distance of the "
-    "coupling's shafts; e is given for a block as heavy as the weight (a block of half the mass "
-    "needs 2 e); in each slot the block slides by 2 e to both sides"
+    "each coupling has a first-order weight of m r/2 opposite the piston's motion and a block with "
+    "block mass x e = A2 m r/8; m: reciprocating mass, A2: coefficient of the second order of the "
+    "piston force, e: half the distance of the coupling's shafts; e is given for a block as heavy "
+    "as the weight (a block of half the mass needs 2 e); the block slides by 2 e to both sides"
 )
 
 
@@ -290,7 +290,7 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
     wanted = options.design or DESIGNS[0], options.criterion or CRITERIA[0]
     chosen = [n for n, one in enumerate(optima) if (one.design, one.criterion) == wanted]
     if not chosen:
-        raise BalcliError(f"eccentric-slider: no optimum of design {wanted[0]} by {wanted[1]}")
+        raise BalcliError(f"eccentric-slider: no optimum of design {wanted[0]} ({wanted[1]} force)")
     fitting = (
         Fitting.start(engine, "eccentric-slider")
         .balance_rotating(keep_overbalance=False)
@@ -306,8 +306,8 @@ def size_eccentric_slider(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 def _describe_shaft(engine: Engine, one: Optimum, unit_kg_m: float, radius: float | None) -> Node:
-    """Return an optimum with the figures of each shaft. Its weight loads it with the forces `m_b
-    r_b phi'^2` outwards and `m_b r_b phi''` along the path, and the torque `m_b r_b^2 phi''`.
+    """Return an optimum with the figures of each shaft. The weight loads its shaft with the forces
+    `m_b r_b phi'^2` outwards and `m_b r_b phi''` along the path, and the torque `m_b r_b^2 phi''`.
 
     Args:
         engine: Engine.

@@ -60,8 +60,8 @@ def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
 
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights in the given planes for the force and moment of order 1 that turn with the
-    crank. A single plane is a compromise between both. If moments are not known, only the force is
-    cancelled.
+    crank. In a single plane, the weight is a compromise between force and moment. If moments are
+    not known, only the force is cancelled.
 
     Raises:
         BalcliError: Another order is given, or the planes cannot take the moment.
@@ -132,8 +132,8 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
         slots,
         fit.unbalances,
         "Best weight in one plane for the force and moment of order 1 turning with the crank "
-        "(least squares of force, and of moment over the longest arm of weight, rods and crank "
-        "radius)",
+        "(least squares of the force, and of the moment divided by the longest arm in the engine, "
+        "at least the crank radius)",
     )
     fitting = fitting.describe_left(1, "force_with_crank_left_N", "moment_with_crank_left_Nm")
     stays = fitting.remedy.details["moment_with_crank_left_Nm"]
@@ -168,7 +168,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
     fitting = Fitting.start(engine, "slider", residual.order)
     reason = (
         f"Order {residual.order} force: sliders driven at {residual.order} times crank speed along "
-        "the axes of its ellipse, of sizes |V+| + |V-| and ||V+| - |V-||"
+        "the axes of its ellipse cancel it (half axes |V+| + |V-| and ||V+| - |V-||)"
     )
     fitting = fitting.add(slots, unbalances, reason)
     return fitting.describe_left(residual.order, "moment_left_Nm").describe_roll(residual).remedy
@@ -194,8 +194,8 @@ SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
 
 
 def size(engine: Engine, scheme: str = "auto", options: SchemeOptions | None = None) -> Remedy:
-    """Return the devices that a scheme fits to an engine; if there is nothing to balance, no
-    devices and a note.
+    """Return the devices that a scheme fits to an engine. If there is nothing to balance, return no
+    devices but a note.
 
     Args:
         engine: Engine without trailing axes.

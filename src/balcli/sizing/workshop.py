@@ -70,7 +70,7 @@ class Practical(NamedTuple):
             `radius_mm`.
         radius_mm: Radius at which masses are stated.
         force_N: Centrifugal force, or largest force of a slider, at the engine's speed.
-        speed_rpm: Speed of the shaft; for a slider, its strokes a minute.
+        speed_rpm: Speed of the shaft; for a slider, its oscillations a minute.
         disc_radius_mm: Radius of a semicircular steel disc whose diameter passes through the axis
             of rotation; left out for a counterweight that is a sector.
         disc_thickness_mm: Thickness of this disc.
@@ -111,7 +111,7 @@ def find_practical(engine: Engine, remedy: Remedy, tools: Tools) -> tuple[Practi
     rim = min(rims, default=tools.radius or engine.find_radius(0.0))
     if tools.drill is not None and tools.drill > 2 * rim:
         raise BalcliError(
-            f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of {1e3 * rim:g} mm"
+            f"--drill: {1e3 * tools.drill:g} mm is wider than a rim of radius {1e3 * rim:g} mm"
         )
     room = tools.width or _find_room(engine, remedy)
     return tuple(_find_figures(engine, device, tools, room) for device in remedy.devices)
@@ -131,9 +131,9 @@ def _refuse_impossible(tools: Tools) -> None:
     if tools.drill is None and (tools.max_depth, tools.slug, tools.width) != (None,) * 3:
         raise BalcliError("--max-depth, --slug and --width are for holes: give --drill")
     if tools.slug is not None and tools.slug <= STEEL:
-        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not heavier than the steel there")
+        raise BalcliError(f"--slug: {tools.slug / 1e3:g} g/cm3 is not denser than the steel there")
     if tools.thickness is not None and tools.disc is not None:
-        raise BalcliError("a disc has its radius or its thickness given: the other follows")
+        raise BalcliError("--disc and --thickness: give one of them, the other follows from it")
 
 
 def _check_figure(name: str, figure: float | None) -> float | None:
@@ -182,8 +182,8 @@ def _plan_holes(
         most = 0.0 if math.isinf(count) else 1e6 * fitting * of_one
         raise HolesDoNotFitError(
             f"--drill {1e3 * tools.drill:g} mm: {needed_holes}{1e6 * unbalance:.6g} g mm do not "
-            f"fit: {fitting:g} holes side by side, {most:.6g} g mm, have room on {1e3 * room:g} mm "
-            "(--width); use a larger drill, --radius or --max-depth, or --slug"
+            f"fit: {1e3 * room:g} mm (--width) have room for {fitting:g} holes side by side, "
+            f"{most:.6g} g mm; use a larger drill, --radius or --max-depth, or --slug"
         )
     depth = find_drill_depth(unbalance / count, rim, tools.drill, density)
     depth = deepest if math.isnan(depth) else min(depth, deepest)
@@ -192,7 +192,7 @@ def _plan_holes(
 
 
 def _find_rim(engine: Engine, device: DeviceTable, tools: Tools) -> float:
-    """Return the radius of a device, m; without a given one, that of the nearest throw."""
+    """Return the radius of a device, m: the given radius, or that of the nearest throw."""
     return tools.radius or engine.find_radius(device.position / 1e3)
 
 
@@ -208,7 +208,7 @@ def _find_room(engine: Engine, remedy: Remedy) -> float:
 
 
 def _find_disc(unbalance: float, tools: Tools) -> Node:
-    """Return radius and thickness of a half disc, m. Its centroid is 4R/(3 pi) from its diameter,
+    """Return radius and thickness of a half disc, mm. Its centroid is 4R/(3 pi) from its diameter,
     so `m r = density t 2/3 R^3`.
     """
     if tools.disc is not None:
@@ -222,7 +222,7 @@ def _find_disc(unbalance: float, tools: Tools) -> Node:
 # ------------------------------------------------------------------ shapes of new devices
 def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
     """Return the remedy with its counterweights as sectors, and its shafts with names and bearings,
-    as far as these shapes are given. What turns on one axis at one speed is one shaft.
+    as far as these shapes are given. Eccentrics on one axis at one speed form one shaft.
 
     Args:
         engine: Engine without the new devices.
@@ -230,11 +230,11 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         shapes: Bearings and sector.
 
     Raises:
-        BalcliError: Bearings or sector are impossible, or no new device has any.
+        BalcliError: Bearings or sector are impossible, or no new device can have them.
     """
     for option, found in (("sector", remedy.counterweights), ("bearings", remedy.shafts)):
         if getattr(shapes, option) is not None and not found:
-            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that has it")
+            raise BalcliError(f"--{option}: scheme {remedy.scheme} fits no device that can have it")
     of_weights = {"sector": _read_sector(shapes.sector)} if shapes.sector is not None else {}
     bearings = _read_bearings(shapes.bearings) if shapes.bearings is not None else {}
     used = set() if engine.model is None else {shaft.name for shaft in engine.model.shaft}
@@ -249,7 +249,7 @@ def shape_devices(engine: Engine, remedy: Remedy, shapes: Shapes) -> Remedy:
         if isinstance(device, Shaft):
             shape = of_axes.get((device.ratio, device.at), {})
         devices.append(device.model_copy(update=shape))
-        shape.pop("bearings", None)  # the first of a shaft has them
+        shape.pop("bearings", None)  # only the first eccentric of a shaft has them
     return remedy._replace(devices=tuple(devices))
 
 

@@ -16,7 +16,7 @@ from ..file.table import label_table
 from ..file.torsion_tables import Part, find_stiffness
 from .quantity_names import ENGINE, MOUNTS, TORSION
 
-# Number of the file's units in an SI unit.
+# Keys of the masses of a rod, with the number of file units in one SI unit.
 _ROD_UNITS = {"mass": 1.0, "small_end": 1.0, "big_end": 1.0, "inertia": 1e6}
 OF_MOUNTS, OF_SHAFTS = 0.15, 0.05  # default tolerances of stiffness
 
@@ -94,7 +94,7 @@ def find_sources(
 def _find_sources_of_several(
     model: EngineFile, within: Tolerances
 ) -> tuple[EngineFile, tuple[Source, ...]]:
-    """Return the parts of engines that are geared together, with the name of the engine of each."""
+    """Return the file and the parts of geared engines; part names begin with the engine's name."""
     cranks, sources = list[EngineFile](), list[Source]()
     for k, (name, crank) in enumerate(zip(model.crank_names, model.cranks, strict=True), 1):
         own, found = find_sources(crank, ENGINE, within)
@@ -107,11 +107,11 @@ def _find_sources_of_several(
 
 # ------------------------------------------------------------------ pistons, rods and throws
 def _spell_out_throws(model: EngineFile, *, angles: bool) -> EngineFile:
-    """Return the file with a mass for every throw; and with the angles that its firing order needs.
+    """Return the file with a mass for every throw.
 
     Args:
         model: Engine file.
-        angles: Whether angles are wanted as well.
+        angles: Whether to add the throw angles that the firing order needs, if none are given.
     """
     parts, masses = assemble(model), model.crank.throw_masses
     if len(masses) == 1:
@@ -168,8 +168,9 @@ def _list_pistons(model: EngineFile, mass: float) -> Iterator[Source]:
 
 
 def _hold_devices(model: EngineFile) -> dict[str, Line]:
-    """Return the angles of the devices as functions of the angle of cylinder 1's throw. Angles of
-    devices count from this throw; if it turns, the functions keep them in place on the crank.
+    """Return the angle of each device as a function of the deviation of cylinder 1's throw. The
+    file counts the angles from this throw; if the throw deviates, the functions keep the devices in
+    place on the crank.
     """
     lines = {}
     for path, table in model.tables():
@@ -181,7 +182,7 @@ def _hold_devices(model: EngineFile) -> dict[str, Line]:
 
 # ------------------------------------------------------------------ mounts, shafts and inertias
 def _list_mounts(model: EngineFile, within: Tolerances) -> Iterator[Source]:
-    """Yield the stiffness of every mount; its axes deviate together."""
+    """Yield the stiffness of every mount; the three axes of a mount deviate together."""
     tolerance = OF_MOUNTS if within.stiffness is None else within.stiffness
     for number, mount in enumerate(model.mount, 1):
         label = label_table(mount, number)

@@ -1,5 +1,5 @@
 """Find the numbers of an engine file by dotted names (`rod.ratio`, `crank.throws.2`,
-`shaft.1.unbalance`), and read the values that a user gives them.
+`shaft.1.unbalance`), and read the values that a user gives for them.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ def find_places(model: EngineFile) -> dict[str, Place]:
 
 
 def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
-    """Return the numbers of a file with [[engine]], and those of its engines' files that count."""
+    """Return the numbers with an effect in a file with [[engine]] and in its engines' files."""
     numbers: dict[str, Place] = {}
     for path, table in model.tables():
         if path.partition(".")[0] in BESIDE_ENGINES:
@@ -115,8 +115,9 @@ def _find_places_of_several(model: EngineFile) -> dict[str, Place]:
     return numbers
 
 
-_IDLE_TABLES = ("torsion", "locomotive", "axle")  # of engines that are geared together
-# Intervals, which add up to a cycle, and numbers that only `locomotive` reads.
+_IDLE_TABLES = ("torsion", "locomotive", "axle")  # tables without effect in geared engines
+# Numbers that cannot vary: firing intervals, which add up to a cycle, and numbers that only
+# `locomotive` reads.
 _FIXED = r"layout\.firing_intervals\.|locomotive\.(?!coupling)|axle\..*\.(part|wheel_load)$"
 
 
@@ -141,7 +142,7 @@ def _list_idle_paths(model: EngineFile, numbers: Iterable[str]) -> list[str]:
 
 
 def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
-    """Yield the numbers of a table; of lists and inner tables, only existing members."""
+    """Yield the numbers of a table, with the existing members of its lists and inner tables."""
     kind = type(table)
     for key, value in table:
         path, reader, field = f"{start}.{key}", _number_of(kind, key), kind.model_fields[key]

@@ -153,6 +153,7 @@ def refuse_unknown(model: EngineFile, engine: Engine, wanted: Iterable[AnyQuanti
 _TABLES = {MOUNTS: {"gas", "body", "mount"}, TORSION: {"gas", "torsion"}, PISTON: set[str]()}
 # Beginnings of the names of quantities that do not depend on the inertia of rods.
 _WITHOUT_RODS = ("force.", "moment.", "peak.", "gas.", "mode.", "torque.mean", "piston.")
+# Beginnings of the names of quantities that depend on the masses of throws.
 _OF_THROWS = ("force.1.", "moment.1.", "peak.", "mount.", "point.")
 _OF_THROWS_OFF_AXIS = ("couple.1.", "roll.1.", "roll_total.1.")
 
@@ -206,7 +207,7 @@ def naming_variant(name: str) -> Iterator[None]:
 def _list_variants(
     figures: Mapping[str, Figure], shape: tuple[int, ...]
 ) -> Iterator[dict[str, float]]:
-    """Yield the figures of each variant in a grid of this shape, to which they broadcast."""
+    """Yield the figures of each variant in a grid; the figures broadcast to its shape."""
     columns = {path: np.broadcast_to(v, shape).ravel() for path, v in figures.items()}
     for k in range(math.prod(shape)):
         yield {path: float(column[k]) for path, column in columns.items()}
@@ -242,7 +243,7 @@ class _VariedGas:
 def _vary_gas(
     model: EngineFile, engine: Engine, figures: Mapping[str, Figure], rank: int
 ) -> Engine:
-    """Return variants of an engine with their gas, if there is some."""
+    """Return an engine of variants with the gas of each variant, if the file has gas."""
     if not model.has_gas:
         return engine
     if not engine.placed:

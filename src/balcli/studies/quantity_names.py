@@ -35,37 +35,38 @@ guide    guide.N.X            N·m         X-type guide-force moment, gas includ
 cycle    torque.mean          N·m gas     mean torque of the gas
 cycle    torque.max           N·m gas     largest torque over the cycle, at steady speed
 cycle    torque.min           N·m gas     smallest torque over the cycle, at steady speed
-cycle    fluctuation              gas     highest less lowest speed, over the mean
-piston   piston.mean_speed         m/s         mean speed of piston 1; piston.N: of another
-piston   piston.max_speed          m/s         its largest speed, in either direction
-piston   piston.max_acceleration   m/s²         its largest acceleration towards the crank
-piston   piston.stroke             m           its true stroke
+cycle    fluctuation              gas     highest minus lowest speed, divided by the mean speed
+piston   piston.mean_speed         m/s         mean speed of piston 1
+piston   piston.max_speed          m/s         largest speed of piston 1, in either direction
+piston   piston.max_acceleration   m/s²         largest acceleration of piston 1 towards the crank
+piston   piston.stroke             m           true stroke of piston 1
 piston   piston.N.mean_speed       m/s         mean speed of piston N
-piston   piston.N.max_speed        m/s         its largest speed, in either direction
-piston   piston.N.max_acceleration m/s²         its largest acceleration towards the crank
-piston   piston.N.stroke           m           its true stroke
-journals journal.N.range      N·m         highest less lowest torque in main journal N, gas included
+piston   piston.N.max_speed        m/s         largest speed of piston N, in either direction
+piston   piston.N.max_acceleration m/s²         largest acceleration of piston N towards the crank
+piston   piston.N.stroke           m           true stroke of piston N
+journals journal.N.range      N·m         highest minus lowest torque in main journal N, with gas
 journals journal.N.max        N·m         highest torque in main journal N, gas included
 journals journal.N.min        N·m         lowest torque in main journal N, gas included
-journals pin.N.range          N·m         highest less lowest torque in the crank pin of throw N
+journals pin.N.range          N·m         highest minus lowest torque in the crank pin of throw N
 journals pin.N.max            N·m         highest torque in the crank pin of throw N
 journals pin.N.min            N·m         lowest torque in the crank pin of throw N
 mounts   mode.N.Hz            Hz  mount   natural frequency on the mounts
-mounts   mode.N.share         %   mount   largest share of its energy in one motion
-mounts   mode.N.damping       %   mount   its damping ratio
+mounts   mode.N.share         %   mount   largest share of one motion in the energy of the mode
+mounts   mode.N.damping       %   mount   damping ratio of the mode
 mounts   mode.MOTION.Hz       Hz  mount   natural frequency of the mode that has most of this motion
 mounts   mode.MOTION.share    %   mount   share of this motion in the energy of the mode that has \
 most of it
 mounts   mode.MOTION.damping  %   mount   damping ratio of the mode that has most of this motion
-mounts   mount.NAME.force     N   mount   largest force of a mount, from an eighth of the speed \
-up to it
-mounts   mount.NAME.static    N   mount   its load at rest and under the mean torque
-mounts   point.NAME.motion    mm  mount   largest motion of a point, from an eighth of the speed \
-up to it
-torsion  torsion.N.Hz         Hz  torsion natural frequency of the crankshaft that twists
-torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, from half to 1.5 \
-times the speed
-torsion  shaft.NAME.stress    Pa  torsion its largest vibratory stress there
+mounts   mount.NAME.force     N   mount   largest force of a mount, at 1/8 to 1 times the \
+engine's speed
+mounts   mount.NAME.static    N   mount   force of a mount at rest, mean torque included
+mounts   point.NAME.motion    mm  mount   largest motion of a point, at 1/8 to 1 times the \
+engine's speed
+torsion  torsion.N.Hz         Hz  torsion torsional natural frequency of the crankshaft
+torsion  shaft.NAME.torque    N·m torsion largest vibratory torque of a shaft, at 0.5 to 1.5 \
+times the engine's speed
+torsion  shaft.NAME.stress    Pa  torsion largest vibratory stress of a shaft, at 0.5 to 1.5 \
+times the engine's speed
 """
 _COLUMNS = re.compile(r"(\S+) +(\S+) +(.{3,4}?) (.{7}) (.+)")
 _PLACES = {"N": r"\d+(?:\.\d+)?", "MOTION": "(?:r?[xyz]|roll)", "NAME": ".+", "PART": ".+"}
@@ -101,7 +102,7 @@ class Form(NamedTuple):
 
 FORMS = tuple(Form(*map(str.strip, row)) for row in _COLUMNS.findall(_TABLE))
 BEGINNINGS = tuple(dict.fromkeys(form.beginning for form in FORMS))
-# Notes on quantities that are the largest of a range of speeds, by the beginnings of their names.
+# Notes on quantities that are the largest value over a range of speeds, by the beginnings of names.
 _RANGES = (
     (
         ("mount.", "point."),
@@ -116,7 +117,7 @@ def describe_names() -> str:
     chapters = (list(forms) for _, forms in groupby(FORMS, lambda form: form.chapter))
     names = "; ".join(", ".join(join_patterns(forms)) for forms in chapters)
     return (
-        f"{names}. N: order or number; PART: of force and moment {_OF_VECTOR}; of others "
+        f"{names}. N: order or number. PART of force and moment: {_OF_VECTOR}; PART of others: "
         f"{_OF_SCALAR}."
     )
 

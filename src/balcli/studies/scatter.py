@@ -1,5 +1,5 @@
 """Compute the spread of quantities over random variants of an engine whose parts deviate within
-tolerances: `scatter`. Variants are evaluated as in `sweep`.
+tolerances (`scatter`). Variants are evaluated as in `sweep`.
 """
 
 from __future__ import annotations
@@ -309,7 +309,7 @@ class Variants:
 def _find_changes(nominal: Array, above: Array, below: Array) -> Array:
     """Return the change of each quantity by each tolerance, shape (sources, quantities). It is half
     the difference between both ends of the tolerance. If both ends change a quantity in the same
-    direction, as with an amplitude of 0, it is the larger change.
+    direction, such as an amplitude that is nominally 0, it is the larger change.
     """
     up, down = above - nominal, below - nominal
     larger = np.where(np.abs(up) >= np.abs(down), up, down)
@@ -336,8 +336,8 @@ def scatter(
     distribution: Literal["uniform", "normal"] = "uniform",
 ) -> Scatter:
     """Return the spread of free forces and moments when masses, rod lengths and throw angles vary,
-    and the tolerances that matter most. For quantities of mounts the stiffnesses of the mounts
-    vary; for torsion, those of shafts, and inertias and pistons.
+    and the tolerances that matter most. For quantities of mounts, the stiffness of each mount
+    varies; for torsion, the stiffness of each shaft, the inertias and the piston masses vary.
 
     Args:
         engine: Engine, from `load`.

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 
 SHOWN = 6  # largest number of changes of each quantity in a table
-BOUND = "Bound: nominal value plus the linear changes by all tolerances; variants may lie beyond it"
+BOUND = "Bound: nominal value plus all single changes, taken positive; variants may exceed it"
 _SHAPES = {
-    "uniform": "evenly distributed",
+    "uniform": "deviations evenly distributed",
     "normal": (
-        "normally distributed with a third of the tolerance as standard deviation, so that 1 of "
-        "370 deviations exceeds it"
+        "deviations normally distributed with a third of the tolerance as standard deviation, so "
+        "that 1 of 370 exceeds the tolerance"
     ),
 }
 
@@ -60,14 +60,14 @@ def sheet(result: Scatter, system: System) -> Sheet:
         unit = unit_of_name(result.units[name]).fit(max(map(abs, (spread.max, spread.nominal))))
         head = name_with_unit(name, unit.name)
         lines.append((head, *(number(value / unit.size) for value in _list_sizes(spread).values())))
-        parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "nothing")]
+        parts = _group_parts(spread.sensitivity, unit.size)[:SHOWN] or [("0", "any part")]
         causes += [(head if k == 0 else "", *pair) for k, pair in enumerate(parts)]
     notes = (f"{_list_tolerances(result)}.", f"{BOUND}.", tell_speeds(result.quantities))
     note = " ".join(filter(None, notes))
     title = f"Spread of {count_name(result.samples)} random {result.varied}"
     heads = tuple(rows(result, system).header[:-1])
     spread_of_all = Grid(title, heads, tuple(lines), note)
-    heads, title = ("quantity", "change", "made by each of"), "Change by each single tolerance"
+    heads, title = ("quantity", "change", "tolerance of"), "Change by each single tolerance"
     changes = Grid(f"{title}, largest first", heads, tuple(causes), words=(0, 2))
     name = result.model.name or NAMELESS
     return Sheet(name, (*assumed_facts(result.assumed), spread_of_all, changes))
@@ -100,11 +100,11 @@ RENDERER = Renderer(sheet=sheet, rows=rows)
 
 MASS = "Tolerance of piston, rod and throw masses, and of inertias."
 ANGLE = "Tolerance of throw angles, such as 0.2 deg."
-STIFFNESS = "Tolerance of mounts or shafts."
+STIFFNESS = "Tolerance of the stiffness of mounts or shafts."
 OF_EACH = "15% for mounts, 5% for shafts"
-SAMPLES = "Default: 100000, or 500 for quantities that are computed one by one."
+SAMPLES = "Random engines; default: 100000, or 500 for quantities computed one by one."
 SHAPES = "Uniform within the tolerances, or normal with a third of them as standard deviation."
-QUANTITY = "Such as force.1.major, torque.max, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
+QUANTITY = "Names such as force.1.major, mode.roll.Hz, torsion.1.Hz; see balcli numbers."
 percent = partial(optional, "PERCENT")
 
 

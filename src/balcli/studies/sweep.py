@@ -56,7 +56,7 @@ Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 Box: TypeAlias = tuple[slice, ...]
 ALONE = 64  # number of variants in a box if each is computed by itself
-CHUNK = 65_536  # largest number of variants in a box; larger boxes share no more work
+CHUNK = 65_536  # largest number of variants in a box; larger boxes save no more work
 BYTES = 1 << 24  # size of the largest array of a box, which fits into the cache
 SAMPLES = 1 << 20  # largest number of samples in a box, computed in a tenth of a second
 
@@ -187,9 +187,9 @@ def plan_sweep(
 ) -> Sweep:
     """Return the sweep of an engine file, after a check of the grid's corners.
 
-    A mechanism that locks anywhere in the grid also locks at a corner. Mistakes of an uneven speed
-    may lie between the corners; they are found later. `name` is the file's name in messages; see
-    `read_sweep` for the other arguments.
+    A mechanism that locks anywhere in the grid also locks at a corner. An uneven speed may be wrong
+    only between the corners; such mistakes are found later. `name` is the file's name in messages;
+    see `read_sweep` for the other arguments.
     """
     paths = [p.path for p in parameters]
     if twice := [path for path in paths if paths.count(path) > 1]:
@@ -233,8 +233,8 @@ def evaluate_sweep(sweep: Sweep) -> list[Array]:
 
 
 def count_at_once(sweep: Sweep) -> int:
-    """Return the number of variants in a box, so that it takes a fraction of a second and little
-    memory. It is estimated at the corners of the grid.
+    """Return how many variants a box may have if it is to take a fraction of a second and little
+    memory, estimated at the corners of the grid.
     """
     of_gas = any(q.kind in GAS_KINDS for q in sweep.of_engine)
     gases = [crank.gas for crank in sweep.file.cranks]

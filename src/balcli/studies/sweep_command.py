@@ -100,7 +100,7 @@ VARY = (
     "A number of the engine file and its values: rod.ratio=0.24:0.32:0.01 (from:to:step) or "
     "crank.throws.2=90,180. Several numbers span a grid, in which the last varies fastest."
 )
-QUANTITY = f"Figures by name: {describe_names()}"
+QUANTITY = f"Quantities by name: {describe_names()}"
 FORM = (
     "Default: by the ending of -o, else a table in a terminal and csv in a pipe. With more than 50 "
     "variants, tables show only the first ones."
@@ -132,8 +132,7 @@ def sweep(
     ] = None,
     dask: Annotated[str, optional("ADDRESS|local", "Compute on a dask cluster.")] = "",
 ) -> None:
-    """Quantities for many variants of an engine, whose numbers vary over ranges, as a table, CSV,
-    JSON or Parquet.
+    """Quantities of an engine whose numbers vary over ranges, as a table, CSV, JSON or Parquet.
 
     Ctrl-C leaves an older file unchanged. In a folder, repeating the sweep computes the missing
     files.
@@ -199,7 +198,7 @@ def _choose_target(
         )
     if plot is not None:
         raise BalcliError(
-            f"--plot {plot}: figures in a folder are not kept for a picture; write one file, or "
+            f"--plot {plot}: variants in a folder are not kept for a picture; write one file, or "
             "leave --plot out"
         )
     return file, Format.PARQUET

@@ -136,7 +136,8 @@ def check_drawable(sweep: Sweep) -> None:
     """Check that a picture of the sweep is possible, before anything is computed.
 
     Raises:
-        BalcliError: Not one or two parameters have several values, or there are too many variants.
+        BalcliError: No parameter or more than two have several values, or there are too many
+            variants.
     """
     several = len(_varied_parameters(sweep))
     if not 0 < several <= 2:

@@ -1,6 +1,6 @@
 """Write the variants of a sweep as they are computed: as text, as a Parquet file with units, or as
-a folder of numbered Parquet files (blocks). The thread or dask worker that computes a block writes
-it (extra `balcli[scale]`).
+a folder of numbered Parquet files (blocks). The thread or dask worker that computes a block also
+writes it. Parquet and dask need the extra `balcli[scale]`.
 
 The folder holds a manifest that identifies the sweep. A block is written under a hidden name and
 renamed when it is complete. Repeating the same sweep computes only the missing blocks. Nothing but
@@ -219,8 +219,8 @@ def share_work(jobs: int | None, dask: str) -> AbstractContextManager[Share]:
 
 @contextmanager
 def connect_cluster(address: str) -> Iterator[Share]:
-    """Yield a function that shares work among the workers of a cluster: of the scheduler at an
-    address such as tcp://host:8786, or of a temporary cluster on this machine (`local`).
+    """Yield a function that shares work among the workers of a cluster. The address is that of a
+    scheduler, such as tcp://host:8786, or `local` for a temporary cluster on this machine.
 
     Raises:
         BalcliError: Dask is not installed, or no scheduler responds.
@@ -232,7 +232,7 @@ def connect_cluster(address: str) -> Iterator[Share]:
     dask: Any = distributed
     options: dict[str, Any] = {"address": address, "timeout": 10}
     if address == "local":
-        # When it ends, its workers log the loss of their scheduler.
+        # When the cluster ends, its workers log the loss of their scheduler.
         quiet = {"dashboard_address": None, "silence_logs": logging.CRITICAL}
         options = {"threads_per_worker": 1, **quiet}
     try:

@@ -34,8 +34,8 @@ KINDS_OF_TORQUE = ("gas", "torque", "torque_total")
 
 
 def choose_firing_cylinder(engine: Engine) -> CylinderNumber:
-    """Return the cylinder whose gas is shown: 1, or the first to fire if 1 is a dummy; of engines
-    geared together the first.
+    """Return the cylinder whose gas is shown: 1, or the first to fire if 1 is a dummy; for engines
+    that are geared together, the first cylinder.
     """
     if engine.placed:
         return engine.numbers[0]
@@ -56,8 +56,8 @@ def analyze_torque_of_engine(
         engine: Single engine with gas (no trailing axes). An uneven speed in its file is ignored.
         orders: Orders to show; default: multiples of 1/2 to 12 (of 1 for a two-stroke engine), and
             with many cylinders also the firing order and its double.
-        cylinder: Cylinder (of geared engines "upper.3") whose torque is shown next to the engine's;
-            default: `choose_firing_cylinder`.
+        cylinder: Cylinder (in geared engines, such as "upper.3") whose torque is shown next to the
+            engine's; default: that of `choose_firing_cylinder`.
         fluctuation: Wanted (highest - lowest)/mean speed, for which the inertia is computed.
         loads: "pin" (loads of crank pins), "main" (loads of main bearings), or both.
 

@@ -43,7 +43,7 @@ EngineFile = Annotated[
     argument("FILE", "Engine file with [gas] (TOML); - reads standard input. Not with --curve."),
 ]
 Fluctuation = Annotated[
-    str | None, optional("1/200", "Also compute the inertia for this speed fluctuation; or 0.5%.")
+    str | None, optional("1/200", "Also compute the inertia for this speed fluctuation (or 0.5%).")
 ]
 Cylinder = Annotated[
     str | None,
@@ -53,16 +53,16 @@ LoadsOption = Annotated[
     str | None, optional("pin,main", "Also show loads of pins and main bearings.", "--loads")
 ]
 Curve = Annotated[
-    Path | None, optional("CSV", "Instead of an engine: angle_deg,torque_Nm over a period.")
+    Path | None, optional("CSV", "Torque instead of an engine: angle_deg,torque_Nm over a period.")
 ]
 Load = Annotated[
-    Path | None, optional("CSV", "With --curve: torque of the load; default: the constant mean.")
+    Path | None, optional("CSV", "With --curve: torque of the load; default: the mean torque.")
 ]
 Inertia = Annotated[
     str | None, optional("KG_MM2", "With --curve: inertia of the shaft, kg mm^2 or '2 kg m^2'.")
 ]
 Write = Annotated[
-    Path | None, optional("OUT.toml", "Write the file with this speed_ripple and the misfires.")
+    Path | None, optional("OUT.toml", "Write the file with this speed_ripple and these misfires.")
 ]
 
 
@@ -165,7 +165,7 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     flywheel = result.flywheel
     if flywheel is None or flywheel.fluctuation is None:
         unknown = (
-            "the speed is not known; give inertia in [crank] or [flywheel], such as [flywheel] and "
+            "the uneven speed needs an inertia; give inertia in [crank] or [flywheel], such as "
             "inertia = 250000"
         )
         raise BalcliError(f"--write: {(flywheel and flywheel.stall) or unknown}")
@@ -177,7 +177,7 @@ def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path)
     text = set_keys(text, "operation", {"speed_ripple": lines}, _NOTE)
     if result.no_gas_in and result.engine is not None and result.engine.placed:
         told = "write [cylinder.N] gas = 0 into the file of that engine"
-        raise BalcliError(f"--write: a misfire stands in an engine's own file; {told}")
+        raise BalcliError(f"--write: geared engines cannot be written with a misfire; {told}")
     for number in result.no_gas_in or ():
         text = set_keys(text, f"cylinder.{number}", {"gas": 0}, _NOTE)
     write_file(text, target)

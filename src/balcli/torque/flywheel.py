@@ -80,7 +80,7 @@ def find_flywheel(
     """
     if constant is None and fluctuation is None:
         return None
-    course = resolved(moving or np.zeros_like, torque.breaks)  # quicker than the mechanism
+    course = resolved(moving or np.zeros_like, torque.breaks)  # faster than the mechanism
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
@@ -124,7 +124,7 @@ def _find_lines(speed: PiecewiseCurve, mean_speed: float) -> tuple[RippleLine, .
 
 
 def degrees_in_cycle(angle: float, period: float) -> float:
-    """Return a crank angle (rad) in [0, period) in degrees."""
+    """Return a crank angle (rad), reduced to [0, period), in degrees."""
     whole = float(np.degrees(period))
     turned = float(np.degrees(angle)) % whole
     return 0.0 if whole - turned < 1e-9 else turned

@@ -50,7 +50,7 @@ def read_curve(path: Path) -> PiecewiseCurve:
     columns = read_columns(path, (angles, Head("torque_Nm", TORQUE, symbols="moment|m|tq|t")))
     angle, torque = np.array(columns.column(0)), np.array(columns.column(1))
     if len(angle) < 2 or not angle[-1] > angle[0]:
-        raise BalcliError(f"{path}: has no two angles; the last row has to close the period")
+        raise BalcliError(f"{path}: has no two rising angles; the last row has to close the period")
     if not np.abs(angle).max() <= FARTHEST_DEG:
         raise BalcliError(f"{path}: has angles beyond {FARTHEST_DEG:g} deg")
     if len(falling := np.flatnonzero(np.diff(angle) < 0)):
@@ -68,7 +68,7 @@ def doubt_period(curve: PiecewiseCurve) -> Iterator[str]:
     """
     turns = curve.period / (2 * np.pi)
     if min(abs(x - round(x)) / x for x in (turns, 2 / turns)) > _WHOLE:
-        yield f"its period is {360 * turns:g} deg; is the last row there, which closes the period?"
+        yield f"its period is {360 * turns:g} deg; is the last row, which closes it, missing?"
 
 
 def analyze_curve(
@@ -129,8 +129,8 @@ def analyze_curve(
 
 
 def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.intp]:
-    """Return the numbers of the harmonics that belong to the orders, by default of those shown
-    without request. `turns` is the period.
+    """Return the numbers of the harmonics for these orders; None: the orders shown by default.
+    `turns` is the period in turns.
     """
     if orders is None:
         usual = max(int(HIGHEST_GAS_ORDER_UNASKED * turns + _SAME), 2)
@@ -139,13 +139,13 @@ def _choose_harmonics(turns: float, orders: list[float] | None) -> NDArray[np.in
     every = np.rint(wanted).astype(int)
     if len(odd := np.flatnonzero(np.abs(wanted - every) > _SAME)):
         raise BalcliError(
-            f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has multiples "
-            f"of {1 / turns:g}"
+            f"order {wanted[odd[0]] / turns:g}: a period of {turns * 360:g} deg has only "
+            f"multiples of {1 / turns:g}"
         )
     if len(high := np.flatnonzero(every > HIGHEST_HARMONIC)):
         highest = math.floor(2 * HIGHEST_HARMONIC / turns) / 2  # allowed, to a multiple of 1/2
         order = every[high[0]] / turns
-        raise BalcliError(f"order {order:g}: {turns:g} turns have orders up to {highest:g}")
+        raise BalcliError(f"order {order:g}: {turns:g} turns have only orders up to {highest:g}")
     return every
 
 

@@ -120,8 +120,8 @@ def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:
-    """Yield the load of each vector over the cycle; vectors that are rounding errors, relative to
-    the largest, become 0.
+    """Yield the load of each vector over the cycle; vectors that are rounding errors compared with
+    the largest become 0.
     """
 
     compute, breaks = partial(compute_in_pieces, engine, vectors), find_breaks(engine)

@@ -1,4 +1,4 @@
-"""Draw an engine with gas: pressure, torque over the cycle, and polar diagrams of loads.
+"""Draw the pages of an engine with gas: pressure, torque over the cycle, and polar diagrams.
 
 Curves are computed every half degree over one cycle, at the mean speed.
 """
@@ -141,10 +141,10 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
     limit = float(np.abs(pin).max())
     left, right = fig.subplots(1, 2)
     _draw_polar(left, pin / found.throw[row], angle, unit, limit)
-    left.set_title(f"Crank pin of cylinder {number}, on the crank", pad=6)
+    left.set_title(f"Crank pin of cylinder {number}, seen from the crank", pad=6)
     left.set(xlabel="ahead of the throw", ylabel="along the throw, outward")
     _draw_polar(right, pin / found.lean[row], angle, unit, limit)
-    right.set_title("The same, seen from the rod", pad=6)
+    right.set_title("The same load, seen from the rod", pad=6)
     right.set(xlabel="across the rod", ylabel="along the rod, to the piston")
 
 

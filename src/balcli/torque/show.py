@@ -74,8 +74,8 @@ def _list_rows(result: TorqueAnalysis, found: Node, system: System) -> Iterator[
 
 
 def _write(quantity: str, part: Node, system: System) -> Iterator[FigureRow]:
-    """Yield a line for every figure. Lines of pins have their cylinder, lines of bearings have the
-    number of the bearing in place of an order.
+    """Yield a line for every figure. Lines of pins have the number of the cylinder; lines of
+    bearings have the number of the bearing in place of an order.
     """
     cylinder, order = part.get("cylinder", 0), part.get("bearing")
     for name, value, _ in list_figures(part, ("cylinder", "bearing", "position_mm")):
@@ -136,7 +136,7 @@ def _list_work(result: TorqueAnalysis, system: System) -> Iterator[tuple[str, st
             yield name, ", ".join(sizes)
     if result.load_Nm is not None:
         mean, rest = (_size(size, system.moment) for size in result.load_Nm)
-        yield "load", f"{mean} in the mean" + (f", and {rest} evenly" if result.load_Nm[1] else "")
+        yield "load", f"{mean} on average" + (f", and {rest} constant" if result.load_Nm[1] else "")
 
 
 def _describe_course(result: TorqueAnalysis, system: System) -> Facts:
@@ -162,7 +162,7 @@ def _list_flywheel(
 ) -> Iterator[tuple[str, str]]:
     unit, moving = system.inertia, wheel.moving_parts_kg_m2
     if wheel.inertia_kg_m2 is not None:
-        parts = f", of it moving parts {number(unit.of(moving))}" if moving else ""
+        parts = f", including {number(unit.of(moving))} of moving parts" if moving else ""
         yield "inertia", _size(wheel.inertia_kg_m2, unit) + parts
     if (share := wheel.fluctuation) is not None:
         small = number(100 * (wheel.fluctuation_small or 0.0))
@@ -175,22 +175,22 @@ def _list_flywheel(
     if wheel.stall:
         yield "speed", wheel.stall
     if (needed := wheel.needed_kg_m2) is not None:
-        told, engine = f"{_size(needed, unit)} in all", result.engine
+        told, engine = f"{_size(needed, unit)} in total", result.engine
         crank = None if engine is None else 0.0 if engine.rotary else engine.crank_inertia
         there = 0.0 if engine is None else find_constant_inertia(engine) or 0.0
         rest = needed - moving - there + float((engine and engine.flywheel_inertia) or 0.0)
         if moving and rest <= 0:
-            told += ", which is there without a flywheel"
+            told += ", which needs no flywheel"
         elif moving:
             place = "crankshaft and flywheel" if crank is None else "the flywheel"
-            told += f", {number(unit.of(rest))} of it in {place}"
+            told += f", including {number(unit.of(rest))} in {place}"
         yield "needed", told
 
 
 def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text]:
     cut = (
-        "Half-way between neighbouring throws, and as far outside the end throws; the shaft is "
-        "taken as cut in each bearing."
+        "Bearings are assumed half-way between neighbouring throws and as far outside the end "
+        "throws. The shaft is treated as cut in each bearing."
     )
     for title, word, each, note in (
         ("Crank pins", "cylinder", loads.pin or (), ""),
@@ -215,12 +215,12 @@ def _make_load_tables(loads: CycleLoads, system: System) -> Iterator[Grid | Text
 
 
 def _make_order_table(result: TorqueAnalysis, system: System) -> Grid:
-    """Return a table of torque by order; orders without torque of the engine and the cylinder are
-    left out.
+    """Return a table of torque by order, without orders in which neither the engine nor the
+    cylinder has a torque.
     """
     orders, alone = list(result.orders), f"gas of {result.cylinder}"
     many = len(orders) == MOST_HARMONICS_UNASKED
-    note = "--orders lists higher ones." if many else ""
+    note = "--orders lists higher orders." if many else ""
     kinds = {"torque": [order.torques.torque_Nm for order in orders]}
     if result.engine is not None:
         keys = {"gas": "gas_torque_Nm", "inertia": "inertia_torque_Nm", "total": "torque_Nm"}

@@ -40,7 +40,7 @@ from .system import TorsionalSystem
 BEYOND = 1.5  # criticals are listed up to this multiple of the file's own speed: engines overspeed
 BREAKING = 1000e6  # vibratory stress above which a warning is given, Pa: no steel bears it
 ASTOUNDING = 45.0  # half swing above which a warning is given, deg; a few degrees are usual
-_ASTRAY = 1e-3  # a Holzer table farther from the mode's shape (largest angle 1) is mostly rounding
+_ASTRAY = 1e-3  # a Holzer table that differs more from the mode's shape is mostly rounding error
 
 
 class HolzerAsked(NamedTuple):
@@ -175,8 +175,8 @@ class TorsionAnalysis(Result):
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Warnings of shafts without inertia, of speeds without gas, of pendulums that swing or a
-        free end that swing too far for the linear model, and of a stress that breaks a shaft.
+        """Warnings of shafts whose inertia is left out, of speeds beyond the file's gas, of
+        swings that are too large for the linear model, and of a stress that breaks a shaft.
         """
         if self.response is None:
             return self.system.doubts
@@ -221,7 +221,7 @@ def _find_doubts(response: TorsionResponse) -> Iterator[str]:
 def answer_question(
     source: Source, question: TorsionQuestion, tell: Tell = tell_nobody
 ) -> TorsionAnalysis:
-    """Return the analysis of a chain or an engine, with the damper that is to be sized.
+    """Return the analysis of a chain or an engine. Size the requested damper first.
 
     Args:
         source: File of the chain or engine.
@@ -241,10 +241,10 @@ def answer_question(
             raise BalcliError(f"{option}: give the kind of damper, with --damper")
         return _analyze_system(source.system(NO_DAMPERS), question, tell)
     if question.speeds_rpm is None:
-        raise BalcliError("--damper: give the speeds at which it is to help, with --speeds")
+        raise BalcliError("--damper: give the speeds over which to size it, with --speeds")
     sized = size_damper(source, question.damper, question.speeds_rpm, tell)
     fitted = source.system({sized.node: sized.damper})
-    found = _analyze_system(fitted, question)  # one response after dozens: no progress is reported
+    found = _analyze_system(fitted, question)  # one more response: no progress is reported
     for each in (found.response and found.response.dampers) or ():
         if each.node == sized.node:
             sized = replace(sized, heat_W=each.worst.heat_W, heat_rpm=each.worst.speed_rpm)

@@ -64,8 +64,8 @@ _MESH = ShaftKeys.model_construct(stiffness=math.inf)
 
 
 class PlannedNode(NamedTuple):
-    """A node, described by its table in the units of the file; its damping against ground,
-    N m s/rad; and further dampers that it carries.
+    """A node: its table in the units of the file, its damping against ground (N m s/rad), and
+    further dampers that it carries.
     """
 
     table: NodeKeys
@@ -93,14 +93,14 @@ def assemble_system(
     fitted: Mapping[str, Damper | None] = NO_DAMPERS,
     **others: Any,
 ) -> TorsionalSystem:
-    """Return the system; rubber rings are nodes and shafts after all others. Half of the inertia of
-    a shaft is added to the node at each end.
+    """Return the system. Rubber rings become nodes and shafts after all others. Half of the
+    inertia of a shaft is added to the node at each end.
 
     Args:
         planned: Nodes, front to rear.
         joining: Shafts between these nodes.
         keys: Default loss of shafts, and limits of stress and angle.
-        clamped: Nodes that are held.
+        clamped: Indices of the nodes that are held.
         fitted: Dampers by the name of their node; each replaces the first damper of the node.
         others: Further attributes of the system.
     """
@@ -173,7 +173,7 @@ def _doubt_light_shafts(chain: Chain, shafts: Sequence[PlannedShaft]) -> Iterato
         yield (
             f"{counted(len(heavy), 'plain shaft')} without a density ({named}): their "
             f"inertia, {sum(lost[heavy]):.4g} kg m2 in steel, is left out; give density = {STEEL} "
-            "(g/cm3), which puts half of it at either end"
+            "(g/cm3), which adds half of it to the node at each end"
         )
 
 
@@ -272,12 +272,12 @@ def _find_faults(system: TorsionalSystem, paths: Sequence[str]) -> Iterator[Prob
         text = (
             f"applies to the first node, and {shorten(names[0])} is fixed; leave it out, or begin"
         )
-        yield Problem("angle_limit", f"{text} the chain with the node that may swing so far")
+        yield Problem("angle_limit", f"{text} the chain with the node that it limits")
     for piece in [] if apart else [motion != 0 for motion in rigid_motions(chain)] or [~still]:
         if not np.any(chain.inertia[piece]):
             node = int(np.argmax(piece))
             yield Problem.of_missing(
-                f"node.{node + 1}.inertia", "no part that turns with it has any"
+                f"node.{node + 1}.inertia", "no node that turns with it has one"
             )
 
 
@@ -543,18 +543,18 @@ def _check_throws(torsion: Torsion, engine: Engine, throws: int) -> Iterator[Pro
     """
     places, in_file = throws - 1, len(engine.throws_m)
     if torsion.throw_stiffness is None and places:
-        hint = f"give that between neighbours of {counted(throws, 'throw')}, such as "
+        hint = f"give the stiffness between the {counted(throws, 'throw')}, such as "
         yield Problem.of_missing("torsion.throw_stiffness", f"{hint}throw_stiffness = 1.25e6")
     lists = ("throw_stiffness", places, places), ("throw_inertia", throws, in_file)
     for key, needed, also in lists:
         values = getattr(torsion, key) or [0]
         if len(values) not in (1, needed, also):
             text = f"has {len(values)} values, but {counted(throws, 'throw')} need {needed}"
-            yield Problem(f"torsion.{key}", f"{text}; give one for all, or a list of these")
+            yield Problem(f"torsion.{key}", f"{text}; give one value for all, or {needed} values")
     for number, each in enumerate(torsion.throw, 1):
         if each.throw > throws:
             text = f"is {each.throw}, but the crankshaft has {counted(throws, 'throw')}"
             yield Problem(f"torsion.throw.{number}.throw", text)
     if torsion.throw_inertia is None and engine.crank_inertia is None:
-        hint = "give it, such as throw_inertia = 46700, or inertia of the whole [crank]"
+        hint = "give it, such as throw_inertia = 46700, or give inertia in [crank]"
         yield Problem.of_missing("torsion.throw_inertia", hint)

@@ -1,5 +1,5 @@
-"""Compute torsional chains: inertias (nodes) joined by shafts and gears; and dampers as complex
-inertias.
+"""Compute torsional chains, which are inertias (nodes) joined by shafts and gears, and dampers as
+complex inertias.
 
 A shaft twists by `ratio x_start - x_end`, where x are the angles of its nodes. A shaft with a ratio
 other than 1 has a gear mesh at its start, and its stiffness refers to the speed of its end. A mesh
@@ -180,7 +180,7 @@ def grow_branches(chain: Chain, roots: Sequence[int], shafts: NDArray[np.bool_])
     return branches
 
 
-_TUNED = 1e-12  # smallest detuning; with a smaller one, a division by zero would follow
+_TUNED = 1e-12  # smallest detuning, which avoids a division by zero
 
 
 def viscous_inertia(inertia: float | Real, damping: float | Real, frequency: Real) -> Complex:
@@ -216,6 +216,6 @@ def best_viscous_damping(inertia: float, ratio: float, frequency: float) -> floa
 
 
 def _detune(radius: float, length: float, order: Real) -> Complex:
-    """Return `1 - n^2 L/R`, and a tiny number in place of 0."""
+    """Return `1 - n^2 L/R`, or a tiny number in place of 0."""
     detuning = 1 - order**2 * (length / radius) + 0j
     return np.where(np.abs(detuning) < _TUNED, _TUNED, detuning)

@@ -1,5 +1,5 @@
-"""Tables of a chain file, and their check. Such a file describes inertias on shafts and gears, and
-excitations, without an engine. All mistakes are reported at once by their paths.
+"""Define and check the tables of a chain file. Such a file describes inertias on shafts and gears,
+and excitations, without an engine. All mistakes are reported at once by their paths.
 
 Units: kg mm2, N m/rad, N m s/rad, mm, GPa, N m, N/mm2; a string carries its own unit.
 """
@@ -54,7 +54,7 @@ class Excitation(FileTable):
 
     node: Name = Field(examples=["crank"], description="name of the node on which it acts")
     order: Annotated[float, Whole(least=0.5, most=HIGHEST_TORSION_ORDER, halves=True)]
-    """How often in a turn of the first node; a multiple of 0.5. Example: 1.5"""
+    """Oscillations per turn of the first node; a multiple of 0.5. Example: 1.5"""
     cos: Torque = Field(0.0, examples=[120], description="amplitude of its cosine")
     sin: Torque = Field(0.0, examples=[-35], description="amplitude of its sine")
 
@@ -62,7 +62,7 @@ class Excitation(FileTable):
 class ChainFile(ChainKeys):
     """Inertias on shafts and gears, and excitations."""
 
-    name: Name | None = Field(None, examples=["pump drive"], description="what to call it")
+    name: Name | None = Field(None, examples=["pump drive"], description="name of the chain")
     fixed: Annotated[tuple[Name, ...], Field(max_length=MOST_TORSION_NODES)] = ()
     """Nodes that are clamped. Example: ['hull']"""
     node: tuple[Node, ...] = Field(examples=[], description="the nodes; the first gives the speed")
@@ -74,7 +74,7 @@ class ChainFile(ChainKeys):
 LISTS: tuple[type[FileTable], ...] = (Node, ChainShaft, Gear, Excitation)
 
 
-# ------------------------------------------------------------------ what does not fit together
+# ------------------------------------------------------------------ contradictions between tables
 
 
 KEYS = ("node", "shaft", "gear", "excitation")
@@ -131,7 +131,7 @@ def _find_misfits(data: Mapping[str, object]) -> Iterator[Problem]:
             named += [(f"{key}.{k}.{end}", table.get(end)) for end in ends]
             start, end = table.get("from"), table.get("to")
             if isinstance(start, str) and start == end:
-                text = f"goes from {shorten(start)} to itself; it joins two nodes"
+                text = f"goes from {shorten(start)} to itself; give two different nodes"
                 yield Problem(f"{key}.{k}", text)
     for path, name in named:
         if isinstance(name, str) and name not in known:

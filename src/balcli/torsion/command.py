@@ -26,18 +26,18 @@ def torsion(
     ],
     speeds: Annotated[
         str | None,
-        optional("A:B:STEP", "Forced vibration at these speeds, rpm.", "--speeds", "--speed"),
+        optional("A:B:STEP", "Speeds for forced vibration, rpm.", "--speeds", "--speed"),
     ] = None,
     orders: Annotated[
         str | None,
         optional(
             "0.5-12|1,2.5",
-            "Orders of excitation; default: all (chain); to 32, and firing orders above (engine).",
+            "Orders of excitation; default: all of a chain; to 32 and firing orders of an engine.",
         ),
     ] = None,
     holzer: Annotated[
         list[str] | None,
-        optional("MODE|FREQUENCY", 'Holzer table of a mode, or at "20 rad/s"; may be given again.'),
+        optional("MODE|FREQUENCY", 'Holzer table of a mode, or at "20 rad/s"; may be repeated.'),
     ] = None,
     misfire: Misfire = None,
     damper: Annotated[
@@ -50,13 +50,13 @@ def torsion(
     ] = None,
     damper_inertia: Annotated[
         str | None,
-        optional("KGMM2", "Inertia of its ring or pendulums; default: the file's or a usual one."),
+        optional("KGMM2", "Inertia of the damper; default: as in the file, else a usual one."),
     ] = None,
-    write: Annotated[Path | None, optional("FILE", "Write the file, with the damper.")] = None,
+    write: Annotated[Path | None, optional("FILE", "Write the file with the damper.")] = None,
     plot: Annotated[Path | None, optional("FILE", "Draw pictures; .svg, .png or .pdf.")] = None,
     what: Annotated[
         Literal["all", "modes", "campbell", "response", "waterfall"],
-        typer.Option(help="Picture of --plot; the last two need --speeds."),
+        typer.Option(help="Picture that --plot draws; the last two need --speeds."),
     ] = "all",
     units: UnitsOption = Units.SI,
     form: FormatOption = None,

@@ -1,4 +1,4 @@
-"""Size a damper on the whole system, so that the largest stress over a range of speeds is smallest.
+"""Size a damper on the whole system, to minimise the largest stress over a range of speeds.
 
 The search begins at the optimum of a system with one degree of freedom: Houdaille's damping for a
 viscous ring, Den Hartog's stiffness for rubber, the length tuned to the order for pendulums. It
@@ -58,15 +58,15 @@ _SHARE = {"viscous": 0.3, "rubber": 0.15, "pendulum": 0.05}
 WIDE_SWING = 20.0
 _MASSES = 16  # largest number of masses that are tried to bring pendulums below WIDE_SWING
 _HEAVIER = 1.1  # margin on the mass that suffices if the swing is inversely proportional to it
-_MOST_AT_ONCE = 3.0  # largest ratio of a tried mass to the last one
+_MOST_AT_ONCE = 3.0  # largest factor from one tried mass to the next, without the margin
 _MOST_PENDULUM = 0.5  # largest inertia of pendulums, as a share of their node's
-_PLACES = 13  # number of grid points of the search; then the best one is refined
+_PLACES = 13  # number of grid points of the search; then its valleys are refined
 # Expected number of responses; the last two are those with and without the best damper.
 _RESPONSES = _PLACES + 2 + ROUNDS + 2
 _END = 0.99  # an optimum beyond this share of the (logarithmic) range counts as at its end
 _HARDLY = 0.99  # a damper that leaves more than this share of the largest stress is useless
-_HEAVY = 10.0  # a damper of more than this multiple of its carrier's inertia has no room
-_LOSS = 0.01  # loss factor of shafts for comparing modes if nothing damps a resonance
+_HEAVY = 10.0  # a damper with more than this multiple of its carrier's inertia is too large
+_LOSS = 0.01  # least loss factor of shafts to find the largest stress if nothing damps a resonance
 # If the equivalent inertia of a mode at a node is above this multiple of the whole inertia, the
 # node hardly moves.
 _MOVES = 2.0
@@ -212,9 +212,9 @@ def size_damper(
 def _find_carrier(source: Source, asked: DamperAsked, speeds: Real) -> str:
     """Return the name of the node that is to carry the damper.
 
-    Unless one is asked for, pendulums are placed where the file has pendulums, else on the throw
-    with the largest amplitude in the mode to be damped; other dampers at the free end or on the
-    foremost part.
+    By default, pendulums are placed on the node that has pendulums in the file, else on the throw
+    with the largest amplitude in the mode to be damped. Other dampers are placed at the free end if
+    it can carry one, else on the foremost part.
     """
     carriers = source.dampers
     if asked.node is not None:
@@ -405,8 +405,8 @@ def _doubt(found: SizedDamper, bare: TorsionalSystem, *, given: bool) -> Iterato
         does = "raises" if found.after > found.before else "hardly lowers"
         yield (
             f"a {found.kind} damper of {inertia:.4g} kg m2 at {node} {does} the largest "
-            f"{found.measure}; the whole system has {whole:.4g} kg m2. Are size (on the command "
-            "line bare numbers are kg mm2) and place right?"
+            f"{found.measure}; the whole system has {whole:.4g} kg m2; check place and inertia of "
+            "the damper (--damper-inertia without a unit is in kg mm2)"
         )
     elif inertia > (whole if given else _HEAVY * carrier) > 0:
         yield (

@@ -30,7 +30,7 @@ from .build import (
 from .chain_file import ChainFile, describes_chain, read_chain_tables
 from .system import TorsionalSystem
 
-# kg mm2 or mm; smaller figures are unlikely (a 10 mm steel disc, 10 mm thick: 0.08 kg mm2).
+# kg mm2 or mm; smaller figures are unlikely (a steel disc of 10 x 10 mm has 0.08 kg mm2).
 _SMALL = 1.0
 
 
@@ -82,12 +82,12 @@ def _doubt_units(model: ChainFile) -> Iterator[str]:
 
 
 def load_source(path: str, orders: Real | None = None, misfires: Sequence[str] = ()) -> Source:
-    """Read the source in a file, or in standard input for "-".
+    """Return the source for a file, or for standard input if the path is "-".
 
     Args:
         orders: Orders of the excitation to use, shape (orders,); None: all orders of a chain; for
             an engine, the default of `excite_engine`.
-        misfires: Numbers of the cylinders that lose their gas force, as typed.
+        misfires: Numbers, as typed, of the cylinders that lose their gas force.
 
     Raises:
         BalcliError: The file cannot be read or has mistakes, a misfire is given for an engine

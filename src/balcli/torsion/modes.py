@@ -307,10 +307,9 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     """Return Holzer's table at a frequency w (rad/s). The angle of the first node is 1.
 
     Angles x and torques T of shafts solve `near x_child + far x_parent = T/k` for each shaft
-    (`Branch` of `chain` has the gear factors near and far, and which node is the parent), and `w^2
-    J x = sum of T` for each node except the last, where the difference is the residual. Branches
-    off the line from the first node to the last are allowed. Dampers and losses are ignored, as in
-    textbooks.
+    (`chain.Branch` defines the gear factors near and far, and the parent), and `w^2 J x = sum of T`
+    for each node except the last, where the difference is the residual. Branches off the line from
+    the first node to the last are allowed. Dampers and losses are ignored, as in textbooks.
 
     Args:
         chain: Inertias and shafts.
@@ -328,11 +327,11 @@ def tabulate_holzer(chain: Chain, frequency: float, first: int = 0, last: int = 
     if not len(branches) == count - 1 == np.count_nonzero(stiff):
         raise ValueError("Holzer's table needs a chain in one piece, without loops")
     if np.any(find_still(chain) & ~chain.clamped):
-        raise ValueError("Holzer's table does not take gears that mesh with a fixed node")
+        raise ValueError("Holzer's table cannot have gears that mesh with a fixed node")
     parents, node = {branch.child: branch.parent for branch in branches}, first
     while node in parents:
         if chain.clamped[node]:
-            raise ValueError("Holzer's table can lead to a clamped node, but not over it")
+            raise ValueError("Holzer's table can end at a clamped node, but not pass it")
         node = parents[node]
     inertial, twisting = frequency**2 * chain.inertia, incidence(chain)[stiff]
     unit = float(inertial.max()) or 1.0  # N m; in this unit torques are about as large as angles

@@ -1,7 +1,7 @@
 """Compute the forced steady vibration of a torsional system, order by order at given speeds.
 
 Angles and torques are phasors c; their values in time are `Re(c e^{i w t})`. Frequencies w (rad/s)
-may have any shape; nodes or shafts are on the last axis of results. See `vibration`.
+may have any shape; nodes or shafts are on the last axis of results. See `core.vibration`.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""Draw torsional vibration: shapes of modes, Campbell diagram, torque over speed, and the orders of
-the torque one behind the other (waterfall).
+"""Draw torsional vibration: shapes of modes, Campbell diagram, torque over speed, and a waterfall
+of the torque by order over speed.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def make_torsion(
 def _choose_parts(
     result: TorsionAnalysis, what: str, system: System
 ) -> Iterator[Callable[[Axes], None]]:
-    """Yield a drawing function for each picture of a page whose figures were computed."""
+    """Yield a function that draws each picture of a page; without a response, some are left out."""
     if what in ("all", "modes"):
         yield lambda ax: _draw_modes(ax, result)
     if what in ("all", "campbell"):
@@ -198,7 +198,7 @@ def _draw_campbell(ax: Axes, result: TorsionAnalysis) -> None:
 
 
 def _find_largest(sizes: Real) -> Indices:
-    """Return the rows of the orders to draw, by the size of each, shape (orders,)."""
+    """Return the indices of the orders to draw, given the size (orders,) of each order."""
     largest = np.argsort(-sizes, kind="stable")[:_MOST_ORDERS]
     return np.sort(largest[sizes[largest] >= _LEAST_ORDER * sizes.max(initial=0.0)])
 
@@ -275,5 +275,5 @@ def _draw_waterfall(ax: Axes, result: TorsionAnalysis, curves: _Curves, system: 
     ax.set_xlim(0, float(orders[-1]) + gap)
     unit, name = system.moment.fit(most), fit_name(result.shafts[shaft].name, 22)
     largest = f"{number(unit.of(most), 3)} {unit.name}"
-    title = f"Torque of {name} by order: width, at most {largest}"
+    title = f"Torque of {name} by order: widest {largest}"
     ax.set_title(title + _count_left_out(len(every) - len(orders)))

@@ -46,7 +46,7 @@ def refuse_unknown(model: EngineFile, quantities: Sequence[TargetQuantity]) -> N
     modes = [str(number) for number, _ in enumerate(_find_frequencies(system), 1)]
     for q in quantities:
         if q.kind == "torsion" and q.target not in modes:
-            raise BalcliError(f"{q.name}: there are {len(modes)} modes")
+            raise BalcliError(f"{q.name}: the file has {len(modes)} modes")
         if q.kind == "shaft":
             refuse_stranger(q, system.shafts)
         if q.part == "stress" and not system.stress_by_torque[system.shafts.index(q.target)]:

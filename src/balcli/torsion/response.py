@@ -43,7 +43,7 @@ def find_largest(
     Args:
         system: System with an excitation.
         rpm: Rising speeds, shape (speeds,).
-        weights: Factors of the first columns; columns with the factor 0 or without one are skipped.
+        weights: Factors of the first columns; columns whose factor is 0 or missing are skipped.
             Default: 1 for all.
         together: Whether only the highest of all columns is needed, which takes less time.
 
@@ -85,7 +85,7 @@ def _add_resonances(system: TorsionalSystem, rpm: Real) -> Real:
     """
     if len(rpm) == 1:
         return rpm
-    of_all = None if system.pendulums else find_poles(system)  # else they vary by order
+    of_all = None if system.pendulums else find_poles(system)  # None: they vary by order
     found = []
     for order in system.require_excitation().orders.tolist():
         poles = find_poles(system, order) if of_all is None else of_all
@@ -260,7 +260,7 @@ def find_response(
     at, value = find_largest(system, speeds_rpm)
     curves = range(end + 1 + len(system.pendulums))  # torques, free end, pendulums
     there, _ = compute_curves(system, at[: len(curves)])
-    by_order = np.abs(there[:, curves, curves])  # of each curve where it is largest
+    by_order = np.abs(there[:, curves, curves])  # of each curve at its worst speed
     named_orders, stress = list(map(order_number, orders.tolist())), system.stress_by_torque
     shafts = tuple(
         ShaftResponse(

@@ -246,12 +246,12 @@ def _show_criticals(result: TorsionAnalysis) -> Grid | Text:
 
 
 def _name_scope(result: TorsionAnalysis) -> str:
-    """Return a note on the orders, speeds, dampers and torques that critical speeds include."""
+    """Return a note on the orders, speeds, dampers and torques behind the critical speeds."""
     rated, note = result.system.rated_rpm, f"Included: {_list_orders(result.orders or ())}."
-    note += _name_left_out(result.system, ", which shift them.")
+    note += _name_left_out(result.system, ", which shift the critical speeds.")
     if result.response is not None:
         return note
-    note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} times the file's." if rated else ""
+    note += f" Up to {number(BEYOND * rated)} rpm, {BEYOND:g} × the file's speed." if rated else ""
     return note + _name_gas(result)
 
 
@@ -264,8 +264,8 @@ def _list_orders(orders: Sequence[float]) -> str:
 
 def _name_left_out(system: TorsionalSystem, end: str) -> str:
     """Return a note on the dampers that modes and criticals ignore."""
-    dampers = ["rings in oil"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
-    return f" Without {' and '.join(dampers)}{end}" if dampers else ""
+    dampers = ["viscous rings"] * bool(system.rings) + ["pendulums"] * bool(system.pendulums)
+    return f" Excluded: {' and '.join(dampers)}{end}" if dampers else ""
 
 
 def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) -> Grid:
@@ -291,7 +291,7 @@ def _show_holzer(result: TorsionAnalysis, table: HolzerTable, system: System) ->
     if result.system.chain.clamped[table.end]:
         end = table.rows[table.end]
         angle = number(_settle(end.angle, angles), 6)
-        left = f"the angle of {end.node}, which is fixed, {angle}."
+        left = f"an angle of {angle} at {end.node}, which is fixed."
     return Grid.of_columns(title, columns, f"Left over at the end: {left}")
 
 
@@ -326,7 +326,7 @@ def _show_response(
     note = (
         "±: half of peak to peak at the worst speed, all orders added with their phases. sum: sum "
         f"of their amplitudes, too large because orders do not peak together. {worst}"
-        f"{_name_gas(result, ' Gas as in the file at every speed.')}"
+        f"{_name_gas(result, ' The gas torque is the same at every speed.')}"
     )
     words = (0, len(heads) - 1)
     return Grid(f"Vibratory torque, {span}", tuple(heads), tuple(rows), note, words=words)
@@ -337,15 +337,15 @@ def _name_span(ends: Sequence[float] | Real) -> str:
     return f"{low} rpm" if ends[0] == ends[-1] else f"{low} to {high} rpm"
 
 
-def _name_gas(result: TorsionAnalysis, where_counted: str = "") -> str:
-    """Return a note on whether gas torque is included; empty for a chain."""
+def _name_gas(result: TorsionAnalysis, included: str = "") -> str:
+    """Return `included` if gas torque is included, else a note that it is not; "" for a chain."""
     excitation = result.system.excitation
     if excitation is None or not excitation.growing.any():
         return ""
     if excitation.gas is not None:
-        return where_counted.replace("at every", "for each")
+        return included.replace("the same at every", "computed for each")
     alone = " Inertia only; gas torque is not included."
-    return where_counted if excitation.steady.any() else alone
+    return included if excitation.steady.any() else alone
 
 
 def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: System) -> str:
@@ -359,7 +359,7 @@ def _describe_worst(result: TorsionAnalysis, response: TorsionResponse, system: 
         swing = f"swing by ±{number(largest.half_swing_deg)} deg, most in order {largest.order:g},"
         parts.append((f"The pendulums of {pendulums.node} {swing}", largest.speed_rpm))
     for each in response.dampers or ():
-        heat = f"up to {size_text(each.worst.heat_W, system.heat)} to heat"
+        heat = f"up to {size_text(each.worst.heat_W, system.heat)} into heat"
         parts.append((f"The damper of {each.node} turns {heat}", each.worst.speed_rpm))
     return " ".join(f"{what} at {number(speed)} rpm." for what, speed in parts)
 

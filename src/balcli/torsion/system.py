@@ -36,8 +36,8 @@ class Pendulums(NamedTuple):
 
 
 class Excitation(NamedTuple):
-    """Complex torques c by order; the value of one is `Re(c e^{i n t})`, where t is the angle of
-    the reference.
+    """Complex torques c by order n. The torque of one order is `Re(c e^{i n t})`, where t is the
+    angle of the reference node.
 
     Attributes:
         orders: (orders,) orders, rising, above 0.
@@ -45,8 +45,8 @@ class Excitation(NamedTuple):
         steady: (orders, sources) part that does not depend on the speed, N m; if the gas depends on
             the speed, its part at the engine's own speed.
         growing: (orders, sources) part that is proportional to the square of the speed, kg m2.
-        gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: it
-            does not depend on the speed.
+        gas: Gas torque by cylinder as a function of the speed, which replaces `steady`; None: the
+            gas torque does not depend on the speed.
     """
 
     orders: Real
@@ -122,7 +122,7 @@ class TorsionalSystem:
         """Return the excitation.
 
         Raises:
-            BalcliError: Nothing excites the system, or nothing at the requested orders.
+            BalcliError: The system has no excitation, or none at the requested orders.
         """
         if self.excitation is None:
             raise self.refusal("has no excitation; give an [[excitation]] with node, order and cos")

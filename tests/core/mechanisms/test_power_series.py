@@ -28,7 +28,7 @@ def sum_of_orders(generate, wave, degrees):
         (series.velocity, sin, sc.velocity),
         (series.piston, cos, sc.acceleration),
         (series.cos_beta, cos, lambda psi, lam: sc.rod_angle(psi, lam)[1]),
-        (series.rod, sin, lambda psi, lam: -sc.rod_acceleration(psi, lam)),
+        (series.rod, sin, lambda psi, lam: sc.SliderCrank(psi, lam).spin_rate),
     ],
 )
 def test_orders_add_up_to_the_closed_form(generate, wave, closed, degrees):

@@ -20,6 +20,7 @@ from ..phasors import EPS, Array, Complex, Numbers, unit
 from . import closed_form
 from .closed_form import SERIES, Harmonics, Rows, Series, select_cylinders
 from .motion import Motion, Move
+from .slidercrank import SliderCrank
 
 HARDEST = 1 << 16  # number of samples of a revolution for a mechanism at 1 - 1e-6 of locking
 CLOSED_FORM = 4096  # highest order of closed forms; higher ones occur only close to locking
@@ -90,8 +91,9 @@ def find_distinct_harmonics(
     """
     highest = float(np.max(orders, initial=0))
     if np.any(eps) or highest > CLOSED_FORM:
-        (ratios, offsets), which = find_distinct(lam, eps)
-        return sample_harmonics(orders, ratios, offsets, wanted, highest), which
+        figures, which = find_distinct(lam, eps)
+        counts = count_samples(figures[0], figures[1], highest)
+        return sample_mechanisms(orders, wanted, SliderCrank, figures, counts, highest)[0], which
     (ratios,), which = find_distinct(lam)
     return closed_form.find_harmonics(orders, ratios, wanted), which
 
@@ -109,7 +111,7 @@ def count_all_samples(lam: Array, eps: Array) -> tuple[int, int]:
 
 def count_samples(lam: ArrayLike, eps: ArrayLike, highest: float = np.inf) -> NDArray[np.intp]:
     """Return the number of samples (a power of two) that each mechanism needs so that orders up to
-    the highest have no aliases above rounding, and none is missing.
+    the highest have no aliases above rounding, and no order above rounding is missing.
 
     Order n of N samples is mixed with order N - n. Coefficients decay like `x^n`, x =
     tan(arcsin(lam')/2), `lam' = lam / (1 - |eps|)`, because cos beta is analytic in a strip of the
@@ -135,27 +137,6 @@ def find_highest_order(lam: Array, eps: Array) -> int:
         eps: Offset / rod length, of that shape.
     """
     return int(count_samples(lam, eps).max()) // 2
-
-
-def sample_harmonics(
-    orders: ArrayLike,
-    lam: Array,
-    eps: Array,
-    wanted: Collection[str] = SERIES,
-    highest: float = np.inf,
-) -> Harmonics:
-    """Return the harmonics of mechanisms from one revolution of samples.
-
-    Args:
-        orders: Orders, shape (orders,).
-        lam, eps: Crank radius and offset over rod length, shape (mechanisms,).
-        wanted: Names of series (`closed_form.SERIES`).
-        highest: Highest order for which the samples must suffice.
-    """
-    from .slidercrank import SliderCrank
-
-    counts = count_samples(lam, eps, highest)
-    return sample_mechanisms(orders, wanted, SliderCrank, (lam, eps), counts, highest)[0]
 
 
 SAMPLING = 16 * EPS  # error of a sampled coefficient, in units of the curve's root mean square

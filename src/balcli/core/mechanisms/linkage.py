@@ -2,9 +2,9 @@
 
 In a plain slider-crank, the reciprocating mass moves along the cylinder's axis. Here a mass moves
 on a closed curve `z(psi)` (complex, in crank radii, in the cylinder's frame): the curve of the
-knuckle pin of an articulated rod, that of the piston in a turning cylinder, or both with shares of
-the mass. It causes two components of force, a moment of momentum and a kinetic energy, whose
-harmonics are computed from samples over a revolution.
+knuckle pin of an articulated rod, that of the piston in a turning cylinder, or both, each with a
+share of the mass. The mass causes two components of force, a moment of momentum and a kinetic
+energy. Their harmonics are computed from samples over a revolution.
 
 Articulated rods are hinged to the big end of a master rod, as in radial and some V engines
 (docs/theory.md). In crank radii, with the master rod at the angle -beta_m in its own frame, the
@@ -37,7 +37,7 @@ from .harmonics import count_samples, find_distinct, sample_mechanisms
 from .motion import Motion, PointMass
 from .slidercrank import SliderCrank, on_circle
 
-STEPS = 1440  # number of samples of a revolution that does not miss a locking position
+STEPS = 1440  # number of samples of a revolution that do not miss a locking position
 _FEWEST_SAMPLES = 32
 _AT_ONCE = 1 << 16  # largest number of cylinders x angles that are computed at once
 _SHARPEST = frozenset({"piston", "rod", "along", "across"})  # series that decay slowest
@@ -70,9 +70,9 @@ class Linkage(ABC):
 
         Args:
             psi: Crank angles of the mechanisms (rad) or e^{i psi}, shape (samples,) or one row for
-                each.
+                each mechanism.
             figures: Results of `figures`, with a last axis of length 1 for the samples; without
-                that if samples are the first axis of psi.
+                this axis if samples are the first axis of psi.
         """
 
     def motion(self, psi: Array | Complex, lam: Array, eps: Array) -> Motion:
@@ -80,7 +80,7 @@ class Linkage(ABC):
 
         Args:
             psi: Crank angles of the cylinders (rad) or e^{i psi}, shape (samples,) or one row for
-                each.
+                each cylinder.
             lam, eps: Crank radius and offset over rod length, shape (cylinders or 1, *trailing).
         """
         return self.move(psi, *(values[..., None] for values in self.figures(lam, eps)))
@@ -195,7 +195,7 @@ def hang(
         master_lam, master_eps: Crank radius and offset over rod length of the master rods.
     """
     crank, lead = on_circle(psi), unit(lead_deg)
-    master = SliderCrank(crank * lead, master_lam, master_eps)  # e^{i psi_m}, turned back by lead
+    master = SliderCrank(crank * lead, master_lam, master_eps)  # in the master's frame
     arm = np.conj(lead) * knuckle * compose(master.cosine, -master.lean)
     bend = compose(master.spin**2, -master.spin_rate)
     pin = PointMass(crank + arm, 1j * (crank + master.spin * arm), -crank - bend * arm)

@@ -100,10 +100,10 @@ class Motion:
         bend = self._lam * self.pin.z2.imag / self.cosine
         return np.asarray(-(bend + self._rate**2 * self._tangent))
 
-    # -------------------------------------------------------------- unit mass on its points
+    # -------------------------------------------------------------- unit mass on the curves
     @property
     def velocity_of_mass(self) -> Complex:
-        """Momentum of unit mass on the curves (the figures below are for unit mass as well)."""
+        """Momentum of unit mass on the curves; the figures below are for unit mass as well."""
         return sum((p.share * p.z1 for p in self.points), _NO_VECTOR)
 
     @cached_property

@@ -99,28 +99,6 @@ def acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
     return -SliderCrank(psi, lam, eps).acceleration
 
 
-def rod_rate(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return beta' = lam cos psi/cos beta; the rod turns at -beta' omega.
-
-    Args:
-        psi: Crank angles, rad.
-        lam: Crank radius / rod length.
-        eps: Offset / rod length.
-    """
-    return -SliderCrank(psi, lam, eps).spin
-
-
-def rod_acceleration(psi: ArrayLike, lam: ArrayLike, eps: ArrayLike = 0.0) -> Array:
-    """Return beta'', the derivative of `rod_rate` by the crank angle.
-
-    Args:
-        psi: Crank angles, rad.
-        lam: Crank radius / rod length.
-        eps: Offset / rod length.
-    """
-    return -SliderCrank(psi, lam, eps).spin_rate
-
-
 def fastest(lam: ArrayLike) -> tuple[Array, Array]:
     """Return the crank angle (rad, below 90 degrees) at which the piston of the centred mechanism
     is fastest, and its velocity over r omega.

@@ -1,6 +1,6 @@
 "use strict";
 // Free forces and moments of an engine: exact motions at even crank angles, summed, and a Fourier
-// transform. A second calculation, which shares nothing with the program. Vectors in the plane are
+// transform. This calculation shares no code with the Python program. Vectors in the plane are
 // [x, y]; SI units and radians unless a name says mm or deg.
 const Kernel = (() => {
   const TURN = 2 * Math.PI, SAMPLES = 256, ORDERS = 12, ROUNDING = 4e-15;
@@ -34,7 +34,7 @@ const Kernel = (() => {
     return { small, big, H: Math.abs(H) > 1.8e-15 * (points + Math.abs(spin)) ? H : 0, bad: spin < 0 };
   }
 
-  // The engine of the page's data with numbers by their dotted names; an Error says what is wrong.
+  // The engine of the page's data with these numbers (by dotted name); an Error states what is wrong.
   function assemble(data, numbers) {
     const take = (name) => numbers[name] ?? 0;
     const form = ({ value, by }) => value + sum(Object.entries(by).map(([name, factor]) => factor * take(name)));
@@ -152,7 +152,7 @@ const Kernel = (() => {
     }, engine.devices);
   }
 
-  // The same with devices: each adds to one order.
+  // Phasors and peaks with devices: each device adds to one order.
   function addDevices(engine, kinds, devices) {
     const sums = Object.fromEntries(Object.entries(kinds).map(([kind, pairs]) => [kind, [...pairs]]));
     const drop = (v, part) => size(v) <= 1e-13 * size(part) ? [0, 0] : v;
@@ -233,7 +233,7 @@ const Kernel = (() => {
     return { steps, auto, scale: { force: F, moment: M } };
   }
 
-  // Eccentrics against a force and moment that turn in one sense: one where that is enough, else two at the ends.
+  // Eccentrics against a force and moment that turn in one sense: a single one where it suffices, else two at the ends.
   function cancel(engine, { order, sense, part: [f, m] }, length) {
     const kind = order * sense === 1 ? "counterweight" : "shaft", per = -1 / (order * engine.omega) ** 2;
     let [low, high] = [Math.min(...engine.throws), Math.max(...engine.throws)];
@@ -273,7 +273,7 @@ const Kernel = (() => {
     moment_Nm: moment.value, moment_deg: moment.theta === null ? null : deg(moment.theta),
   });
 
-  // What `balcli analyze -f json` has of orders 0 to 12, peaks and ladder.
+  // Orders 0 to 12, peaks and ladder as in the output of `balcli analyze -f json`.
   function describe(engine, ladder) {
     const { kinds, peak } = ladder.steps[0], known = engine.known;
     const vector = (kind, n) => describeVector(kinds[kind][n], n, engine.up === null ? [] : UPRIGHT[kind], engine.up);

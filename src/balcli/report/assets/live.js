@@ -51,7 +51,7 @@
       plain.replace(",", ".").match(/^([-+]?)((?:(?!\d+\/\d)\d*\.?\d*(?:e[-+]?\d+)?)?)\+?(?:(\d+)\/(\d+))?\s*(.*)$/i) || [];
     const value = (sign === "-" ? -1 : 1) * (Number(figure || 0) + (top ? top / bottom : 0));
     if (!/\d/.test(figure + (top || "")) || !Number.isFinite(value)) {
-      throw new Error(`${name}: "${text.slice(0, 40)}" is no number; ${wanted}`);
+      throw new Error(`${name}: "${text.slice(0, 40)}" is not a number; ${wanted}`);
     }
     const factors = own(book.units, unit) || {}, same = (name) => spell(name) === spell(word);
     const factor = word === "" || same(unit) ? 1 : factors[Object.keys(factors).find(same)];
@@ -95,13 +95,13 @@
     return parts.length ? `#${parts.join("&")}` : "";
   }
   let due;
-  function keepAddress() {                                    // browsers refuse more than a few a second
+  function keepAddress() {                                    // browsers refuse more than a few changes a second
     clearTimeout(due);
     due = setTimeout(() => {
       try { history.replaceState(null, "", writeAddress() || location.pathname + location.search); } catch { /* a frame of a notebook */ }
     }, 150);
   }
-  // Numbers of an address; what is wrong in it is named, the rest applies.
+  // Reads the numbers of an address; mistakes are reported, the rest applies.
   function readAddress(hash) {
     const wrong = [];
     let next = { ...original, ...(hash.includes("=") ? {} : data.start) };
@@ -137,7 +137,7 @@
     if (Object.keys(next).length === Object.keys(state).length) throw new Error(`${name.slice(0, 60)}: is not there`);
     return next;
   }
-  // The state with a number; a new device has all its keys, and one size.
+  // The state with a new value of a number; a new device gets all its keys, and unbalance replaces mass and radius.
   function withValue(state, name, text) {
     const [, kind, , key] = name.match(DEVICE) || [];
     if (!find(name)) throw new Error(`${name.slice(0, 60)}: there is no such number to change`);
@@ -151,7 +151,7 @@
   }
 
   // ------------------------------------------------------------------ change, undo, redo
-  // Shows these numbers if they make an engine; otherwise the last good ones stay.
+  // Shows these numbers if they make an engine; otherwise the last valid numbers stay.
   function apply(next, { remember = true, wrong = [], rebuild = false } = {}) {
     let made, steps;
     try {
@@ -359,7 +359,7 @@
     apply(next, { rebuild: true });
     byId("live-undo").focus();
   }
-  function freeTable(state, kind) {                           // above those of the file, gone ones included
+  function freeTable(state, kind) {                           // numbers above all of the file, removed devices included
     const taken = [...Object.keys(state), ...Object.keys(original)].map((name) => name.match(DEVICE)).filter((match) => match?.[1] === kind);
     return `${kind}.${Math.max(0, ...taken.map((match) => Number(match[2]))) + 1}`;
   }

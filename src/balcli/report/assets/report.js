@@ -1,6 +1,6 @@
 "use strict";
 const Page = {
-// Draws the engine of a scene in motion; orders and crank angle that were chosen stay.
+// Draws the engine of a scene in motion; the chosen orders and crank angle are kept.
 draw(scene) {
   const byId = (id) => document.getElementById(id);
   const rad = (degrees) => degrees * Math.PI / 180;
@@ -238,7 +238,7 @@ draw(scene) {
   };
   const digits = (value) => value >= 1000 ? value.toFixed(0) : value.toPrecision(4);
   const round = (value) => String(Number(value.toPrecision(4)));
-  // A value with its unit: the thousandfold one where the value, or the largest beside it, asks for it.
+  // A value with its unit, or with the thousandfold unit if the value, or the largest one shown with it, is large.
   function figure(value, { name, thousand }, write = digits, largest = value) {
     return thousand && largest >= 5000 ? `${write(value / 1000)} ${thousand}` : `${write(value)} ${name}`;
   }
@@ -307,14 +307,14 @@ draw(scene) {
   const turning = scene.rotary ? "the cylinders turn clockwise, the crank stands still" : "the crank turns clockwise";
   const beside = scene.variants.some((variant) => variant.devices.some((d) => d.beside));
   byId("end-caption").textContent = `From the free end: ${scene.axes[0]} up, ${scene.axes[1]} to the right; ${turning}`
-    + (beside ? ". Dashed: shafts whose place is free, or not said, drawn beside the engine" : "");
+    + (beside ? ". Dashed: shafts on or near the crank axis, drawn next to the engine" : "");
   const end = endView(), side = sideView();
   const views = {
     force: locusView("force", scene.units.force),
     moment: locusView("moment", scene.units.moment),
   };
   const angle = byId("angle"), play = byId("play"), chain = byId("chain");
-  const cycle = Number(angle.max);                        // 720 where the gas of a four-stroke runs, too
+  const cycle = Number(angle.max);                        // 720 with the gas of a four-stroke
   const switchFor = (parent, type, name, value, text, checked) => {
     const label = document.createElement("label"), input = document.createElement("input");
     Object.assign(input, { type, name, value, checked });

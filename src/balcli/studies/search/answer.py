@@ -1,5 +1,5 @@
-"""Search for the best arrangements of an engine, `search`: order of the throw angles, firing order,
-or values of numbers of its file.
+"""Search for the best arrangements of an engine (`search`): the sequence of the throw angles, the
+firing order, or values of numbers of its file.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ from .local import Box, Effort, find_local_optima
 from .throws import search_throws
 
 ARRANGED = ("throws", "firing_order")
-_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # varied by a search over these
+_ARRANGED = {"crank.throws", "layout.firing_intervals"}  # numbers that these searches vary
 ANGLES = {"bank_angle": (0.0, 180.0), "splay": (-180.0, 180.0)}  # searched ranges, deg
 NEAR_AN_END = 1e-4  # values within this share of a range from its end count as the end
 _ROUNDING = 1e-13  # objectives that differ by less than this ratio are equal
@@ -129,9 +129,9 @@ def search_arrangements(
 
     Args:
         over: `throws` (permutes the throw angles of the file, or those that its firing order
-            needs); or `firing_order` (tries all even ones, with the cranks that follow if the file
-            gives no throws); or one or several of `bank_angle` (of a vee), `splay`, and numbers of
-            the file with ranges, such as `mount.left.loss=0.05:0.3`.
+            needs); or `firing_order` (tries all even firing orders and, if the file gives no
+            throws, all cranks that allow them); or one or several of `bank_angle` (of a vee),
+            `splay`, and numbers of the file with ranges, such as `mount.left.loss=0.05:0.3`.
         count: Largest number of arrangements.
         even_firing: Whether only arrangements that can fire evenly are considered.
         tell: Called with the share of the work done so far; if it returns True, a search over
@@ -187,8 +187,8 @@ def read_ranges(model: EngineFile, over: Sequence[str]) -> dict[str, Parameter]:
     if arranged:
         other = next((text for text in over if text != arranged[0]), arranged[0])
         raise BalcliError(
-            f"--over {arranged[0]} goes with no other --over ({other}); several numbers can be "
-            "searched together"
+            f"--over {arranged[0]} cannot be combined with another --over ({other}); only numbers "
+            "and angles can be searched together"
         )
     ranges: dict[str, Parameter] = {}
     for text in over:
@@ -311,15 +311,16 @@ def search(
             searched together.
         minimise: Quantity to minimise (`moment.1.major`), several quantities, which are added up,
             or a dict of weights by quantity.
-        maximise: Quantities to maximise, in the same form; exactly one of the two arguments is
-            given.
+        maximise: Quantities to maximise, in the same form; give exactly one of `minimise` and
+            `maximise`.
         limits: Upper limits by quantity, in SI units.
         top: Largest number of results, at most 1000.
         even_firing: Whether only arrangements with even firing intervals are considered.
 
     Returns:
         The arrangements, best first: `result.results[0]` has `design`, `objective` and
-        `quantities`; `result.engine(1)` is the engine with the best one.
+        `quantities`; `result.engine(1)` is the engine with the best
+            arrangement.
 
     Raises:
         BalcliError: There is nothing to arrange, no arrangement satisfies the limits, or a quantity

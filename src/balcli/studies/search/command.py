@@ -102,7 +102,7 @@ def _notes(result: Search) -> Iterator[str]:
     for row, one in enumerate(() if result.constant else result.results, 1):
         if one.line and one.line != one.design:
             point = ", ".join(map(_setting, one.line.values()))
-            yield f"Row {row}: all points on a straight line through ({point}) are equally good."
+            yield f"Row {row}: all points on the straight line to ({point}) are equally good."
     for key in result.at_ends:
         yield f"The best {key} is an end of its range; a wider range may contain a better value."
     names = (q.name for q in result.objective.quantities)
@@ -125,9 +125,9 @@ RENDERER = Renderer(sheet=sheet, rows=rows, columns=columns)
 
 
 OVER = (
-    "What to vary: the throws of the file (or of its firing order), its firing order, the "
-    "angle of the vee or of its split pins, or a number in a range: mount.left.loss=0.05:0.3. "
-    "Several numbers and angles are searched together."
+    "What to vary: throws of the file (or of its firing order), firing order, bank angle, splay "
+    "of split pins, or a number in a range, such as mount.left.loss=0.05:0.3. Repeat the option "
+    "to search several numbers and angles together."
 )
 MINIMISE = (
     "Minimise this sum of quantities, such as moment.1.major=1,force.2.major=0.5 (different units "

@@ -99,13 +99,13 @@ def drop_mirror_images(found: Iterable[Found], model: EngineFile) -> Iterator[Fo
 
 
 def _find_images(design: Design, other_end: Mapping[int, int]) -> Iterator[tuple[float, ...]]:
-    """Yield a firing order or throws, their mirror images from the other end and in the other
-    sense of rotation, and both.
+    """Yield a firing order or throws, and their mirror images: seen from the other end of the
+    crank, turning the other way, and both.
 
     Args:
         design: Arrangement.
-        other_end: Cylinder that has the position of each one if the crank is seen from the other
-            end; empty if strokes or masses of the throws differ when seen from there.
+        other_end: For each cylinder, the one that takes its position if the crank is seen from the
+            other end; empty if strokes or masses of the throws differ when seen from there.
     """
     if (order := design.get("firing_order")) is not None:
         for row in (order, [other_end.get(number, number) for number in order]):
@@ -127,10 +127,10 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
     Args:
         text: Text of the file.
         design: Throws, a firing order or angles.
-        name: Path of the file; files that it names are in the same folder.
+        name: Path of the engine file; files that it refers to are in the same folder.
 
     Raises:
-        BalcliError: The engine needs the firing order, or the design has other numbers.
+        BalcliError: The firing order does not fit but is needed, or the design has other numbers.
     """
     if any(key not in PATHS for key in design):
         settings = ", ".join(f"{path} = {best:.9g}" for path, best in design.items())
@@ -142,8 +142,8 @@ def write_design(text: bytes, design: Design, name: str = "") -> str:
         engine = vary_engine(build(parse(new, name)), changes)
     except InputError:
         raise BalcliError(
-            "--write: the firing order of the file does not fit what was found, and [gas] "
-            "needs one: look for it by --over firing_order, or leave [gas] out"
+            "--write: the firing order of the file does not fit the result, and [gas] needs a "
+            "firing order: search with --over firing_order, or leave [gas] out"
         ) from None
     if take_model(engine).layout.firing_order is None:
         changes |= {"layout.firing_order": None, "layout.firing_intervals": None}
@@ -267,7 +267,7 @@ def _parse_sizes(name: str, with_gas: bool) -> tuple[AnyQuantity, ...]:
 
 
 def _parse_positive(text: str, whole: str, unit: str = "") -> float:
-    """Return the positive number in a text, converted to `unit`, which a bare number is in.
+    """Return the positive number in a text, converted to `unit`; bare numbers are in this unit.
 
     Args:
         text: Number, or a figure with a unit such as `60 N/mm^2`.
@@ -363,7 +363,7 @@ def find_unevenness(engine: Engine, model: EngineFile) -> Array:
     c = engine.cylinders
     # shift of top dead centre of plain slider-cranks; see `Pins.tops_deg` for articulated rods
     late = 0.0 if model.articulation else np.degrees(np.arcsin(c.eps / (1 + c.lam)))
-    own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 is a dummy
+    own = {} if model.gas is not None else model.cylinder  # without [gas], gas = 0 marks a dummy
     firing = [row for row, n in enumerate(engine.numbers) if n not in own or own[n].gas != 0]
     tops = np.asarray(c.axis_of_each_deg + late - c.pin_deg)[firing]
     tops = tops - tops[0]

@@ -93,8 +93,8 @@ class Slots:
                 yield from self._place_throws(throws | {free[0]: angle}, free[1:], left - taken)
 
     def find_orders(self, throws: Sequence[float]) -> Iterator[tuple[int, ...]]:
-        """Yield all even firing orders of a crank that begin with `first`: cylinders that are
-        ready together take their slots in any sequence.
+        """Yield all even firing orders of a crank, which begin with the cylinder `first`. Cylinders
+        that reach top dead centre together take their slots in any sequence.
         """
         start = throws[next(c.throw for c in self.cells if c.number == self.first)]
         ready: dict[int, list[int]] = {slot: [] for slot in self._slots}
@@ -111,15 +111,15 @@ class Slots:
 
     @cached_property
     def _slots(self) -> list[int]:
-        """Crank position at each firing, relative to cylinder 1's, modulo a turn. It is a whole
-        multiple of half a turn over the number of cylinders, so that positions can be compared.
+        """Crank position at each firing, relative to the firing of `first`, modulo a turn. The unit
+        is half a turn divided by the number of cylinders; positions are whole numbers.
         """
         half_turns = round(self.cycle / 180.0)
         return [half_turns * k % (2 * len(self.cells)) for k in range(len(self.cells))]
 
     def _find_slot(self, cell: Cell, throw: float) -> int:
-        """Return the crank position at which a cylinder is at top dead centre; -1 if there is no
-        firing.
+        """Return the crank position (see `_slots`) at which a cylinder is at top dead centre; -1 if
+        it has no slot there.
         """
         grain = 180.0 / len(self.cells)
         ready = self.sense * (self.top[cell.number] - self.top[self.first] - throw)

@@ -3,8 +3,8 @@
 Candidates are spread over the box: on a grid for one number, in a quasi-random sequence for
 several. A local search starts from each candidate that is better than its neighbours. For one
 number it halves its steps; for several it is the evolution strategy with covariance adaptation
-(Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772). It only compares candidates and
-uses no derivatives, because magnitudes of vectors have kinks where they vanish, limits have edges,
+(Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772). Both only compare candidates and
+use no derivatives, because magnitudes of vectors have kinks where they vanish, limits have edges,
 and some numbers make no engine.
 """
 
@@ -104,7 +104,7 @@ class LocalOptima(NamedTuple):
     Attributes:
         places: Local optima that satisfy all limits, best first, shape (optima, numbers), rounded
             as far as the costs allow.
-        lines: For each optimum, another end of a line of equally good points, or the optimum
+        lines: For each optimum, the other end of a line of equally good points, or the optimum
             itself, shape (optima, numbers).
         costs: Costs of the points that were spread over the box.
     """
@@ -197,7 +197,7 @@ def _find_starts(points: Array, costs: Array, box: Box) -> list[int]:
 
 
 def _descend(judge: Judge, box: Box, best: Array, step: Array, exact: Array) -> Array:
-    """Return the minima near some starts, shape (starts, 1), all at once. Each point moves to a
+    """Return the minimum near each start, shape (starts, 1). At each step every point moves to a
     better neighbour at the distance `step`, or halves this distance if neither is better.
     """
     steps, reached = np.broadcast_to(step, best.shape).copy(), judge(best)

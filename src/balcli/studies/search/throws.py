@@ -344,7 +344,7 @@ class _BranchAndBound:
 
     def _read_bound(self, sizes: Array, at_most: bool, q: AnyQuantity) -> float:
         """Return the smallest or largest value of a quantity from bounds of the magnitudes of both
-        vectors, shape (keys, 2).
+        vectors, shape (rows, 2).
         """
         ahead, astern = sizes[self._table.rows[q]].tolist()
         both = ahead + astern
@@ -368,7 +368,7 @@ class _BranchAndBound:
             may = self._allowed(angles)
             angles, costs = angles[may], costs[may]
         costs = np.concatenate([self._costs, costs])
-        order = np.argsort(costs, kind="stable")[: self._count]  # the first of equal ones stay
+        order = np.argsort(costs, kind="stable")[: self._count]  # of equal ones, the first stay
         self.best, self._costs = np.concatenate([self.best, angles])[order], costs[order]
         if len(order) == self._count:
             self._worst = float(self._costs[-1])
