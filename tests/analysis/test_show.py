@@ -110,12 +110,6 @@ def test_strokes_and_reasons_as_rows():
     assert found["0", "force", "1", "why_size"] == (str(reason["size"]), "of one cylinder")
 
 
-@pytest.mark.parametrize(("view", "there"), [(View(parts=frozenset(["masses"])), False), (View(whole=True), True)])
-def test_strokes_are_shown_with_all_tables_alone(view, there):
-    found = analysis.sheet(analyze(build_text(RADIAL), only=[*UNASKED, "masses"]), SYSTEMS["si"], view).parts
-    assert ("Strokes and dead centres" in [part.title for part in found]) == there
-
-
 WIDE = [0, 72, 144, 216, 288]
 
 

@@ -7,7 +7,7 @@ from support.engines import build_text
 from support.paths import write
 
 from balcli.analysis.answer import analyze
-from balcli.analysis.curves import curves
+from balcli.analysis.curves import columns, curves
 from balcli.analysis.overview import verdict
 from balcli.core.phasors import Phasors
 from balcli.core.records import to_document
@@ -93,7 +93,7 @@ def test_curves_by_up_are_those_along_x_of_the_engine_turned_back():
 
 def test_unknown_moments_have_no_curves_by_up():
     twin = build_text(leaning(0, 0).replace("spacing = 100\n", ""))
-    assert not [name for name in curves(twin, 90).known() if "moment" in name]
+    assert not [name for name in columns(curves(twin, 90)).values if "moment" in name]
 
 
 COMMANDS = (

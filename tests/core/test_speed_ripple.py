@@ -174,7 +174,7 @@ def test_a_speed_of_half_orders_mixes_into_half_orders_as_the_curves_over_the_an
     gas = {"cycle": "otto", "compression_ratio": 9, "imep": 8}
     operation = {"speed": 2000, "speed_ripple": lines}
     single = engine(gas=gas, piston={"mass": 1, "bore": 90}, operation=operation)
-    assert single.period_revolutions == 2
+    assert single.cycle_revolutions == 2
     angles = np.arange(0.0, 720.0, 11.0)
     direct = compute_engine_curves(single, angles).curves
     spectra = compute_spectra(single, find_relevant_orders(single), ["force", "torque"])

@@ -15,7 +15,7 @@ DEGREES = (
     "cylinders belong in layout.firing_order"
 )
 LAMBDA = (
-    "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance of its two centres"
+    "where 0.15 to 0.4 is usual; crank.stroke is twice the crank radius, rod.length the distance between its centres"
 )
 
 

@@ -9,7 +9,7 @@ from support.commands import run_here
 LONG_ROD = "crank.stroke = 90\nrod.length = 1600\npiston.mass = 0.5\n"
 WARNING = (
     "warning: standard input: crank radius / rod length is 0.02813, where 0.15 to 0.4 is usual; crank.stroke is "
-    "twice the crank radius, rod.length the distance of its two centres\n"
+    "twice the crank radius, rod.length the distance between its centres\n"
 )
 
 

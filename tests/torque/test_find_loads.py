@@ -15,7 +15,7 @@ from balcli.forces import crankshaft
 from balcli.forces.curves import find_torque_curves
 from balcli.forces.rod_forces import compute_rod_forces, list_hung_rows
 from balcli.torque import answer
-from balcli.torque.loads import analyze_loads, find_bearing_loads, find_pin_loads
+from balcli.torque.loads import analyze_loads
 
 ANGLES = np.arange(0.0, 720.0, 7.0)
 
@@ -33,7 +33,7 @@ def test_without_mass_the_rod_carries_the_gas_alone():
 def test_the_largest_load_is_on_the_curve():
     found = draw_engine(2)
     fine = np.arange(0.0, 720.0, 0.25)
-    sizes = np.abs(find_pin_loads(found)(fine))
+    sizes = np.abs(compute_rod_forces(found, fine).pin)
     for load in analyze_loads(found, ("pin",)).pin:
         row = found.numbers.index(load.cylinder)
         assert load.max_N >= sizes[row].max() * (1 - 1e-12)
@@ -43,11 +43,11 @@ def test_the_largest_load_is_on_the_curve():
 
 def test_bearings_carry_what_the_throws_carry():
     found = replace(draw_engine(4), ripple=())
-    places, vectors = find_bearing_loads(found)
+    places = crankshaft.place_main_bearings(found)
     on_pins = compute_rod_forces(found, ANGLES).pin  # banks stand along x
     throws = np.array([[w.share] for w in found.weighed]) * float(found.cylinders.radius[0])
     turning = throws * float(found.omega) ** 2 * unit(ANGLES + found.cylinders.pin_deg[:, None])
-    bearings = vectors(ANGLES)
+    bearings = crankshaft.compute_bearing_loads(found, ANGLES)
     loads = on_pins + turning
     size = np.abs(loads).max()
     assert bearings.sum(axis=0) == pytest.approx(loads.sum(axis=0), abs=1e-9 * size)

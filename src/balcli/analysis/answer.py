@@ -252,6 +252,7 @@ def analyze(
     visible = visible.select_orders(choose_orders(visible, of_gas) if asked is None else asked)
     has_linkage = engine.cylinders.linkage is not None and not engine.placed
     model = take_model(engine) if "parts" in wanted else None
+    provable = shown if engine.places_known else shown - {"moment"}
     ladder = find_ladder(engine, small) if wanted.intersection(("sizing", "ladder")) else None
     return Analysis(
         engine=engine,
@@ -265,7 +266,7 @@ def analyze(
         inner=find_inner_loads(engine, asked) if "inner" in wanted else None,
         guide=compute_guide_moments(engine, asked, guide_height_m) if "guide" in wanted else None,
         travel=_list_strokes(engine) if has_linkage else None,
-        why=_explain(engine, visible.orders, shown) if reasons else None,
+        why=explain_symmetry(engine, visible.orders, provable) if reasons else None,
         stars=_find_stars(engine, due, shown) if reasons else None,
         small=small,
         power_related_unbalance=relate_to_power(engine) if "pru" in wanted else None,
@@ -273,11 +274,6 @@ def analyze(
         masses=list_masses(engine) if "masses" in wanted else None,
         parts=find_parts(engine, model.shaft, model.counterweight) if model else None,
     )
-
-
-def has_power(engine: Engine) -> bool:
-    """Return whether the power of an engine is known, from its file or from its gas."""
-    return bool(engine.rated and engine.rated.power_W) or engine.gas is not None
 
 
 def _check_height(guide_height_m: float | None) -> None:
@@ -352,12 +348,6 @@ def _list_strokes(engine: Engine) -> tuple[Stroke, ...]:
     """Return strokes and dead centres, sorted by cylinder number."""
     columns = ((values + 0.0).tolist() for values in find_travel(engine.cylinders))
     return tuple(sorted(map(Stroke, engine.numbers, *columns)))
-
-
-def _explain(engine: Engine, orders: Array, kinds: Collection[str]) -> Symmetry:
-    """Return whether orders are balanced by symmetry. Order 0 and unknown moments are left out."""
-    provable = set(kinds) if engine.places_known else set(kinds) - {"moment"}
-    return explain_symmetry(engine, orders[orders > 0], provable)
 
 
 def _find_stars(

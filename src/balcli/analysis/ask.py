@@ -101,6 +101,7 @@ def _choose_result(
     if not (asked.marine or asked.over_speed):
         return lambda engine: _ask(asked, engine, for_people)(engine, asked.orders), RENDERER
     from . import speeds
+    from .comparison import analyze_alike
 
     if asked.marine:
         sheets = partial(
@@ -113,8 +114,9 @@ def _choose_result(
         return sheets, speeds.MARINE
 
     def find_series(engine: Engine) -> object:
-        ask = _ask(asked, engine, for_people)
-        return speeds.analyze_speeds(engine, asked.speeds_rpm, asked.orders, ask)
+        each = [engine.at_speed(speed) for speed in asked.speeds_rpm]
+        found = analyze_alike(each, asked.orders, _ask(asked, engine, for_people))
+        return speeds.SpeedSeries(engine=engine, analyses=found, every_order=bool(asked.orders))
 
     return find_series, speeds.RENDERER
 

@@ -53,7 +53,7 @@ def analyze(
     orders: Orders = None,
     only: OnlyParts = None,
     whole: Whole = False,
-    by: analysis_options.By = "",
+    by: analysis_options.By = None,
     why: analysis_options.Why = False,
     guide_height: GuideHeight = None,
     misfire: Misfire = None,
@@ -73,7 +73,6 @@ def analyze(
     chosen, marine = analysis_options.choose_analysis_format(output, form)
     speeds_rpm = analysis_options.parse_analysed_speeds(speed)
     shown = parse_orders(orders)
-    by_cylinder = analysis_options.is_by_cylinder(by)
     height_m = parse_guide_height(guide_height, units)
     words, misfires = parse_parts(only), tuple(misfire or ())
     asked = analysis_options.Request(
@@ -81,7 +80,7 @@ def analyze(
         shown,
         *words,
         whole,
-        by_cylinder,
+        by is not None,
         why,
         height_m,
         misfires,

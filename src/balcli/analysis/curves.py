@@ -75,11 +75,6 @@ class Curves(Result):
         """Name of the engine and number of angles, in words."""
         return f"of {self.engine or 'an engine'}: {len(self.crank_deg)} crank angles"
 
-    def known(self) -> dict[str, Array]:
-        """Return the curves without moments that are not known."""
-        unknown = _MOMENTS if "crank.spacing = 0" in (self.assumed or ()) else ()
-        return {name: values for name, values in self.curves.items() if name not in unknown}
-
 
 def compute_engine_curves(engine: Engine, crank_deg: Array) -> Curves:
     """Return free force (N), moment, couple, inertia torque and roll (N m) of an engine with its
@@ -396,7 +391,9 @@ def compute_curves_by_step(
 
 def columns(curves: Curves) -> Columns:
     """Return crank angles and each quantity that is known; names include units."""
-    return Columns({"crank_deg": curves.crank_deg, **curves.known()})
+    unknown = _MOMENTS if "crank.spacing = 0" in (curves.assumed or ()) else ()
+    known = {name: values for name, values in curves.curves.items() if name not in unknown}
+    return Columns({"crank_deg": curves.crank_deg, **known})
 
 
 def rows(curves: Curves) -> Rows:

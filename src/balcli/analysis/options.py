@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import typer
 
@@ -33,7 +33,10 @@ SpeedsOption = Annotated[
         "--rpm",
     ),
 ]
-By = Annotated[str, optional("cylinder", "Also show the share of each cylinder.", "--by")]
+By = Annotated[
+    Literal["cylinder"] | None,
+    optional("cylinder", "Also show the share of each cylinder.", "--by"),
+]
 Why = Annotated[
     bool, typer.Option("--why", help="Print why orders are balanced or not, and phasor stars.")
 ]
@@ -119,14 +122,3 @@ def parse_analysed_speeds(text: str | None) -> tuple[float, ...]:
         return () if several is None else tuple(several.tolist())
     one = parse_speed(text)
     return () if one is None else (one,)
-
-
-def is_by_cylinder(by: str) -> bool:
-    """Return whether --by asks for each cylinder's share.
-
-    Raises:
-        BadParameter: The value is another word.
-    """
-    if by not in ("", "cylinder"):
-        raise typer.BadParameter(f'"{by}": only "cylinder" can be chosen', param_hint="--by")
-    return bool(by)

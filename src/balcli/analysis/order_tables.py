@@ -7,7 +7,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,7 +41,6 @@ if TYPE_CHECKING:
 
 
 WHOLE_TURN = 360 - 1e-6  # deg; a longer interval between peaks counts as a whole turn
-_UNKNOWN_SIZES: Mapping[str, float] = MappingProxyType({})
 _LEVERS = "Forces along x make the moment My (marine: M1V, M2V), forces along y make Mx (M1H)."
 _UPRIGHT_LEVERS = "A vertical force makes a pitching moment, a horizontal one a yawing moment."
 _AS_BUILT = (
@@ -179,7 +177,7 @@ def _column(name: str, values: Complex, unit: ShownUnit) -> tuple[str, list[str]
 
 
 def peak_facts(
-    result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] = _UNKNOWN_SIZES
+    result: OrdersAndPeaks, system: System, title: str, single: Mapping[str, float] | None = None
 ) -> Facts:
     """Return the largest values over a revolution that were computed.
 
@@ -192,7 +190,7 @@ def peak_facts(
     pairs = []
     for kind, peak in result.peaks:
         known = kind is not MOMENT or result.moments_known
-        least = NEGLIGIBLE * single.get(kind.name, 0.0)
+        least = NEGLIGIBLE * (single or {}).get(kind.name, 0.0)
         pairs.append((kind.name, _peak(peak, system.unit(kind), least) if known else UNKNOWN))
     return Facts(tuple(pairs), title)
 

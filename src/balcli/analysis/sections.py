@@ -201,25 +201,6 @@ def _heights(height_m: Array, system: System) -> str:
     return f"{' to '.join(texts)} {system.length.name}"
 
 
-def lay_out_strokes(travel: Sequence[Stroke], system: System) -> Grid:
-    """Return a table of strokes and dead centres with a row for each cylinder.
-
-    Args:
-        travel: Strokes and dead centres of the cylinders.
-        system: System of units.
-    """
-    length, rows = system.length, []
-    for one in travel:
-        dead_centres = f"{one.top_deg:.3f}", f"{one.bottom_deg:.3f}"
-        rows.append((str(one.cylinder), number(length.of(one.stroke_m), 7), *dead_centres))
-    heads = ("cylinder", f"stroke, {length.name}", "top, deg", "bottom, deg")
-    note = (
-        "Crank angles of the dead centres: top from where the pin lies along the cylinder's axis, "
-        "bottom from half a turn later."
-    )
-    return Grid("Strokes and dead centres", heads, tuple(rows), note)
-
-
 def list_strokes(travel: Sequence[Stroke], system: System) -> Iterator[FigureRow]:
     """Yield the stroke and the angles of both dead centres of each cylinder.
 

@@ -91,17 +91,15 @@ def _parts(result: Analysis, system: System, view: View) -> Iterator[Part]:
         spectra = share.spectra.with_moment_if(result.moments_known)
         about_crank = view.whole or bool(view.parts)
         yield from cylinder_tables(share.cylinder, spectra, system, about_crank=about_crank)
-    yield from _further_parts(result, system, whole=view.whole)
+    yield from _further_parts(result, system)
     if result.ladder is not None:
         yield ladder_grid(result.ladder, result.engine, system)
     if result.sizing is not None:
         yield from _sizing_parts(result.sizing, system)
 
 
-def _further_parts(result: Analysis, system: System, *, whole: bool) -> Iterator[Part]:
+def _further_parts(result: Analysis, system: System) -> Iterator[Part]:
     """Yield the parts that only some engines have, or that are computed only on request."""
-    if result.travel is not None and whole:
-        yield sections.lay_out_strokes(result.travel, system)
     if result.inner is not None:
         yield from sections.sheet_parts(result.inner, system)
     if result.guide is not None:

@@ -10,7 +10,7 @@ about the y axis, is also called vertical: M1V is My of order 1, and M1H is Mx o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -39,7 +39,7 @@ from ..show.sheet import (
     size_text,
 )
 from . import sections, show as analysis_show
-from .answer import Analysis, analyze, has_power
+from .answer import Analysis, analyze
 from .comparison import (
     Line,
     analyze_alike,
@@ -82,32 +82,6 @@ class SpeedSeries:
     def lines(self) -> tuple[Line, ...]:
         """Every figure, with a value for each speed."""
         return list_lines(self.analyses, every_order=self.every_order)
-
-
-def analyze_speeds(
-    engine: Engine,
-    speeds_rpm: Sequence[float],
-    orders: Iterable[float] | None,
-    analyze_one: Callable[[Engine, Iterable[float] | None], Analysis],
-) -> SpeedSeries:
-    """Return the analyses of an engine at these speeds.
-
-    Args:
-        engine: Engine without trailing axes.
-        speeds_rpm: Speeds, rpm.
-        orders: Orders to show; None: all that are shown by default at any of the speeds.
-        analyze_one: Function that analyzes an engine for given orders (None: default).
-
-    Raises:
-        BalcliError: As for `analyze_one`.
-    """
-    engines = [engine.at_speed(speed) for speed in speeds_rpm]
-    asked = None if orders is None else list(orders)
-    return SpeedSeries(
-        engine=engine,
-        analyses=analyze_alike(engines, asked, analyze_one),
-        every_order=asked is not None,
-    )
 
 
 @dataclass(frozen=True)
@@ -233,7 +207,9 @@ def find_marine_sheet(
         BalcliError: An order is invalid or too high.
     """
     torque = TORQUE if engine.gas is None else TORQUE_TOTAL
-    words = ["force", "moment", "guide", torque.name, *(["pru"] if has_power(engine) else [])]
+    words = ["force", "moment", "guide", torque.name]
+    if engine.gas is not None or (engine.rated and engine.rated.power_W):
+        words.append("pru")
     ask = partial(analyze, only=words, guide_height_m=guide_height_m)
     speeds = [float(speed) for speed in speeds_rpm] or [float(engine.speed_rpm)]
     found = analyze_alike([engine.at_speed(speed) for speed in speeds], orders, ask)

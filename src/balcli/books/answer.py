@@ -9,7 +9,7 @@ pins and all else that textbooks ignore are left out (`forces.symmetry`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 from types import NoneType
@@ -29,8 +29,6 @@ from ..limits import HIGHEST_POWER
 from ..shell.arguments import check_count, tell_arguments
 from . import schemes, series, tsinghua, worked_examples
 from .recomputed import (
-    Erratum,
-    ErratumClass,
     Print,
     Ranges,
     Row,
@@ -145,15 +143,6 @@ def select_tables(
         if value is not None and (name is None or names[0] not in takers):
             raise BalcliError(f"--{option}: name a table that takes it: {', '.join(takers)}")
     return [TABLES[each](load_print(each), ranges) for each in names]
-
-
-def find_errata(
-    tables: Sequence[Table], category: ErratumClass | None = None
-) -> list[tuple[str, Erratum]]:
-    """Return the errata of these tables, each with its table's name; `category` restricts them to
-    one class.
-    """
-    return [(t.name, e) for t in tables for e in t.errata if category in (None, e.category)]
 
 
 @tell_arguments(**{"lambda": "ratios", "angle": "angles"})

@@ -73,7 +73,8 @@ def tables(
     angles = angle and as_bare_angles("--angle", angle)
     chosen = answer.select_tables(name, lam, angles, power)
     if errata or kind:
-        show([answer.find_errata(chosen, kind)], pages.ERRATA, form, output)
+        errors = [(t.name, e) for t in chosen for e in t.errata if kind in (None, e.category)]
+        show([errors], pages.ERRATA, form, output)
     elif name:
         own = {"layouts": pages.LAYOUTS, "published": pages.PUBLISHED}
         renderer = own.get(name, pages.RENDERER)

@@ -70,10 +70,7 @@ def _is_figure(cell: Cell) -> bool:
 def _shown(table: Table, i: int, j: int) -> str:
     """Return a cell in the form of the print, followed by the print if it deviates."""
     value, text = table.exact[i][j], table.printed[i][j]
-    if not isinstance(value, (int, float)):
-        shown = value or ""
-    else:
-        shown = _round_as_printed(value, text or "")
+    shown = _round_as_printed(value, text or "") if isinstance(value, (int, float)) else value or ""
     return f"{shown} ≠ {text}" if text is not None and deviates(value, text) else shown
 
 

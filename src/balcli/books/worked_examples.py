@@ -8,7 +8,6 @@ gravity is 2 in from the crank pin. The piston with pin and rings weighs 1 lb.
 
 from __future__ import annotations
 
-from math import floor, log10
 from typing import cast
 
 import numpy as np
@@ -37,9 +36,9 @@ def tabulate_liang_examples(printed: Print, ranges: Ranges) -> Table:
     force = mass * _acceleration() * POUND * FOOT / POUND_FORCE
     balancing = (rotating + reciprocating / 2) * 3 / 3.5
     answers = (mass, _acceleration(), force, *_second(), rotating, reciprocating, balancing)
-    rounded = _round(1.79 * 37400 / 32.2)
+    rounded = float(f"{1.79 * 37400 / 32.2:.3g}")
     others: list[tuple[ErratumClass, str, int, float]] = [
-        ("approximation", "omega taken as 418 rad/s", 1, _round(_acceleration(418.0))),
+        ("approximation", "omega taken as 418 rad/s", 1, float(f"{_acceleration(418.0):.3g}")),
         ("rounding", "follows from the rounded figures 1.79 and 37400, g = 32.2", 2, rounded),
         ("approximation", "g taken as 32.2 ft/s^2", 7, _second(32.2)[-1]),
     ]
@@ -59,12 +58,6 @@ def _second(gravity: float = GRAVITY) -> tuple[float, ...]:
     peak = float(SliderCrank(np.pi / 2, lam).spin_rate) / lam
     couple = 2.75 * ROD**2 * (hk - q2) * peak * lam * OMEGA**2 / gravity
     return (hk, q2, hk - q2, peak, couple)
-
-
-def _round(value: float) -> float:
-    """Return the value with three significant digits, as on a slide rule."""
-    unit = 10.0 ** (floor(log10(abs(value))) - 2)
-    return floor(value / unit + 0.5) * unit
 
 
 def tabulate_published(printed: Print, ranges: Ranges) -> Table:

@@ -376,16 +376,10 @@ class Engine:
         return self.speed_rpm * RPM
 
     @property
-    def period_revolutions(self) -> int:
-        """Revolutions after which speed and inertia forces repeat: 2 if the uneven speed has half
-        orders, else 1.
-        """
-        return 2 if any(line.order % 1 for line in self.ripple) else 1
-
-    @property
     def cycle_revolutions(self) -> int:
         """Number of revolutions after which a cylinder's forces repeat, gas included."""
-        return 2 if self.gas is not None and self.strokes == 4 else self.period_revolutions
+        half_orders = any(line.order % 1 for line in self.ripple)
+        return 2 if half_orders or (self.gas is not None and self.strokes == 4) else 1
 
     def find_turning_inertia(self, *, beyond_pins: bool = False) -> TurningInertia:
         """Return the inertia of all parts that turn in a constant ratio to the crank: crankshaft,

@@ -45,7 +45,7 @@ from .layout import (
     find_row_angle,
     plan_cylinders,
 )
-from .rods import CylinderMasses, RodPlace, RunningGear, weigh_harmonic, weigh_rod
+from .rods import CylinderMasses, RodPlace, RunningGear, weigh_rod
 
 if TYPE_CHECKING:
     from ..core.mechanisms.linkage import Linkage
@@ -464,13 +464,15 @@ class Parts:
         if key not in self._gears:
             offset = self.figures.take("piston.offset", self.model.piston.offset)
             mass = sum(self.find_piston_masses().values())
-            weigh = weigh_harmonic if self.model.rod.motion == "harmonic" else weigh_rod
-            self._gears[key] = weigh(
+            gear = weigh_rod(
                 place.rod,
                 place.rod.length_for(self.find_radius(number)),
                 value_or(self.override(number, "piston_offset"), offset) / 1e3,
                 value_or(self.override(number, "piston_mass"), mass),
             )
+            if self.model.rod.motion == "harmonic":  # infinitely long: it does not swing
+                gear = gear._replace(length=np.inf, spin=0.0, couple=0.0)
+            self._gears[key] = gear
         return self._gears[key]
 
     def find_ripple(self) -> tuple[RippleLine, ...]:

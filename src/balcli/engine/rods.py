@@ -124,17 +124,6 @@ def weigh_rod(
     return RunningGear(length, offset, piston, small, big, spin, couple)
 
 
-def weigh_harmonic(
-    rod: RodFigures, length: Figure, offset: Figure = 0.0, piston: Figure = 0.0
-) -> RunningGear:
-    """Return piston and rod of a cylinder in harmonic motion. The length only divides the mass
-    between the ends; the rod counts as infinitely long and does not swing. Arguments are those of
-    `weigh_rod`.
-    """
-    gear = weigh_rod(rod, length, offset, piston)
-    return gear._replace(length=math.inf, spin=0.0, couple=0.0)
-
-
 # ------------------------------------------------------------------ rules
 class RodPlace(NamedTuple):
     """Figures of a cylinder's rod, with the tables from which they come.

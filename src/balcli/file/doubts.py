@@ -205,7 +205,7 @@ def _list_rods(model: EngineFile) -> Iterator[Figure]:
     rod, mass, piston = model.rod, _weigh_rod(model), _weigh_piston(model)
     length = rod.length or (max(model.crank.strokes) / 2 / rod.ratio if rod.ratio else math.inf)
     most = CROSSHEAD_LAMBDA if _has_crosshead(model) else LAMBDA[1]
-    meaning = "crank.stroke is twice the crank radius, rod.length the distance of its two centres"
+    meaning = "crank.stroke is twice the crank radius, rod.length the distance between its centres"
     for stroke in dict.fromkeys(model.crank.strokes) if rod.motion == "exact" else ():
         ratio = rod.ratio or stroke / 2 / length
         digits = count_lambda_digits(ratio)

@@ -77,8 +77,8 @@ class Crank(FileTable):
     """Angle of every throw, free end to flywheel end; may be left out where firing_order fixes
     them. Example: [0, 180, 180, 0]"""
     spacing: Distance | None = None
-    """Axial distance of neighbouring throws; without it (and without positions), moments of several
-    throws are not known. Example: 100"""
+    """Axial distance between neighbouring throws; without spacing and positions, moments of
+    several throws are not known. Example: 100"""
     positions: Lengths | None = None
     """Axial position of every throw, instead of spacing. Example: [-150, -50, 50, 150]"""
     throw_mass: Masses = 0.0
@@ -120,7 +120,7 @@ class RodKeys(FileTable):
     )
 
     length: Size | None = None
-    """Distance of the two centres. Example: 160"""
+    """Distance between the two centres. Example: 160"""
     ratio: RodRatio | None = None
     """Crank radius over rod length (lambda), instead of length. Example: 0.28"""
     mass: Mass | None = None
@@ -210,7 +210,8 @@ class Layout(FileTable):
     """Shared: every throw carries one rod of each bank; alternating: every throw carries one
     rod, of each bank in turn. Example: 'alternating'"""
     stagger: Length = 0.0
-    """Axial distance of adjacent rods on a throw, first bank towards the free end. Example: 22"""
+    """Axial distance between adjacent rods on a throw, first bank towards the free end. Example:
+    22"""
     firing_order: Annotated[Numbers | None, BeforeValidator(parse_firing_order)] = None
     """Numbers of the cylinders as they fire. Example: [1, 3, 4, 2]"""
     firing_intervals: Intervals | None = None

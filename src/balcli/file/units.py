@@ -355,7 +355,7 @@ def _explain(figure: str) -> str:
 
 
 def _spell_out(figure: str, dimension: Dimension) -> str:
-    """Return a speed spelt in turns, and an angle in multiples of pi spelt with the unit pi."""
+    """Return a figure with its speed spelt in turns, or its angle (pi/2) with the unit pi."""
     if dimension is SPEED:  # "150 Hz" -> "150 turn/s", "5500 1/min" -> rpm
         counted = re.sub(_HERTZ, lambda hz: f"{hz[1]} turn/{hz[2] and 'm'}s", figure)
         return re.sub(_PER_MINUTE, r"\1 rpm", counted)

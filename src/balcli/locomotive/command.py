@@ -23,7 +23,6 @@ HammerBlow = Annotated[
     str | None,
     optional("N", "Allowed hammer blow of a wheel instead of a factor, such as '40 kN'."),
 ]
-_LITTLE = 0.01  # at a smaller balance factor the hammer blow was probably meant in kN
 Speed = Annotated[str | None, optional("KM_H|RPM", "Speed: '80 km/h', '50 mph', or 300 (rpm).")]
 Write = Annotated[Path | None, optional("OUT.toml", "Write the file with these balance masses.")]
 
@@ -70,8 +69,6 @@ def locomotive(
     if hammer_blow is not None and results[0].factor == 1:
         blow = max(wheel.hammer_blow_N for wheel in results[0].wheels)
         warn(f"--hammer-blow: not reached; the factor 1 makes at most {blow:.4g} N")
-    elif hammer_blow is not None and (results[0].factor or 0.0) < _LITTLE:
-        warn(f"--hammer-blow: gives a factor of {results[0].factor:.3g}; bare numbers are N")
     if write is not None:
         refuse_leaving_files(source.text, path, write)
         rpm = None if speed is None else results[0].speed_rpm

@@ -234,7 +234,7 @@ def _choose_places(residual: Residual, options: SchemeOptions) -> Places:
     at, forward, backward = options.at or (), residual.force(1), residual.force(-1)
     if len(at) > 2:
         raise BalcliError(
-            "--at: a pair of shafts has two places; the first is of the shaft against the crank"
+            "--at: a pair of shafts has two places; the first is for the shaft against the crank"
         )
     if not (forward and backward):
         if options.roll:

@@ -40,20 +40,9 @@ from ..forces.quantity import (
 )
 from ..forces.spectrum import compute_gas_torque
 from ..names import QUANTITIES, import_name
+from ..show.figures import EngineName
 from .parameters import Place, find_places, tell_variant
 from .quantity_names import BEGINNINGS, ENGINE, FORMS, MOUNTS, PISTON, TORSION, Form, join_patterns
-
-
-@dataclass(frozen=True)
-class NamedEngine:
-    """The engine of a result.
-
-    Attributes:
-        name: Name in the engine file.
-    """
-
-    name: str
-
 
 AnyQuantity = Quantity | TargetQuantity
 
@@ -349,7 +338,7 @@ class NamedNumbers:
     """
 
     format: Literal["balcli.numbers/1"] = "balcli.numbers/1"
-    engine: NamedEngine
+    engine: EngineName
     numbers: tuple[FileNumber, ...]
     quantities: tuple[Form, ...]
 
@@ -374,7 +363,7 @@ def list_quantities(model: EngineFile) -> Iterator[Form]:
 def name_numbers(model: EngineFile) -> NamedNumbers:
     """Return the numbers of a file that `sweep` can vary, and the quantities of the file."""
     return NamedNumbers(
-        engine=NamedEngine(model.name),
+        engine=EngineName(model.name),
         numbers=tuple(_describe(path, place) for path, place in find_places(model).items()),
         quantities=tuple(list_quantities(model)),
     )

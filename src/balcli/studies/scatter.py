@@ -25,12 +25,12 @@ from ..limits import MOST_SINGLE_SAMPLES, MOST_TOLERANCE_SAMPLES
 from ..process import Tell, tell_nobody
 from ..shell.arguments import Words, check_count, join_names, tell_arguments
 from ..shell.values import read_angle, read_share
+from ..show.figures import EngineName
 from ..show.result import Result
 from ..show.sheet import count_name
 from .deviations import Source, Tolerances, find_sources
 from .quantities import (
     Evaluator,
-    NamedEngine,
     choose_of_engine,
     list_assumed,
     parse_quantities,
@@ -97,7 +97,7 @@ class Scatter(Result):
     """
 
     format: Literal["balcli.scatter/1"] = "balcli.scatter/1"
-    engine: NamedEngine
+    engine: EngineName
     assumed: tuple[str, ...] | None = None
     samples: int
     distribution: Shape
@@ -263,7 +263,7 @@ class Variants:
         values = np.concatenate(chunks)
         spreads = map(self._spread, nominal, values.T, changes.T)
         return Scatter(
-            engine=NamedEngine(self.model.name),
+            engine=EngineName(self.model.name),
             assumed=self.assumed,
             samples=len(values),
             distribution=shape,

@@ -16,7 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import islice, tee
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,20 +55,12 @@ if TYPE_CHECKING:
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
 Box: TypeAlias = tuple[slice, ...]
+# Function that yields `work(item)` for each item, in order, and may share the work among threads:
+Share: TypeAlias = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]
 ALONE = 64  # number of variants in a box if each is computed by itself
 CHUNK = 65_536  # largest number of variants in a box; larger boxes save no more work
 BYTES = 1 << 24  # size of the largest array of a box, which fits into the cache
 SAMPLES = 1 << 20  # largest number of samples in a box, computed in a tenth of a second
-
-
-class Share(Protocol):
-    """Function that yields `work(item)` for each item, in order, and may share the work among
-    threads.
-    """
-
-    def __call__(
-        self, work: Callable[[Item], Outcome], items: Iterable[Item], /
-    ) -> Iterator[Outcome]: ...
 
 
 class Chunk(NamedTuple):

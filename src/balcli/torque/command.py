@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 from ..errors import BalcliError, warn
 from ..file.edit import set_keys, set_speed
 from ..file.toml import name_file
-from ..file.units import read_fraction
 from ..limits import FLUCTUATION
 from ..shell.file_names import require_ending, text_format
 from ..shell.inputs import (
@@ -30,7 +29,7 @@ from ..shell.options import (
     parse_speed,
 )
 from ..shell.output import refuse_leaving_files, refuse_overwriting, show, write_file
-from ..shell.values import argument, optional, parse_cylinder, read_inertia
+from ..shell.values import argument, optional, parse_cylinder, read_inertia, read_share
 from ..show.formats import Units
 
 if TYPE_CHECKING:
@@ -110,7 +109,8 @@ def torque(
             raise BalcliError(f"{option} needs {needed}")
     from . import answer, given_curve, show as pages
 
-    rpm, asked, allowed = parse_speed(speed), parse_orders(orders), parse_fluctuation(fluctuation)
+    rpm, asked = parse_speed(speed), parse_orders(orders)
+    allowed = None if fluctuation is None else read_share("--fluctuation", fluctuation, FLUCTUATION)
     if curve is not None:
         own = None if inertia is None else read_inertia("--inertia", inertia, units)
         given = given_curve.read_curve(curve)
@@ -138,20 +138,6 @@ def torque(
     show([found], pages.RENDERER, form, output, units)
     if found.flywheel is not None and found.flywheel.stall and fluctuation is None:
         exit_on_errors([f"{name_file(path or str(curve))}: {found.flywheel.stall}"])
-
-
-def parse_fluctuation(text: str | None) -> float | None:
-    """Return the fluctuation in a text such as `1/200`, `0.005` or `0.5%`.
-
-    Raises:
-        BalcliError: The text has another form.
-    """
-    if text is None:
-        return None
-    try:
-        return read_fraction(text)
-    except ValueError:
-        raise BalcliError(f'--fluctuation "{text[:60]}": {FLUCTUATION}') from None
 
 
 def write_uneven(path: str, source: bytes, result: TorqueAnalysis, target: Path) -> None:

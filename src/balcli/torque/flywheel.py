@@ -84,7 +84,7 @@ def find_flywheel(
     found = Flywheel(moving_parts_kg_m2=course.mean)
     if fluctuation is not None:
         if not SMALLEST_FLUCTUATION <= fluctuation < 2:
-            raise BalcliError(f"--fluctuation {fluctuation:g}: {FLUCTUATION}")
+            raise BalcliError(f"--fluctuation {fluctuation:g}: give {FLUCTUATION}")
         if mean_speed is None:
             raise BalcliError("--fluctuation needs the mean speed; give it, such as --speed 300")
         needed = needed_inertia(torque, mean_speed, fluctuation, course.at)

@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..core.phasors import Array
 from ..core.piecewise import Vectors, find_panels
 from ..engine.engine import Engine
 from ..forces.crankshaft import (
@@ -83,7 +82,9 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
     steady, sizes = replace(engine, ripple=()), engine.bearings
     pin = knuckle = main = obstacle = None
     if "pin" in asked:
-        found = _measure(steady, find_pin_loads(steady), sizes and sizes.pin_m2)
+        # forces on crank or knuckle pins in the cylinder's frame: real along its axis, outward
+        forces = lambda at: compute_rod_forces(steady, at).pin  # noqa: E731
+        found = _measure(steady, forces, sizes and sizes.pin_m2)
         loads = [replace(f, cylinder=int(n)) for n, f in zip(engine.numbers, found, strict=True)]
         loads.sort(key=lambda load: load.cylinder or 0)
         hung = {engine.numbers[row] for rows in list_hung_rows(engine).values() for row in rows}
@@ -91,7 +92,7 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
         knuckle = tuple(replace(x, pressure_Pa=None) for x in loads if x.cylinder in hung) or None
     if "main" in asked:
         try:
-            places, vectors = find_bearing_loads(steady)
+            places, vectors = place_main_bearings(steady), partial(compute_bearing_loads, steady)
         except BearingsUnknownError as error:
             if pin is None:
                 raise
@@ -101,22 +102,6 @@ def analyze_loads(engine: Engine, asked: Iterable[str] = KINDS_OF_LOAD) -> Cycle
             each = enumerate(zip(places.tolist(), found, strict=True), 1)
             main = tuple(replace(f, bearing=k, position_mm=z * 1e3) for k, (z, f) in each)
     return CycleLoads(pin=pin, knuckle=knuckle, main=main, obstacle=obstacle)
-
-
-def find_pin_loads(engine: Engine) -> Vectors:
-    """Return a function of crank angles (deg) to the force of each rod on its crank pin or knuckle
-    pin. Forces are complex in the cylinder's frame: real along its axis away from the crank,
-    imaginary 90 deg ahead. Cylinders follow `engine.numbers`.
-    """
-    return lambda degrees: compute_rod_forces(engine, degrees).pin
-
-
-def find_bearing_loads(engine: Engine) -> tuple[Array, Vectors]:
-    """Return the positions of the main bearings, m, and a function of crank angles (deg) to the
-    force of the shaft on each, x + iy. `place_main_bearings` may raise.
-    """
-    span = place_main_bearings(engine)
-    return span, lambda degrees: compute_bearing_loads(engine, degrees)
 
 
 def _measure(engine: Engine, vectors: Vectors, area: float | None) -> Iterator[CycleLoad]:

@@ -15,6 +15,7 @@ from ..analysis.plot import set_crank_axis
 from ..core.phasors import Array, Complex, unit
 from ..core.speed_ripple import surplus
 from ..engine.engine import Engine
+from ..forces.crankshaft import compute_bearing_loads
 from ..forces.curves import find_torque_curves
 from ..forces.rod_forces import compute_rod_forces, list_hung_rows
 from ..forces.spectrum import take_gas
@@ -22,7 +23,6 @@ from ..show.plane import draw_path, set_up_plane
 from ..show.plot_style import BLUE, GREEN, INK, RED, SOFT, put_legend_above
 from ..show.units import ShownUnit, System
 from .answer import choose_firing_cylinder
-from .loads import find_bearing_loads
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,23 +57,6 @@ def draw_gas(fig: Figure, engine: Engine, what: str, system: System) -> None:
         _draw_main(fig, steady, system.force)
 
 
-def find_pressures(engine: Engine) -> tuple[Array, Array, Array]:
-    """Return cycle angle, pressure and volume of one cylinder (`choose_firing_cylinder`) over its
-    cycle, each of shape (angles,).
-
-    Returns:
-        Cycle angle (deg) from one gas-exchange dead centre to the next, 0 at firing; pressure (Pa);
-        volume (m3), counted from the smallest volume if the compression ratio is not given.
-    """
-    gas = take_gas(engine)
-    cylinder = gas.cylinders[engine.numbers.index(choose_firing_cylinder(engine))]
-    half = gas.cycle_deg / 2
-    angle = _divide(-half, half, np.degrees(cylinder.torque.breaks))
-    at = np.radians(angle)
-    volume = cylinder.piston.volume(at, gas.compression_ratio or math.inf)
-    return angle, cylinder.find_pressure(at), volume
-
-
 def _divide(low: float, high: float, breaks: Array) -> Array:
     """Return angles of a cycle every half degree, and on both sides of each break."""
     inside = low + np.remainder(breaks - low, high - low)
@@ -83,19 +66,25 @@ def _divide(low: float, high: float, breaks: Array) -> Array:
 
 
 def _draw_pressure(ax: Axes, engine: Engine, system: System, *, over_volume: bool) -> None:
-    """Draw pressure over the cycle angle or over the volume."""
-    angle, pressure, volume = find_pressures(engine)
+    """Draw the pressure of a cylinder over the cycle angle, from one gas-exchange dead centre to
+    the next, or over the volume.
+    """
+    gas, number = take_gas(engine), choose_firing_cylinder(engine)
+    cylinder, half = gas.cylinders[engine.numbers.index(number)], gas.cycle_deg / 2
+    angle = _divide(-half, half, np.degrees(cylinder.torque.breaks))
+    volume = cylinder.piston.volume(np.radians(angle), gas.compression_ratio or math.inf)
+    pressure = cylinder.find_pressure(np.radians(angle))
     s, v = system.pressure.fit(float(pressure.max())), system.volume.fit(float(volume.max()))
     ax.plot(volume / v.size if over_volume else angle, pressure / s.size, color=BLUE)
     ax.set(ylim=(0, None), ylabel=f"pressure, {s.name}")
     if over_volume:
-        base = " above the smallest" if take_gas(engine).compression_ratio is None else ""
+        base = " above the smallest" if gas.compression_ratio is None else ""
         ax.set(xlim=(0, None), xlabel=f"volume{base}, {v.name}")
-        ax.set_title(f"Indicator diagram of cylinder {choose_firing_cylinder(engine)}")
+        ax.set_title(f"Indicator diagram of cylinder {number}")
     else:
         ax.axvline(0, color=SOFT, linewidth=0.7)
         set_crank_axis(ax, angle, "cycle angle from the firing dead centre, deg")
-        ax.set_title(f"Pressure in cylinder {choose_firing_cylinder(engine)}")
+        ax.set_title(f"Pressure in cylinder {number}")
 
 
 def _draw_torque(ax: Axes, engine: Engine, unit: ShownUnit) -> None:
@@ -151,7 +140,7 @@ def _draw_pin(fig: Figure, engine: Engine, unit: ShownUnit) -> None:
 def _draw_main(fig: Figure, engine: Engine, force: ShownUnit) -> None:
     """Draw the load of every main bearing relative to the block and relative to the shaft."""
     angle = _list_angles(engine)
-    in_block = find_bearing_loads(engine)[1](angle)
+    in_block = compute_bearing_loads(engine, angle)
     columns = min(len(in_block), _COLUMNS)
     rows = -(-len(in_block) // columns)
     fig.set_size_inches(0.4 + 2.6 * columns, 0.6 + 5.6 * rows)

@@ -123,6 +123,5 @@ def make_source(model: EngineFile, engine: Engine, name: str, orders: Real | Non
         part.name: part.damper for part in (*reversed(torsion.front), *torsion.rear)
     }
     throws = tuple(list_throws(engine))
-    for throw in throws:
-        dampers[throw] = next(iter(list_dampers(torsion, throw)), None)
+    dampers |= {throw: next(iter(list_dampers(torsion, throw)), None) for throw in throws}
     return Source(b"", doubts, system, dampers, engine, throws)

@@ -21,8 +21,6 @@ from .modes import find_chain_modes
 from .response import find_largest
 from .system import Excitation, TorsionalSystem
 
-SLOWEST, FASTEST, SPEEDS = 0.5, 1.5, 101  # ends relative to the file's speed; number of speeds
-
 
 def list_names(model: EngineFile) -> Iterator[str]:
     """Yield the names of the quantities that a file has."""
@@ -106,7 +104,7 @@ def choose_torsion_speeds(engine: Engine) -> Real:
     """Return the speeds (speeds,), rpm, over which the largest torque and stress of a shaft are
     found: 0.5 to 1.5 times the engine's speed.
     """
-    return np.asarray(np.linspace(SLOWEST, FASTEST, SPEEDS) * float(engine.speed_rpm))
+    return np.asarray(np.linspace(0.5, 1.5, 101) * float(engine.speed_rpm))
 
 
 def _build(model: EngineFile) -> TorsionalSystem:

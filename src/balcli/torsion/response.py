@@ -284,7 +284,8 @@ def find_response(
         swing = WorstPendulum(float(at[k]), worst_deg[k], largest)
         pendulums.append(PendulumSwing(system.nodes[each.node], degrees[:, k], swing))
     worst_heat = list(map(WorstHeat, at.tolist(), value.tolist()))[sums.shape[1] :]
-    names = (name.removesuffix(" ring") for name in system.dampers)
+    names = [system.nodes[ring.node] for ring in system.rings]
+    names += [name.removesuffix(" ring") for name in system.nodes[system.last + 1 :]]
     dampers = tuple(map(DamperHeat, names, heat.T, worst_heat))
     return TorsionResponse(
         speeds_rpm=speeds_rpm,

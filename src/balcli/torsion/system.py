@@ -143,11 +143,6 @@ class TorsionalSystem:
         pace = find_pieces(self.chain).pace
         return np.asarray(pace / pace[self.reference])
 
-    @property
-    def dampers(self) -> tuple[str, ...]:
-        """Names of the dampers that dissipate: nodes with viscous rings, then rubber rings."""
-        return (*(self.nodes[ring.node] for ring in self.rings), *self.nodes[self.last + 1 :])
-
     def attached(self, frequency: Real, order: Real | None = None) -> Complex:
         """Return the complex inertias, kg m2, that rings and pendulums add to nodes, shape
         (*frequency, nodes).

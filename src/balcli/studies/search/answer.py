@@ -19,7 +19,7 @@ from ...engine.engine import Engine, check_engine, refuse_geared, take_model
 from ...engine.layout import plan_cylinders
 from ...engine.load import vary_engine
 from ...errors import BalcliError, InputError, check_type, wrong_type
-from ...file.fields import suggest_nearest
+from ...file.fields import counted, suggest_nearest
 from ...file.model import EngineFile
 from ...limits import MOST_FOUND
 from ...process import Tell, tell_nobody
@@ -100,7 +100,7 @@ class Search(Result):
     @property
     def summary(self) -> str:
         """Searched keys, and the number of results."""
-        found = f"{len(self.results)} result{'s' * (len(self.results) != 1)}"
+        found = counted(len(self.results), "result")
         return f"over {self.over} of {self.model.name or 'an engine'}: {found}"
 
     def engine(self, rank: int = 1) -> Engine:
@@ -205,11 +205,9 @@ def _read_range(model: EngineFile, text: str) -> Parameter:
         return Parameter(PATHS[text], np.array(ANGLES[text]), "deg")
     path, is_number, ends = text.partition("=")
     if not is_number:
+        ranged = "or give a number of the file with its range, such as mount.left.loss=0.05:0.3"
         known = (*ARRANGED, *ANGLES)
-        right = (
-            f"choose from {', '.join(known)}, or give a number of the file with its range, such "
-        )
-        hint = suggest_nearest(text, known, f"{right}as mount.left.loss=0.05:0.3")
+        hint = suggest_nearest(text, known, f"choose from {', '.join(known)}, {ranged}")
         raise BalcliError(f'--over "{text}": {hint}')
     if ends.count(":") != 1:
         raise BalcliError(
@@ -254,8 +252,7 @@ def _search_numbers(
     low, high = np.transpose([number.values for number in numbers])
     turns = [number.unit == "deg" and np.ptp(number.values) == TURN for number in numbers]
     box = Box(low, high, np.array(turns))
-    alone = not objective.is_sum_over_cylinders
-    effort = _choose_effort(box, objective, alone)
+    effort = _choose_effort(box, objective)
     if even_firing:  # candidates fire evenly to 1e-9 deg; a rounded angle may do so exactly
         effort = replace(effort, as_good=1e-9)
     total = effort.count_evaluations(box.size)
@@ -277,9 +274,9 @@ def _search_numbers(
     return found, bool(not why and same and np.all(low < high)), why
 
 
-def _choose_effort(box: Box, objective: Objective, alone: bool) -> Effort:
+def _choose_effort(box: Box, objective: Objective) -> Effort:
     """Return the effort of the search, which is smaller if candidates are computed one by one."""
-    if alone:
+    if not objective.is_sum_over_cylinders:
         if box.size == 1:
             return Effort(_SLOW, 3, 1e-10, steps=5)
         return Effort(2 * _SLOW * box.size, 3, 1e-8, same=1e-2, steps=5)

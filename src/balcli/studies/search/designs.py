@@ -310,11 +310,6 @@ class NumbersJudge:
     refused: InputError | None = None
     _count: int = 0
 
-    @property
-    def alone(self) -> bool:
-        """Whether candidates are computed one by one."""
-        return not self.objective.is_sum_over_cylinders
-
     @cached_property
     def _evaluator(self) -> Evaluator:
         return Evaluator(self.model, self.objective.quantities)
@@ -323,7 +318,7 @@ class NumbersJudge:
         """Return the costs of points, shape (points, numbers); infinite for points that make no
         engine.
         """
-        size = 1 if self.alone else AT_ONCE
+        size = AT_ONCE if self.objective.is_sum_over_cylinders else 1
         parts = [self._judge(points[k : k + size]) for k in range(0, len(points), size)]
         return np.concatenate([np.empty(0), *parts])
 
