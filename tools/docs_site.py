@@ -17,6 +17,14 @@ from typing import Any
 
 from docs_examples import ROOT, Shown, blocks, printed, project
 
+from balcli import __version__
+from balcli.engine.build import build
+from balcli.engine.parse import parse
+from balcli.file import examples
+from balcli.report.live import describe_engine, explain_still, make_book
+from balcli.report.page import load_template
+from balcli.show.units import SI
+
 PAGES = {  # of the repository's root, by their names on the site
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
@@ -54,8 +62,6 @@ def on_files(files: Any, config: Any) -> Any:
     for source, target in PAGES.items():
         text = (ROOT / source).read_text(encoding="utf-8")
         made[target] = link_here(text, config.extra["repository"])
-    from balcli.report.page import make_play_page
-
     made["play.html"] = make_play_page()
     for notebook in NOTEBOOKS:
         made |= _convert_notebook(notebook)
@@ -124,3 +130,25 @@ def _write_formula(found: re.Match[str]) -> str:
     latex = re.sub(PRIME, lambda one: f"{{{one[1]}\\text{{{'′' * len(one[2])}}}}}", latex)
     formula = re.sub(FUNCTION, r'\1<mspace width="0.17em" />', convert(latex, display="block"))
     return f'<div class="formula">{formula}</div>'
+
+
+# ------------------------------------------------------------------ the page of all examples
+def make_play_page() -> str:
+    """Return a page on which the reader chooses an example engine and changes its numbers."""
+    engines = {}
+    for name in examples.names():
+        text = examples.text(name)
+        model = parse(text, str(examples.locate(name)))
+        engine = build(model)
+        if not explain_still(engine):
+            engines[name] = describe_engine(model, engine, text)
+    return load_template().render(
+        whole=False,
+        live=make_book(engines, SI, choice="vtwin45"),
+        still="",
+        title="Change an engine and see its balance",
+        version=__version__,
+        verdict=None,
+        scene=None,
+        **dict.fromkeys(("mounts", "torsion", "running", "loci")),
+    )

@@ -46,10 +46,8 @@ def has_no_reader(error: OSError) -> bool:
 
 def count_cores() -> int:
     """Return the number of processor cores that this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # only Linux has it
-        return os.cpu_count() or 1
+    usable = getattr(os, "sched_getaffinity", None)  # only Linux has it
+    return len(usable(0)) if usable else os.cpu_count() or 1
 
 
 # A progress callback. It is called repeatedly with the share that is done (0 to 1), or with a

@@ -7,13 +7,13 @@ from support.commands import ask_json, run_here
 from support.engines import GOOD, build_text, changed
 from support.gas_engines import WIEBE
 
-from balcli.analysis.comparison import compare_engines
+from balcli.analysis.comparison import compare
 from balcli.errors import BalcliError
 
 
 def test_force_of_order_2_goes_with_the_square_of_the_speed() -> None:
     slow, fast = build_text(GOOD), build_text(changed(("speed = 3000", "speed = 6000")))
-    lines = {(line.kind.name, line.order): line for line in compare_engines([slow, fast], ["slow", "fast"]).figures}
+    lines = {(line.kind.name, line.order): line for line in compare(slow, fast, names=["slow", "fast"]).figures}
     assert lines["force", 2].ratios == pytest.approx((1, 4))
     assert lines["force", None].ratios == pytest.approx((1, 4))
     assert lines["force", 1].values == (0, 0)
@@ -42,7 +42,7 @@ def test_orders_of_every_engine_are_shown() -> None:
     six = build_text(changed(("[0, 180, 180, 0]", "[0, 120, 240, 240, 120, 0]"), ("firing_order = [1, 3, 4, 2]", "")))
     lines = {
         (line.kind.name, line.order): line
-        for line in compare_engines([build_text(GOOD), six], ["4", "6"], only=["force"]).figures
+        for line in compare(build_text(GOOD), six, names=["4", "6"], only=["force"]).figures
     }
     assert {order for _, order in lines} >= {1, 2, 4, 6}
     assert lines["force", 6].values[1] > 0
@@ -52,12 +52,12 @@ def test_orders_of_every_engine_are_shown() -> None:
 def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
     """Unless all engines have gas, what is compared is that of inertia."""
     bare, fired = build_text(GOOD), build_text(GOOD + WIEBE)
-    several = compare_engines([fired, bare], ["fired", "bare"], [0.5, 1, 2], ["guide"])
+    several = compare(fired, bare, orders=[0.5, 1, 2], only=["guide"])
     lines = {(line.kind.name, line.order): line for line in several.figures}
     assert lines["guide_h", 2].ratios == (1, 1)
     assert lines["guide_x", 0.5].values == (0, 0)
     assert lines["guide_h", 2].kind.label == "H-type guide moment of inertia only"
-    both = compare_engines([fired, fired], ["fired", "again"], [0.5, 1, 2], ["guide"])
+    both = compare(fired, fired, orders=[0.5, 1, 2], only=["guide"])
     lines = {(line.kind.name, line.order): line for line in both.figures}
     assert lines["guide_x", 0.5].values[0] > 0
     assert lines["guide_h", 2].kind.label == "H-type guide moment"
@@ -65,14 +65,14 @@ def test_guides_with_gas_do_not_stand_beside_guides_without() -> None:
 
 def test_one_engine_is_refused() -> None:
     with pytest.raises(BalcliError, match="compare needs at least two engine files"):
-        compare_engines([build_text(GOOD)], ["one"])
+        compare(build_text(GOOD))
 
 
 def test_inner_guide_and_sizing_stand_side_by_side() -> None:
     from balcli.analysis.answer import analyze
 
     engines = [build_text(GOOD), build_text(changed(("stroke = 90", "stroke = 80")))]
-    found = compare_engines(engines, ["a", "b"], None, ["inner", "guide", "sizing"])
+    found = compare(*engines, only=["inner", "guide", "sizing"])
     lines = {(line.kind.name, line.order): line.values for line in found.figures}
     alone = [analyze(engine, [2], ["inner", "guide", "sizing"]) for engine in engines]
     bending = tuple(float(one.inner.bending.phasors.major[0].max()) for one in alone)
@@ -87,7 +87,7 @@ def test_orders_that_are_asked_for_are_there_balanced_or_not() -> None:
     """In-line fours have no odd order of any force, moment or torque of inertia."""
     four = build_text(GOOD)
     kinds = ["force", "moment", "couple", "torque", "roll"]
-    asked = compare_engines([four, four], ["one", "other"], orders=[7], only=kinds).figures
+    asked = compare(four, four, orders=[7], only=kinds).figures
     assert [(line.kind.name, line.order, line.values) for line in asked] == [(kind, 7, (0, 0)) for kind in kinds]
-    unasked = compare_engines([four, four], ["one", "other"], only=kinds, whole=True).figures
+    unasked = compare(four, four, only=kinds, whole=True).figures
     assert 7 not in {line.order for line in unasked}

@@ -10,6 +10,7 @@ import balcli
 from balcli.engine.build import build
 from balcli.engine.parse import parse
 from balcli.sizing.remedy import fit_devices
+from balcli.studies.parameters import find_places
 
 FILES = sorted(ENGINES.glob("*.toml"))
 FOUR = {
@@ -132,3 +133,12 @@ def test_what_no_file_can_describe_says_so():
         for ask in (one.to_dict, lambda one=one: one.vary({"rod.length": 150})):
             with pytest.raises(balcli.BalcliError, match="no file describes this engine"):
                 ask()
+
+
+def test_eccentrics_of_one_named_shaft_have_different_names():
+    """Both are `balancer`; each goes by its number in the file."""
+    entry = '[[shaft]]\nname = "balancer"\nratio = -1\nunbalance = 9000\nangle = {}\nposition = {}\n'
+    engine = build(parse(GOOD + entry.format(20, -100) + entry.format(200, 100)))
+    assert {"shaft.1.position", "shaft.2.position"} <= find_places(engine.model).keys()
+    varied = engine.vary({"shaft.1.position": -50})
+    assert [round(float(shaft.z), 9) for shaft in varied.devices] == [-0.05, 0.1]

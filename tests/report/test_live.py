@@ -10,6 +10,7 @@ from urllib.parse import quote
 
 import numpy as np
 import pytest
+from docs_site import make_play_page
 from support.browser import live
 from support.commands import ask, ask_json
 from support.engines import GOOD, RADIAL, build_text, changed
@@ -23,7 +24,7 @@ from balcli.errors import InputError
 from balcli.file import examples
 from balcli.file.units import ANGLE, LENGTH, MASS, SPEED, UNBALANCE, convert
 from balcli.report.live import describe_engine, explain_still, make_book
-from balcli.report.page import FOLDER, make_play_page
+from balcli.report.page import FOLDER
 from balcli.show.units import SI
 from balcli.sizing.ladder import WEIGHTS_AT_THROWS, find_ladder
 

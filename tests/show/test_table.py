@@ -11,7 +11,7 @@ from support.paths import ENGINES
 
 from balcli import analyze, load
 from balcli.analysis import comparison, show as analysis
-from balcli.analysis.comparison import compare_engines
+from balcli.analysis.comparison import compare
 from balcli.show.sheet import Facts, Grid, Sheet, Text, View
 from balcli.show.table import PROSE, WIDTH, count_places, fold, plain_text
 from balcli.show.units import SYSTEMS
@@ -65,7 +65,7 @@ def test_an_analysis_and_a_comparison_are_as_rich_prints_them():
     engines = [load(ENGINES / f"{name}.toml") for name in ("single", "i4", "vr6")]
     sheets = [
         analysis.sheet(analyze(engines[0]), si, View()),
-        comparison.sheet(compare_engines(engines, ["single", "i4", "vr6"]), si),
+        comparison.sheet(compare(*engines, names=["single", "i4", "vr6"]), si),
     ]
     assert plain_text(sheets) == print_by_rich(sheets)
 

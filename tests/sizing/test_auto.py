@@ -4,7 +4,7 @@ import pytest
 from support.engines import build_text
 from support.remedies import fit_scheme, write_engine
 
-from balcli.sizing.sizing import size, size_auto
+from balcli.sizing.sizing import size
 
 
 def test_every_device_has_its_reason():
@@ -21,19 +21,17 @@ def test_every_device_has_its_reason():
 
 def test_nothing_is_fitted_where_nothing_is_left():
     engine = build_text(write_engine(0, 240, 120))
-    assert not size_auto(fit_scheme(engine)).devices
+    assert not size(fit_scheme(engine)).devices
 
 
 def test_devices_of_one_throw_stand_half_a_bore_to_either_side():
     text = write_engine(0, layout="bank_angle = 60\nstagger = 24")
     for bore, planes in (("", {-50.0, 50.0}), ("bore = 80\n", {-40.0, 40.0})):
-        remedy = size_auto(build_text(text.replace("[piston]\n", f"[piston]\n{bore}")))
+        remedy = size(build_text(text.replace("[piston]\n", f"[piston]\n{bore}")))
         assert {d.position for d in remedy.counterweights} == planes
         assert {d.position for d in remedy.shafts if d.ratio == -1} == planes
 
 
 def test_sizing_does_not_depend_on_speed():
-    slow, fast = (
-        size_auto(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n")) for rpm in (10, 20000)
-    )
+    slow, fast = (size(build_text(write_engine(0, 90, 200) + f"[operation]\nspeed = {rpm}\n")) for rpm in (10, 20000))
     assert [d.unbalance for d in slow.devices] == pytest.approx([d.unbalance for d in fast.devices], rel=1e-12)

@@ -13,7 +13,7 @@ from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SCHEMES, SchemeOptions
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.sizing import size, size_auto
+from balcli.sizing.sizing import size
 
 pytestmark = pytest.mark.stress
 
@@ -144,6 +144,6 @@ def test_remedies_grow_with_the_masses(scale):
     def weights(mass):
         crank = f"stroke = 100\nthrows = [0, 90, 250]\nspacing = 100\nthrow_mass = {2 * mass!r}"
         text = engine_text(crank=crank, piston=f"mass = {mass!r}")
-        return np.array([d.unbalance for d in size_auto(build_text(text)).devices])
+        return np.array([d.unbalance for d in size(build_text(text)).devices])
 
     assert weights(scale) == pytest.approx(scale * weights(1.0), rel=1e-12)

@@ -15,7 +15,7 @@ from balcli.errors import BalcliError
 from balcli.forces.spectrum import compute_spectra
 from balcli.sizing.options import SchemeOptions
 from balcli.sizing.remedy import fit_devices
-from balcli.sizing.sizing import size, size_auto
+from balcli.sizing.sizing import size
 
 M, R, LAM = 1.0, 0.05, 0.25
 A2 = float(closed_form.piston([2], LAM)[0])
@@ -43,7 +43,7 @@ def sizes(tables) -> list[float]:
 def test_v_twin_at_90_degrees_needs_a_counterweight_alone():
     """Half of both pistons: one reciprocating mass opposite the pin, with the rotating mass."""
     e = engine([0], layout="bank_angle = 90")
-    weights = size_auto(e).counterweights
+    weights = size(e).counterweights
     assert sum(sizes(weights)) == pytest.approx((M + 1) * R, rel=1e-14)
     assert {weight.angle for weight in weights} == {180}
     assert left(fit_scheme(e), [1]).force.balanced.all()
@@ -53,7 +53,7 @@ def test_cross_plane_v8_needs_counterweights_alone():
     """Each throw acts like a rotating mass m_rec + m_rot (Cadillac 1923); end weights take the
     couple of `sqrt 10` throw distances.
     """
-    assert not size_auto(CROSS_V8).shafts
+    assert not size(CROSS_V8).shafts
     remedy = size(CROSS_V8, "counterweights")
     assert sizes(remedy.counterweights) == pytest.approx([math.sqrt(10) / 3 * (M + 1) * R] * 2, rel=1e-14)
     after = left(fit_devices(CROSS_V8, remedy))
@@ -140,7 +140,7 @@ def test_factor_sweep_trades_along_for_across():
 # ------------------------------------------------------------------ shafts
 def test_lanchester_shafts_of_an_inline_four():
     """Lanchester 1912: two shafts at twice crank speed, each A2 m r / 2 (of `4 A2 m r omega^2 = 2 U (2 omega)^2`)."""
-    for remedy in (size_auto(INLINE_4), size(INLINE_4, "two-shaft")):
+    for remedy in (size(INLINE_4), size(INLINE_4, "two-shaft")):
         assert sorted(s.ratio for s in remedy.shafts) == [-2, 2]
         assert sizes(remedy.shafts) == pytest.approx([A2 * M * R / 2] * 2, rel=1e-14)
         assert {s.angle for s in remedy.shafts} == {180.0}
@@ -192,7 +192,7 @@ def test_even_firing_v6_at_60_degrees_has_a_backward_second_order_couple_alone()
     e = build_text(
         engine_text(crank="stroke = 100\nthrows = [0, 240, 120]\nspacing = 100\nsplay = -60", layout="bank_angle = 60")
     )
-    assert {s.ratio for s in size_auto(e).shafts} <= {-2}
+    assert {s.ratio for s in size(e).shafts} <= {-2}
 
 
 def test_single_shaft_on_an_inline_four_says_what_stays():
@@ -206,7 +206,7 @@ def test_inline_six_needs_nothing():
     assert not size(e, "complete").devices
     assert not size(e, "counterweights").devices
     assert size(e, "counterweights").note.startswith("Order 1 is balanced already: counterweights change no free")
-    assert size_auto(e).step == "counterweights at every throw"
+    assert size(e).step == "counterweights at every throw"
 
 
 def test_eccentric_stands_where_the_force_acts():
@@ -254,5 +254,5 @@ def test_infeasible_options_are_told_why(scheme, options, reason):
 def test_sizing_is_for_steady_speed():
     ripple = "[operation]\nspeed_ripple = [{ order = 2, amplitude = 0.02 }]\n"
     uneven = engine([0, 180, 180, 0], more=ripple)
-    assert size_auto(uneven).shafts == size_auto(INLINE_4).shafts
+    assert size(uneven).shafts == size(INLINE_4).shafts
     assert np.any(analyze(fit_scheme(uneven), [1, 2, 4], ["force"]).spectra.force.major > 0)

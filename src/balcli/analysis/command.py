@@ -112,13 +112,16 @@ def compare(
     """
     refuse_overwriting(reads=paths, writes={"--output": output})
     form = text_format(output, form)
-    from .comparison import RENDERER, compare_engines
+    from .comparison import RENDERER, compare as compare_engines
 
     rpm, asked, chosen = parse_speed(speed), parse_orders(orders), parse_only(only)
     _refuse_parts(chosen or (), paths)
     engines = [read_engine(path, rpm, chosen).engine for path in paths]
     names = name_engines([engine.name for engine in engines], paths)
-    found = compare_engines(engines, names, asked, chosen, whole, parse_small(small))
+    least = parse_small(small)
+    found = compare_engines(
+        *engines, names=names, orders=asked, only=chosen, whole=whole, small=least
+    )
     show([found], RENDERER, form, output, units)
 
 

@@ -129,50 +129,6 @@ class Comparison(Result):
         return f"of {', '.join(self.engines)}"
 
 
-def compare_engines(
-    engines: Sequence[Engine],
-    names: Sequence[str],
-    orders: Iterable[float] | None = None,
-    only: Collection[str] | None = None,
-    whole: bool = False,
-    small: float = SMALL,
-) -> Comparison:
-    """Return the free forces and moments of several engines: the largest value of each order, and
-    peaks.
-
-    Args:
-        engines: At least two engines without trailing axes.
-        names: Names of the engines.
-        orders: Orders to show; default: all that `analyze` shows for any of the engines.
-        only: Quantities as for `analyze` (sizing gives the peaks with the devices); default: force
-            to peak, and gas if all engines have some.
-        whole: Whether tables show negligible orders as well; they do if orders are given.
-        small: Share of one cylinder's first order below which ladder and sizing leave a part
-            unbalanced.
-
-    Raises:
-        BalcliError: There are fewer than two engines.
-    """
-    if len(engines) < 2:
-        raise BalcliError("compare needs at least two engine files")
-    wanted = set(UNASKED) if only is None else set(only)
-    if only is None and all(engine.gas is not None for engine in engines):
-        wanted.add(GAS.name)
-    analyses = analyze_alike(
-        engines, orders, partial(analyze, only=wanted, beside=engines, small=small)
-    )
-    lines = list_lines(analyses, every_order=orders is not None)
-    return Comparison(
-        engines=tuple(names),
-        speeds_rpm=tuple(float(engine.speed_rpm) for engine in engines),
-        assumed=list_assumed(names, [one.assumed for one in analyses]),
-        figures=lines,
-        ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
-        compared=tuple(engines),
-        whole=whole or orders is not None,
-    )
-
-
 def analyze_alike(
     engines: Iterable[Engine],
     orders: Iterable[float] | None,
@@ -286,6 +242,8 @@ def compare(
     names: Sequence[str] | None = None,
     orders: Iterable[float] | None = None,
     only: str | Collection[str] | None = None,
+    whole: bool = False,
+    small: float = SMALL,
 ) -> Comparison:
     """Compare engines side by side: free forces and moments by order, peaks, and their ratios to
     the first engine's.
@@ -297,6 +255,9 @@ def compare(
         orders: Orders to show; default: all that are not negligible in at least one engine.
         only: Any of force, moment, couple, torque, roll, peak, sizing, ladder, inner, guide, gas;
             default: force to peak, and gas if all engines have some.
+        whole: Whether tables show negligible orders as well; they do if orders are given.
+        small: Share of one cylinder's first order below which ladder and sizing leave a part
+            unbalanced.
 
     Returns:
         Every figure in `result.figures`, with the values of all engines in SI units and their
@@ -318,8 +279,22 @@ def compare(
         called = [f"engine {k}" for k in range(1, len(checked) + 1)]
     if len(called) != len(checked):
         raise BalcliError(f"{len(called)} names for {len(checked)} engines; give one for each")
-    wanted = None if only is None else list_words("only", only)
-    return compare_engines(checked, called, orders, wanted)
+    if len(checked) < 2:
+        raise BalcliError("compare needs at least two engine files")
+    wanted = set(UNASKED) if only is None else set(list_words("only", only))
+    if only is None and all(engine.gas is not None for engine in checked):
+        wanted.add(GAS.name)
+    ask = partial(analyze, only=wanted, beside=checked, small=small)
+    analyses = analyze_alike(checked, orders, ask)
+    return Comparison(
+        engines=tuple(called),
+        speeds_rpm=tuple(float(engine.speed_rpm) for engine in checked),
+        assumed=list_assumed(called, [one.assumed for one in analyses]),
+        figures=list_lines(analyses, every_order=orders is not None),
+        ladders=tuple(one.ladder for one in analyses if one.ladder is not None) or None,
+        compared=tuple(checked),
+        whole=whole or orders is not None,
+    )
 
 
 def rows(result: Comparison, system: System) -> Rows:

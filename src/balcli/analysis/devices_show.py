@@ -24,7 +24,7 @@ from ..show.sheet import (
     size_text,
 )
 from ..sizing.ladder import SHAFT, SHAFTS, Ladder, LeftOut
-from ..sizing.planes import FIELDS, DeviceTable, find_unbalance, name_kind
+from ..sizing.planes import FIELDS, DeviceTable, find_free, find_unbalance, name_kind
 from ..sizing.remedy import Remedy
 from .records import find_value
 
@@ -51,7 +51,7 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         remedy: Devices.
         system: System of units.
     """
-    devices, length = remedy.devices, system.length
+    devices, free, length = remedy.devices, find_free(remedy.devices), system.length
     unit = system.unbalance.fit(max(map(find_unbalance, devices), default=0.0))
 
     def cells(device: DeviceTable, anywhere: bool) -> tuple[str, ...]:
@@ -68,8 +68,8 @@ def device_grid(remedy: Remedy, system: System) -> Grid:
         return name_kind(device), turns, unbalance, angle, place, z
 
     heads = ("speed ratio", unit.name, "angle, deg", f"x, y, {length.name}", f"z, {length.name}")
-    rows = tuple(cells(*each) for each in zip(devices, remedy.free, strict=True))
-    note = " ".join([ANGLES, *_explain_places(devices, remedy.free)])
+    rows = tuple(cells(*each) for each in zip(devices, free, strict=True))
+    note = " ".join([ANGLES, *_explain_places(devices, free)])
     return Grid("", ("device", *heads), rows, note, words=(0, 3, 4))
 
 

@@ -39,7 +39,7 @@ from ..show.result import Result
 from ..sizing.fit import list_to_fit, size_fit
 from ..sizing.ladder import Ladder, find_ladder
 from ..sizing.options import FIT, KNUCKLES, LADDER, SCHEMES, SchemeOptions
-from ..sizing.planes import FIELDS, DeviceTable, name_kind
+from ..sizing.planes import FIELDS, DeviceTable, find_free, name_kind
 from ..sizing.remedy import Remedy, fit_devices
 from ..sizing.sizing import size
 from ..sizing.workshop import Practical, Shapes, Tools, find_practical, shape_devices
@@ -352,14 +352,12 @@ def even_knuckles(model: EngineFile, goal: str = "dead-centres") -> Knuckles:
     masters, close = linkage.master, _CLOSE[goal]
     hung = masters != np.arange(c.count)
 
-    def measure(found: Travel) -> Array:
+    def find_error(turn_deg: Array) -> Array:
         """Return the difference of each cylinder from its master, degrees or metres."""
+        turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
+        found = find_travel(replace(c, linkage=turned))
         values = found.top_deg if goal == "dead-centres" else found.stroke
         return np.where(hung, values - values[masters], 0.0)
-
-    def find_error(turn_deg: Array) -> Array:
-        turned = replace(linkage, knuckle=linkage.knuckle * unit(turn_deg))
-        return measure(find_travel(replace(c, linkage=turned)))
 
     turn_deg = _solve(find_error, c.count)
     done = np.abs(find_error(turn_deg)) <= close
@@ -515,7 +513,8 @@ def _write_tables(remedy: Remedy) -> Iterator[str]:
     if remedy.devices:
         yield f"\n# fitted by balcli, scheme {remedy.scheme}\n"
     told = ""
-    for device, reason, anywhere in zip(remedy.devices, remedy.reasons, remedy.free, strict=True):
+    rows = zip(remedy.devices, remedy.reasons, find_free(remedy.devices), strict=True)
+    for device, reason, anywhere in rows:
         if reason != told:
             yield f"# {reason}\n"
         told = reason

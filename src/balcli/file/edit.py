@@ -69,9 +69,7 @@ def remove_tables(text: str, name: str) -> str:
     import tomlkit
 
     document = tomlkit.parse(text)
-    if name not in document:
-        return text
-    del document[name]
+    document.pop(name, None)
     return tomlkit.dumps(document)
 
 

@@ -80,17 +80,16 @@ def text(name: str) -> str:
     Raises:
         BalcliError: No example has this name; the error lists the nearest ones.
     """
-    known = _find_paths()
-    if name in known:
-        return known[name].read_text(encoding="utf-8")
-    hint = suggest_nearest(name, known, "balcli engines lists them")
-    raise BalcliError(f'there is no example "{name[:60]}": {hint}')
+    return locate(name).read_text(encoding="utf-8")
 
 
 def locate(name: str) -> Path:
     """Return the path of an example's file; errors as for `text`."""
-    text(name)
-    return _find_paths()[name]
+    known = _find_paths()
+    if name in known:
+        return known[name]
+    hint = suggest_nearest(name, known, "balcli engines lists them")
+    raise BalcliError(f'there is no example "{name[:60]}": {hint}')
 
 
 def list_engine_files(name: str) -> dict[str, str]:
@@ -119,13 +118,10 @@ def _find_paths() -> dict[str, Path]:
     return {path.stem: path for path in every}
 
 
-def _group(path: Path) -> str:
-    return LAYOUT if path.parent in _PLACES else path.parent.name
-
-
 def _read(path: Path) -> Example:
     content = path.read_text(encoding="utf-8")
-    return Example(path.stem, _group(path), content.partition("\n")[0].lstrip("# "), content)
+    group = LAYOUT if path.parent in _PLACES else path.parent.name
+    return Example(path.stem, group, content.partition("\n")[0].lstrip("# "), content)
 
 
 ENGINE_KINDS = ("single", "inline", "vee", "boxer", "radial", "radial14", "w", "mounts")

@@ -268,14 +268,12 @@ class OneOrEach:
         one: Type of a figure.
     """
 
-    count = 0  # number of members; 0: any number
-
-    def __init__(self, one: _Field) -> None:
-        self.one = one
+    def __init__(self, one: _Field, count: int = 0, copies: int = 0) -> None:
+        self.one, self.count, self.copies = one, count, copies
 
     def read_one(self, value: object) -> object:
         """Return the stored form of a figure that holds for all."""
-        return self.one.read(value)
+        return (self.one.read(value),) * self.copies if self.copies else self.one.read(value)
 
     def __get_pydantic_core_schema__(
         self, source: object, handler: GetCoreSchemaHandler
@@ -328,20 +326,6 @@ class ListOrEach:
         return {"anyOf": [one, {"type": "array", "items": one}], "unit": one["items"]["unit"]}
 
 
-class Flag(_Field):
-    """A switch: true or false."""
-
-    def read(self, value: object) -> bool:
-        if not isinstance(value, bool):
-            raise ValueError(
-                f"{shorten(value)} is neither true nor false: write one without quotes"
-            )
-        return value
-
-    def json(self) -> Node:
-        return {"type": "boolean"}
-
-
 class OneOf(_Field):
     """One of a few words or numbers; `meaning` explains them in the message for another value."""
 
@@ -350,7 +334,7 @@ class OneOf(_Field):
 
     def read(self, value: object) -> str | int:
         for option in self.options:
-            if type(value) is not bool and value == option:
+            if value == option and isinstance(value, bool) == isinstance(option, bool):
                 return option
         hint = suggest_nearest(str(value), map(str, self.options), self.meaning)
         told = f"{shorten(value)} is not {' or '.join(map(shorten, self.options))}"

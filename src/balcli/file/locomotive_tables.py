@@ -16,7 +16,7 @@ from pydantic import Field, WrapValidator
 from ..core.records import Node
 from ..errors import InputError, Problem
 from .fields import Number, OneOrEach, join_words, shorten
-from .table import Angle, Distance, FileTable, Length, Name, Numbers, Size, Switch
+from .table import Angle, Distance, FileTable, Name, Numbers, Place, Size, Switch
 from .units import (
     FORCE,
     MASS,
@@ -51,12 +51,6 @@ class _Load(Number):
         return super()._measure(value)
 
 
-class _OnEachSide(OneOrEach):
-    """A figure that holds for both sides, or one for each."""
-
-    count = 2
-
-
 def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> tuple[float, ...]:
     """Return two positions along the axle; raise ValueError if they are not a rising pair."""
     if isinstance(value, (list, tuple)) and len(value) == 2:
@@ -68,10 +62,10 @@ def _read_planes(value: object, read: Callable[[object], tuple[float, ...]]) -> 
 
 
 FACTOR = _Factor(PLAIN, least=0, most=1)
-_two = Field(min_length=2, max_length=2)
-Planes = Annotated[tuple[Length, ...], _two, WrapValidator(_read_planes)]
-CouplingAngles = Annotated[tuple[Angle, ...], _two]
-CouplingMasses = Annotated[float | tuple[float, ...], _OnEachSide(Number(MASS, least=0, most=1e12))]
+Planes = Annotated[Place, WrapValidator(_read_planes)]
+CouplingMasses = Annotated[
+    float | tuple[float, ...], OneOrEach(Number(MASS, least=0, most=1e12), 2)
+]
 WheelLoad = Annotated[float, _Load(FORCE, above=0, most=1e12)]
 NO_DIAMETER = Problem.of_missing("locomotive.wheel_diameter", "a speed in km/h needs it")
 
@@ -100,7 +94,7 @@ class Locomotive(FileTable):
     """Radius of the coupling-rod pins; left out: crank radius of cylinder 1. Example: 300"""
     coupling_planes: Planes | None = None
     """z of the two coupling rods, ascending. Example: [-900, 900]"""
-    coupling_angles: CouplingAngles | None = None
+    coupling_angles: Annotated[tuple[Angle, ...], Field(min_length=2, max_length=2)] | None = None
     """Angles of the two coupling pins from cylinder 1's crank pin. Example: [180, 270]"""
 
     def find_rpm(self, km_h: float) -> float:

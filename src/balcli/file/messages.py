@@ -94,7 +94,9 @@ def describe_finding(path: str, finding: ErrorDetails, table: type[FileTable]) -
     else:
         message = f"{shown} is not a table; write it in braces with its keys"
     listed = inner.keys().get(str(loc[-2])) if len(loc) > 1 else None
-    by_path = listed and any(type(mark) is OneOrEach for mark in listed.metadata)
+    by_path = listed and any(
+        isinstance(mark, OneOrEach) and not (mark.count or mark.copies) for mark in listed.metadata
+    )
     if loc and isinstance(loc[-1], int) and not (by_path or isinstance(value, Mapping)):
         return Problem(join_path(path, loc[:-1]), f"the {ordinal(loc[-1] + 1)} value {message}")
     return Problem(place, message)

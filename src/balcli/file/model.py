@@ -15,18 +15,28 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
-from ..limits import MOST_RIPPLES
-from .fields import Choice, FileName, Label, OneOf, counted, join_words, parse_firing_order
+from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES, MOST_RIPPLES
+from .fields import (
+    Choice,
+    FileName,
+    Label,
+    Number,
+    OneOf,
+    OneOrEach,
+    Whole,
+    counted,
+    join_words,
+    parse_firing_order,
+)
 from .table import (
+    FIT,
     INTERVAL_TOLERANCE_DEG,
     Angle,
     Angles,
     AnglesOfRows,
     Count,
-    Counts,
     Density,
     Distance,
-    Drag,
     FileTable,
     GivenInertia,
     Heat,
@@ -39,24 +49,16 @@ from .table import (
     Name,
     Numbers,
     NumbersOfBanks,
-    OpeningAngle,
-    Period,
     Place,
-    Power,
-    PressureAngle,
-    RippleOrder,
     RodRatio,
-    ShaftRatio,
     Share,
-    ShareOfGas,
     Size,
-    Sizes,
     Speed,
     Switch,
     Triple,
-    Unbalance,
     label_table,
 )
+from .units import ANGLE, LENGTH, PLAIN, POWER, TIME, TORQUE, UNBALANCE
 
 if TYPE_CHECKING:
     from .engine_tables import Engine
@@ -71,7 +73,7 @@ class Crank(FileTable):
 
     choices = (Choice((("spacing",), ("positions",))),)
 
-    stroke: Sizes
+    stroke: Annotated[float | tuple[float, ...], OneOrEach(Number(LENGTH, above=0, most=1e9))]
     """Twice the crank radius; a list has one for each throw. Example: 90"""
     throws: Angles | None = None
     """Angle of every throw, free end to flywheel end; may be left out where firing_order fixes
@@ -106,7 +108,7 @@ class Pendulum(FileTable):
 
     pivot: Annotated[str, OneOf("small_end", "big_end")]
     """The bore about whose centre the rod swings. Example: 'small_end'"""
-    period: Period
+    period: Annotated[float, Number(TIME, above=0, most=1e6)]
     """Time of one full swing, there and back. Example: 0.82"""
 
 
@@ -280,7 +282,7 @@ class Ripple(FileTable):
     angle).
     """
 
-    order: RippleOrder
+    order: Annotated[float, Whole(least=0.5, most=HIGHEST_RIPPLE_ORDER, halves=True)]
     """Oscillations per turn of the crank. Example: 4"""
     amplitude: Share
     """Amplitude as a share of the mean speed. Example: 0.01"""
@@ -293,7 +295,7 @@ class Operation(FileTable):
 
     speed: Speed = 1000.0
     """Crank speed (mean over the angle). Example: 3000"""
-    power: Power | None = None
+    power: Annotated[float, Number(POWER, above=0, most=1e9)] | None = None
     """Brake power at this speed, for the power related unbalance. Example: 3820"""
     speed_ripple: Annotated[tuple[Ripple, ...], Field(max_length=MOST_RIPPLES)] = ()
     """Uneven crank speed by orders: whole ones, and half orders of a four-stroke engine."""
@@ -340,7 +342,7 @@ class Override(FileTable):
     """rod.inertia of this cylinder. Example: 2300"""
     rod_pendulum: Pendulum | None = None
     """rod.pendulum of this cylinder."""
-    gas: ShareOfGas | None = None
+    gas: Annotated[float, Number(PLAIN, least=0, most=100)] | None = None
     """Share of the gas force; 0: a misfire. Example: 0"""
     heat: Heat | None = None
     """gas.heat of this cylinder, for a computed cycle; 0: it compresses but does not burn. Example:
@@ -365,7 +367,7 @@ class Device(FileTable):
         Choice((("unbalance",), ("mass", "radius")), required=True, complete=True),
     )
 
-    unbalance: Unbalance | None = None
+    unbalance: Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)] | None = None
     """Mass times radius; "fit": `balcli balance` computes it. Example: 9000"""
     mass: Mass | None = None
     """Mass, with radius, instead of unbalance. Example: 0.5"""
@@ -387,7 +389,7 @@ class Sector(FileTable):
     """Inner radius. Example: 30"""
     outer_radius: Size
     """Outer radius. Example: 75"""
-    opening: OpeningAngle
+    opening: Annotated[float, Number(ANGLE, above=0, most=360)]
     """Full angle of the sector. Example: 140"""
     thickness: Size | None = None
     """Thickness, instead of the unbalance; left out: it follows from the unbalance. Example: 18"""
@@ -440,7 +442,7 @@ class Gear(FileTable):
     """Pitch radius. Example: 35"""
     direction: Angle
     """Direction from the shaft's axis to the mesh, measured from the x axis. Example: 90"""
-    pressure_angle: PressureAngle = 20.0
+    pressure_angle: Annotated[float, Number(ANGLE, least=0, below=90)] = 20.0
     """Pressure angle. Example: 20"""
 
 
@@ -450,11 +452,12 @@ class Shaft(Device):
     """
 
     choices = (Device.choices[0]._replace(instead=("inertia",)),)
+    by_number: ClassVar[bool] = True
 
     name: Name = ""
     """Name of the shaft: entries with the same name are eccentrics of one shaft. Example:
     'left'"""
-    ratio: ShaftRatio
+    ratio: Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
     """Speed over crank speed; negative: against the crank. Example: -2"""
     angle: Angle = 0.0
     """Angle of the eccentric at crank angle 0, from the x axis. Example: 90"""
@@ -470,7 +473,7 @@ class Shaft(Device):
     """Axial positions (z) of its two bearings. Example: [-130, 130]"""
     gear: Gear | None = None
     """The gear that drives it."""
-    drag: Drag = 0.0
+    drag: Annotated[float, Number(TORQUE, least=0, most=1e12)] = 0.0
     """Friction torque on the shaft, which its gear transmits. Example: 0.2"""
 
     def _check_bearings(self) -> Iterator[str]:
@@ -592,7 +595,7 @@ class ArticulatedRod(RodKeys):
 class Articulation(FileTable):
     """A radial engine with a master rod, to which the other rods are hinged."""
 
-    master: Counts = 1
+    master: Annotated[int | tuple[int, ...], OneOrEach(Whole(least=1, most=MOST_LIST_VALUES))] = 1
     """Number of the bank that carries the master rod; in a radial in rows, place of the master rod
     in the row. A list has a number for each row. Example: 1"""
     knuckle_radius: Size

@@ -13,24 +13,9 @@ from .fields import Choice, Number, OneOrEach, as_written
 from .table import Angle, FileTable, Name, Switch, Triple
 from .units import DAMPING, INERTIA, MASS, PLAIN, STIFFNESS
 
-
-class AlikeOrEach(OneOrEach):
-    """Figures along the three axes of a mount, or one figure for all three."""
-
-    count = 3
-
-    def read_one(self, value: object) -> object:
-        return (self.one.read(value),) * 3
-
-
 _Stiffness, _Damping = (Number(dimension, least=0, most=1e12) for dimension in (STIFFNESS, DAMPING))
 _two, _three, _six = (Field(min_length=count, max_length=count) for count in (2, 3, 6))
-Tensor = Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _six]
 Direction = Annotated[tuple[Annotated[float, Number(PLAIN, most=1e9)], ...], _three]
-Directions = Annotated[tuple[Direction, ...], _two]
-Turns = Annotated[tuple[Angle, ...], _three]
-Stiffnesses = Annotated[tuple[float, ...], AlikeOrEach(_Stiffness)]
-Dampings = Annotated[tuple[float, ...], AlikeOrEach(_Damping)]
 
 UNIT = INERTIA.unit
 _PERPENDICULAR = 1e-6  # largest cosine between perpendicular axes
@@ -43,7 +28,7 @@ class Body(FileTable):
     """Mass of the whole body. Example: 163.9"""
     cg: Triple
     """x, y, z of the centre of gravity, in the engine's axes. Example: [12, -8, 35]"""
-    inertia: Tensor
+    inertia: Annotated[tuple[Annotated[float, Number(INERTIA, most=1e24)], ...], _six]
     """Elements xx, yy, zz, xy, yz, zx of the inertia tensor about the centre of gravity; xy, yz and
     zx are the negative products of inertia. Example: [9.91e6, 4.12e6, 9.09e6, -0.813e6,
     1.34e6, -0.472e6]"""
@@ -59,28 +44,24 @@ class Body(FileTable):
             yield "gravity [0, 0, 0] has no direction; leave it out for -x, downwards"
 
     def _check_inertia(self) -> Iterator[str]:
-        yield from find_tensor_faults(self.inertia)
-
-
-def find_tensor_faults(inertia: tuple[float, ...]) -> Iterator[str]:
-    """Yield the first fault of an inertia tensor (xx, yy, zz, xy, yz, zx)."""
-    a, b, c, d, e, f = inertia
-    for name, value in zip(("xx", "yy", "zz"), inertia, strict=False):
-        if value <= 0:
-            yield f"inertia {name} is {as_written(value, UNIT)}; a moment of inertia is above 0"
-            return
-    for name, value, square in (("xy", d, a * b), ("yz", e, b * c), ("zx", f, c * a)):
-        if value**2 >= square:
+        """Report only the first fault."""
+        a, b, c, d, e, f = self.inertia
+        for name, value in (("xx", a), ("yy", b), ("zz", c)):
+            if value <= 0:
+                yield f"inertia {name} is {as_written(value, UNIT)}; a moment of inertia is above 0"
+                return
+        for name, value, square in (("xy", d, a * b), ("yz", e, b * c), ("zx", f, c * a)):
+            if value**2 >= square:
+                yield (
+                    f"inertia {name} is {as_written(value, UNIT)}; with {2 * name[0]} and "
+                    f"{2 * name[1]} its magnitude must be below {math.sqrt(square):g} {UNIT}"
+                )
+                return
+        if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
             yield (
-                f"inertia {name} is {as_written(value, UNIT)}; with {2 * name[0]} "
-                f"and {2 * name[1]} its magnitude must be below {math.sqrt(square):g} {UNIT}"
+                "inertia xy, yz and zx are together too large: the tensor is not positive definite "
+                "(as elements of the matrix they are the negative products of inertia)"
             )
-            return
-    if a * b * c + 2 * d * e * f <= a * e**2 + b * f**2 + c * d**2:
-        yield (
-            "inertia xy, yz and zx are together too large: the tensor is not positive definite "
-            "(as elements of the matrix they are the negative products of inertia)"
-        )
 
 
 class Mount(FileTable):
@@ -92,21 +73,21 @@ class Mount(FileTable):
     """Name of the mount. Example: 'left'"""
     at: Triple
     """x, y, z, in the engine's axes. Example: [-66, 463, 156]"""
-    stiffness: Stiffnesses
+    stiffness: Annotated[tuple[float, ...], OneOrEach(_Stiffness, 3, copies=3)]
     """Static stiffness along its three axes, or one figure for all three. Example: [349.5, 370.5,
     453]
     """
-    axes: Directions | None = None
+    axes: Annotated[tuple[Direction, ...], _two] | None = None
     """First and second axis of the mount: perpendicular vectors of any length in the engine's axes;
     left out: x and y. Example: [[0, 1, 0], [-1, 0, 0]]
     """
-    angles: Turns | None = None
+    angles: Annotated[tuple[Angle, ...], _three] | None = None
     """Angles by which the mount's axes are turned about x, then y, then z, instead of axes.
     Example: [0, -10, 0]
     """
     loss: Annotated[float, Number(PLAIN, least=0, most=10)] = 0.0
     """Loss factor of the stiffness. Example: 0.1"""
-    damping: Dampings = (0.0, 0.0, 0.0)
+    damping: Annotated[tuple[float, ...], OneOrEach(_Damping, 3, copies=3)] = (0.0, 0.0, 0.0)
     """Viscous damping along its three axes, or one figure for all three. Example: [0.4, 0.4, 0.4]
     """
     dynamic_factor: Annotated[float, Number(PLAIN, above=0, most=100)] = 1.0

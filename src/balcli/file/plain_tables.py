@@ -78,21 +78,17 @@ def _plain(value: object) -> object:
     return value
 
 
-def list_tables(model: EngineFile) -> Node:
-    """Return the tables of a file; numbers are in the units of the file."""
-    return _write(model)
-
-
-def _write(value: object) -> Any:
+def list_tables(value: object) -> Any:
+    """Return the tables of a file, or a value in it; numbers are in the units of the file."""
     if isinstance(value, FileTable):
         fields = type(value).model_fields
         given = [(key, getattr(value, key)) for key in fields if key in value.model_fields_set]
         written = ((fields[key].alias or key, part) for key, part in given)
-        return {key: _write(part) for key, part in written if part is not None and part != ()}
+        return {key: list_tables(part) for key, part in written if part is not None and part != ()}
     if isinstance(value, Mapping):
-        return {str(key): _write(inner) for key, inner in value.items()}
+        return {str(key): list_tables(inner) for key, inner in value.items()}
     if isinstance(value, tuple):
-        return [_write(inner) for inner in value]
+        return [list_tables(inner) for inner in value]
     return RIGID if value == math.inf else value
 
 
@@ -136,7 +132,7 @@ def _descend(place: Any, given: Any, keys: Sequence[str], path: str) -> tuple[An
         else:
             known = {str(k): one for k, one in given.items()} if isinstance(given, dict) else {}
             given = known.get(key) if known else getattr(given, key, None)
-            place = place.setdefault(key, _write(given) if isinstance(given, tuple) else {})
+            place = place.setdefault(key, list_tables(given) if isinstance(given, tuple) else {})
         if not isinstance(place, (dict, list)):
             raise InputError([Problem(path, f"{key} is a single value without parts")])
     return place, given

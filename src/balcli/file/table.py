@@ -15,8 +15,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 
 from ..core.records import Node
-from ..limits import HIGHEST_RIPPLE_ORDER, HIGHEST_SHAFT_ORDER, MOST_LIST_VALUES
-from .fields import Choice, Flag, Label, ListOrEach, Number, OneOrEach, Whole, as_written
+from ..limits import MOST_LIST_VALUES
+from .fields import Choice, Label, ListOrEach, Number, OneOf, OneOrEach, Whole, as_written
 from .units import (
     ANGLE,
     DENSITY,
@@ -25,11 +25,7 @@ from .units import (
     LENGTH,
     MASS,
     PLAIN,
-    POWER,
     SPEED,
-    TIME,
-    TORQUE,
-    UNBALANCE,
 )
 
 if TYPE_CHECKING:
@@ -47,17 +43,11 @@ Size = Annotated[float, Number(LENGTH, above=0, most=1e9)]
 
 Density = Annotated[float, Number(DENSITY, above=0, most=30)]
 
-Sizes = Annotated[float | tuple[float, ...], OneOrEach(Number(LENGTH, above=0, most=1e9))]
-
 Mass = Annotated[float, Number(MASS, least=0, most=1e12)]
 
 Masses = Annotated[float | tuple[float, ...], OneOrEach(Number(MASS, least=0, most=1e12))]
 
 Angle = Annotated[float, Number(ANGLE, most=1e9)]  # about 3 million turns
-
-OpeningAngle = Annotated[float, Number(ANGLE, above=0, most=360)]
-
-PressureAngle = Annotated[float, Number(ANGLE, least=0, below=90)]
 
 Interval = Annotated[float, Number(ANGLE, least=0, most=720)]
 
@@ -67,17 +57,8 @@ INERTIA_ABOVE_0 = Number(INERTIA, above=0, most=1e24)
 GivenInertia = Annotated[float, INERTIA_ABOVE_0]
 
 FIT = "fit"  # value in place of an unbalance that `balance` computes
-Unbalance = Annotated[float, Number(UNBALANCE, most=1e24, word=FIT)]
-
-Drag = Annotated[float, Number(TORQUE, least=0, most=1e12)]
 
 Speed = Annotated[float, Number(SPEED, above=0, most=1e9)]
-
-Power = Annotated[float, Number(POWER, above=0, most=1e9)]
-
-Period = Annotated[float, Number(TIME, above=0, most=1e6)]
-
-ShareOfGas = Annotated[float, Number(PLAIN, least=0, most=100)]
 
 Heat = Annotated[float, Number(ENERGY, least=0, most=1e12)]
 
@@ -87,15 +68,9 @@ Share = Annotated[float, Number(PLAIN, least=-1, most=1)]
 
 Count = Annotated[int, Whole(least=1, most=MOST_LIST_VALUES)]
 
-Counts = Annotated[int | tuple[int, ...], OneOrEach(Whole(least=1, most=MOST_LIST_VALUES))]
-
-RippleOrder = Annotated[float, Whole(least=0.5, most=HIGHEST_RIPPLE_ORDER, halves=True)]
-
-ShaftRatio = Annotated[int, Whole(least=-HIGHEST_SHAFT_ORDER, most=HIGHEST_SHAFT_ORDER, zero=False)]
-
 Name = Annotated[str, Label()]
 
-Switch = Annotated[bool, Flag()]
+Switch = Annotated[bool, OneOf(True, False, meaning="write it without quotes")]
 
 Angles = Annotated[tuple[Angle, ...], Field(min_length=1, max_length=MOST_LIST_VALUES)]
 
@@ -166,10 +141,8 @@ class FileTable(BaseModel):
         """
         bore, diameter = getattr(self, inner), getattr(self, outer)
         if bore and (diameter is None or bore >= diameter):
-            around = ", which is missing"
-            if diameter is not None:
-                around = f" = {as_written(diameter, 'mm')}"
-            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{around}"
+            told = ", which is missing" if diameter is None else f" = {as_written(diameter, 'mm')}"
+            yield f"{inner} = {as_written(bore, 'mm')}: has to be below {outer}{told}"
 
     def has(self, key: str) -> bool:
         """Return whether the file gives a key."""

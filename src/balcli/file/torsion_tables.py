@@ -27,13 +27,6 @@ Stiffness = Annotated[
 ]
 Damping = Annotated[float, Number(TORSIONAL_DAMPING, least=0, most=1e18)]
 Loss = Annotated[float, Number(PLAIN, least=0, most=10)]
-Modulus = Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)]
-StressLimit = Annotated[float, Number(STRESS, above=0, most=1e9)]
-AngleLimit = Annotated[float, Number(ANGLE, above=0, most=1e3)]
-_RingStiffness = Annotated[float, _STIFFNESS]
-_RingDamping = Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)]
-_PendulumOrder = Annotated[float, Number(PLAIN, above=0, most=1e3)]
-_PendulumMass = Annotated[float, Number(MASS, above=0, most=1e12)]
 
 
 STEEL = 7.85  # density of steel, g/cm3
@@ -51,7 +44,7 @@ class ShaftKeys(FileTable):
     """Length of a plain shaft, instead of stiffness. Example: 400"""
     bore: Size | None = None
     """Diameter of its bore, if it has one. Example: 30"""
-    shear_modulus: Modulus = 79.3
+    shear_modulus: Annotated[float, Number(SHEAR_MODULUS, above=0, most=1e6)] = 79.3
     """Shear modulus of a plain shaft; default: steel. Example: 79.3"""
     density: Density | None = None
     """Density of a plain shaft, whose inertia is halved between its ends; left out: no inertia.
@@ -102,19 +95,19 @@ class Damper(FileTable):
     of rotation. Example: 'viscous'"""
     inertia: GivenInertia | None = None
     """Moment of inertia of the ring. Example: 30000"""
-    damping: _RingDamping | None = None
+    damping: Annotated[float, Number(TORSIONAL_DAMPING, above=0, most=1e18)] | None = None
     """Damping of the oil film. Example: 12"""
-    stiffness: _RingStiffness | None = None
+    stiffness: Annotated[float, _STIFFNESS] | None = None
     """Stiffness of the rubber. Example: 40000"""
     loss: Loss | None = None
     """Loss factor of the rubber. Example: 0.15"""
-    mass: _PendulumMass | None = None
+    mass: Annotated[float, Number(MASS, above=0, most=1e12)] | None = None
     """Mass of all pendulums together. Example: 2"""
     radius: Size | None = None
     """Distance from the axis to the pivot of a pendulum. Example: 60"""
     length: Size | None = None
     """Length of a pendulum, from its pivot to its centre of mass. Example: 2.4"""
-    order: _PendulumOrder | None = None
+    order: Annotated[float, Number(PLAIN, above=0, most=1e3)] | None = None
     """Order, per turn of the node, that the pendulum cancels, instead of length;
     length = radius/order^2. Example: 4.5"""
 
@@ -159,9 +152,9 @@ class ChainKeys(FileTable):
 
     loss: Loss = 0.0
     """Loss factor of every shaft that has none of its own. Example: 0.035"""
-    limit: StressLimit | None = None
+    limit: Annotated[float, Number(STRESS, above=0, most=1e9)] | None = None
     """Largest permitted stress of a shaft; speeds above it are barred. Example: 40"""
-    angle_limit: AngleLimit | None = None
+    angle_limit: Annotated[float, Number(ANGLE, above=0, most=1e3)] | None = None
     """Largest permitted amplitude of the free end (of a chain: of the first node); speeds with a
     larger one are barred. Example: 0.3
     """
@@ -205,13 +198,6 @@ class _Ratio(Number):
 SpeedRatio = Annotated[float, _Ratio(PLAIN, most=1e6)]
 
 
-class _OfThrows(OneOrEach):
-    """A figure that holds for all throws (a tuple of one), or one for each."""
-
-    def read_one(self, value: object) -> object:
-        return (self.one.read(value),)
-
-
 class Part(ShaftKeys, NodeKeys):
     """A part that turns with the crankshaft before or behind its throws, and the shaft that
     connects it.
@@ -239,17 +225,16 @@ class ThrowDamper(FileTable):
 
 
 _Parts = Annotated[tuple[Part, ...], Field(max_length=MOST_TORSION_NODES)]
-_ThrowDampers = Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)]
 
 
 class Torsion(ChainKeys):
     """Torsional vibration: a node for each throw, and parts before and behind the throws."""
 
-    throw_stiffness: Annotated[tuple[float, ...], _OfThrows(_STIFFNESS)] | None = None
+    throw_stiffness: Annotated[tuple[float, ...], OneOrEach(_STIFFNESS, copies=1)] | None = None
     """Torsional stiffness between neighbouring throws: one figure for all, or a list. Example:
     1.25e6
     """
-    throw_inertia: Annotated[tuple[float, ...], _OfThrows(INERTIA_ABOVE_0)] | None = None
+    throw_inertia: Annotated[tuple[float, ...], OneOrEach(INERTIA_ABOVE_0, copies=1)] | None = None
     """Moment of inertia of the crankshaft at each throw with its counterweights, without rods and
     pistons: one figure for all, or a list; left out: an equal share of crank.inertia. Example:
     46700
@@ -264,7 +249,7 @@ class Torsion(ChainKeys):
     """Parts before the first throw, in order away from it."""
     rear: _Parts = ()
     """Parts behind the last throw, in order away from it."""
-    throw: _ThrowDampers = ()
+    throw: Annotated[tuple[ThrowDamper, ...], Field(max_length=MOST_TORSION_NODES)] = ()
     """Dampers on throws."""
 
     def _check_bore(self) -> Iterator[str]:

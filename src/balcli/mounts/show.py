@@ -286,11 +286,16 @@ def _list_lines(result: MountReport, system: System) -> Iterator[tuple[object, .
     for label, response in zip(labels, result.responses, strict=False):
         for key, numbers in silent_entries(response.loads.silent).items():
             yield f"{label}engine", "", None, None, key, " ".join(map(str, numbers)), ""
-        if response.imep_Pa is not None:
-            for rpm, imep in zip(response.speeds_rpm, response.imep_Pa.tolist(), strict=True):
-                yield f"{label}engine", "", None, clean(rpm), "imep", imep, "Pa"
+        yield from _list_imep(response, label)
         for kind in (force, motion):
             yield from _list_curves(response, kind, label)
+
+
+def _list_imep(response: BodyResponse, label: str) -> Iterator[tuple[object, ...]]:
+    """Yield the mean pressure by speed, if it depends on the speed."""
+    if response.imep_Pa is not None:
+        for rpm, imep in zip(response.speeds_rpm, response.imep_Pa.tolist(), strict=True):
+            yield f"{label}engine", "", None, clean(rpm), "imep", imep, "Pa"
 
 
 def _list_curves(response: BodyResponse, kind: Kind, label: str) -> Iterator[tuple[object, ...]]:

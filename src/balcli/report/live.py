@@ -19,16 +19,13 @@ from typing import Any
 
 from ..core.mechanisms.linkage import Rotary
 from ..core.records import Node
-from ..engine.build import build
 from ..engine.engine import Engine, take_model
 from ..engine.figures import RodFigures
 from ..engine.layout import Cell
 from ..engine.load import SPEED
 from ..engine.numbering import list_numbers
-from ..engine.parse import parse
 from ..engine.parts import Parts
 from ..errors import MOMENTS_UNKNOWN
-from ..file import examples
 from ..file.edit import HEADER, format_value
 from ..file.fields import Number
 from ..file.model import EngineFile
@@ -48,7 +45,7 @@ from ..forces.spectrum import SHOWN
 from ..limits import SMALL
 from ..show.figures import clean
 from ..show.sheet import NEGLIGIBLE, sentence
-from ..show.units import SI, ShownUnit, System
+from ..show.units import ShownUnit, System
 from ..studies.parameters import find_places
 
 # tables with numbers to change
@@ -215,18 +212,6 @@ def make_book(
 def name_unit(unit: ShownUnit) -> Node:
     """Return the names of a unit and of its thousandfold; the latter is empty unless it is SI."""
     return {"name": unit.name, "thousand": f"k{unit.name}" if unit.size == 1 else ""}
-
-
-def make_examples() -> Node:
-    """Return the data of the panel for a choice among the example engines that it can compute."""
-    engines = {}
-    for name in examples.names():
-        written = examples.text(name)
-        model = parse(written, str(examples.locate(name)))
-        engine = build(model)
-        if not explain_still(engine):
-            engines[name] = describe_engine(model, engine, written)
-    return make_book(engines, SI, choice="vtwin45")
 
 
 def _describe_new(dimension: Dimension, usual: float) -> Node:

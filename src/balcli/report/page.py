@@ -47,7 +47,7 @@ from ..torsion.answer import TorsionAnalysis, TorsionQuestion, answer_question
 from ..torsion.load import make_source
 from ..torsion.quantity import choose_torsion_speeds
 from ..version import __version__
-from .live import describe_one, explain_still, make_examples, name_unit
+from .live import describe_one, explain_still, name_unit
 from .names import OF_TORSION
 from .pages import PageSubject, draw_panel, make_page
 from .study import Study, analyze_steps, compute_study
@@ -284,7 +284,7 @@ def page(
     for panel in panels:
         pictures.append(draw_panel(*panel))
         tell(len(pictures) / len(panels))
-    return _template().render(
+    return load_template().render(
         whole=True,
         live=live,
         still=explain_still(result.engine),
@@ -338,20 +338,6 @@ def explore(engine: Engine) -> Explorer:
     return Explorer(page(found, SI, live=live))
 
 
-def make_play_page() -> str:
-    """Return a page on which the reader chooses an example engine and changes its numbers."""
-    return _template().render(
-        whole=False,
-        live=make_examples(),
-        still="",
-        title="Change an engine and see its balance",
-        version=__version__,
-        verdict=None,
-        scene=None,
-        **dict.fromkeys(("mounts", "torsion", "running", "loci")),
-    )
-
-
 def _list_variants(result: Analysis, balanced: Balance) -> dict[str, Analysis]:
     """Return the analyses to show, by label: the engine with the devices of each step of the
     ladder, and with the devices of the scheme if the scheme is not a step.
@@ -390,7 +376,7 @@ def _choose_panels(
     return [*shown, *((subject, what, name) for name, what in first.items())]
 
 
-def _template() -> Template:
+def load_template() -> Template:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(

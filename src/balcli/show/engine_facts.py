@@ -97,9 +97,7 @@ def _list_placed(engine: Engine, system: System) -> Iterator[tuple[str, str]]:
 def _tell_devices(engine: Engine) -> str:
     """Return how many devices are included; empty if there are none."""
     count = len(engine.devices) + sum(len(one.engine.devices) for one in engine.placed)
-    if engine.placed:
-        return f"{count} of the files included" if count else ""
-    return f"{count} of the file {'are' if count > 1 else 'is'} included" if count else ""
+    return f"{count} from the file{'s' * bool(engine.placed)} included" if count else ""
 
 
 def tell_reference(point: Iterable[Figure], system: System, *, known: bool) -> str:

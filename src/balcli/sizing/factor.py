@@ -370,8 +370,7 @@ def _fit_factor(
 ) -> tuple[Fitting, _Planes]:
     """Fit the missing weight in each plane."""
     fitting = Fitting.start(engine, "factor", 1)
-    counted = "; less the counterweights of the file"
-    less = counted if _find_counterweights(engine)[1].any() else ""
+    less = "; less the counterweights of the file" * bool(_find_counterweights(engine)[1].any())
     taken = f"weight for all rotating mass and {factor:.6g} of the reciprocating mass"
     found = _find_needs(engine, factor, planes)
     slots = [Slot("counterweight", 1, 1, z) for z in found.z.tolist()]

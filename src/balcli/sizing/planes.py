@@ -12,7 +12,6 @@ from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..core.phasors import EPS, wrap_degrees
 from ..engine.engine import Engine, Placed
@@ -32,7 +31,8 @@ def find_ends(engine: Engine) -> tuple[float, float]:
     the end planes are half a bore (without a bore: the crank radius) on either side of it.
     """
     throws = [move_along(one).engine.joined_throws_m for one in engine.cranks]
-    low, high = _find_reach(np.concatenate(throws))
+    places = np.concatenate(throws)
+    low, high = float(places.min()), float(places.max())
     if low < high:
         return low, high
     bore = float(engine.bore_m)
@@ -61,7 +61,8 @@ def move_along(one: Placed) -> Placed:
 def find_length(engine: Engine) -> tuple[float, float]:
     """Return z of the first and the last throw or cylinder, m."""
     engines = [move_along(one).engine for one in engine.cranks]
-    return _find_reach([z for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))])
+    places = [float(z) for own in engines for z in (*own.throws_m, *np.ravel(own.cylinders.z))]
+    return min(places), max(places)
 
 
 def locate_force(residual: Residual, sense: int) -> float:
@@ -139,12 +140,6 @@ def read_two_planes(engine: Engine, options: SchemeOptions) -> tuple[float, floa
     if low == high:
         raise BalcliError(f"--planes: {SAME_PLACE}")
     return low, high
-
-
-def _find_reach(places: ArrayLike) -> tuple[float, float]:
-    """Return the smallest and the largest value."""
-    flat = np.ravel(places)
-    return float(flat.min()), float(flat.max())
 
 
 DeviceTable: TypeAlias = Counterweight | Shaft | Slider

@@ -10,7 +10,7 @@ from ..core.cylinders import Device, DeviceKind
 from ..engine.build import build_fitted
 from ..engine.engine import Engine
 from ..file.model import Counterweight, EngineFile, Shaft, Slider
-from .planes import KINDS, DeviceTable, find_free, name_kind
+from .planes import KINDS, DeviceTable, name_kind
 
 if TYPE_CHECKING:
     from .bobweights import Bobweight, FactorPeaks, PlaneNeed
@@ -66,11 +66,6 @@ class Remedy(NamedTuple):
     def sliders(self) -> tuple[Slider, ...]:
         """Sliders among the devices."""
         return tuple(device for device in self.devices if isinstance(device, Slider))
-
-    @property
-    def free(self) -> tuple[bool, ...]:
-        """Whether each of `devices` may be anywhere (`planes.find_free`)."""
-        return find_free(self.devices)
 
     def add_devices(self, added: Iterable[DeviceTable], reason: str) -> Remedy:
         """Return the remedy with further devices, all for the same reason."""

@@ -81,7 +81,8 @@ def find_optimum(design: str, criterion: str, engine_force: str, lam: float) -> 
     Raises:
         BalcliError: Lambda is so large that the search does not converge.
     """
-    engine = _expand_engine_force(engine_force, lam)
+    engine = np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
+    engine = closed_form.piston(_ORDERS, lam) if engine_force == FORCES[1] else engine
     try:
         start = np.array([2 / lam, 0.5])
         x = _iterate(lambda x: _step_to_peak(design, engine, x), start, _FARTHEST_TO_PEAK)
@@ -146,13 +147,6 @@ def find_shaft_rates(design: str, k: float) -> tuple[float, float, float]:
     cosine = 8 * k / (square + sqrt(square**2 + 32 * k**2))
     bend = k * (k**2 - 1) * sqrt(1 - cosine**2) / (square - 2 * k * cosine) ** 2
     return k / (k - 1), k / (k + 1), bend
-
-
-def _expand_engine_force(engine_force: str, lam: float) -> Array:
-    """Return the cosine coefficients of the piston's force in units of m r omega^2."""
-    if engine_force == "all orders":
-        return closed_form.piston(_ORDERS, lam)
-    return np.where(_ORDERS == 1, 1.0, np.where(_ORDERS == 2, lam, 0.0))
 
 
 def _linearize(design: str, engine: Array, x: Array) -> tuple[Array, Array]:

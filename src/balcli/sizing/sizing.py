@@ -51,13 +51,6 @@ from .single_cylinder import size_eccentric_slider, size_oldham
 _OF_ONE_CRANK = ("minimax", "ellipse", "eccentric-slider", "oldham")
 
 
-def size_auto(engine: Engine, options: SchemeOptions | None = None) -> Remedy:
-    """Return the devices of the last step of the ladder that adds counterweights or cancels a part
-    worth a shaft.
-    """
-    return find_ladder(engine, (options or SchemeOptions()).read_small()).fit()
-
-
 def size_counterweights(engine: Engine, options: SchemeOptions) -> Remedy:
     """Fit counterweights in the given planes for the force and moment of order 1 that turn with the
     crank. In a single plane, the weight is a compromise between force and moment. If moments are
@@ -126,8 +119,9 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
     In a plane near the point of reference, a weight against the moment would cause a far larger
     force. The moment is therefore divided at least by the longest arm of the engine.
     """
-    parts = list_parts(slots[0].sense)
-    fit = size_unbalances(slots, residual, parts, _find_engine_arm(fitting.engine, residual))
+    engine, parts = fitting.engine, list_parts(slots[0].sense)
+    ends = (abs(z - residual.reference.z) for z in find_length(engine))
+    fit = size_unbalances(slots, residual, parts, max(float(engine.cylinders.radius.max()), *ends))
     fitting = fitting.add(
         slots,
         fit.unbalances,
@@ -137,16 +131,7 @@ def _compromise(fitting: Fitting, slots: list[Slot], residual: Residual) -> Fitt
     )
     fitting = fitting.describe_left(1, "force_with_crank_left_N", "moment_with_crank_left_Nm")
     stays = fitting.remedy.details["moment_with_crank_left_Nm"]
-    remedy = fitting.remedy._replace(note=SAME_PLACE if stays else fitting.remedy.note)
-    return fitting._replace(remedy=remedy)
-
-
-def _find_engine_arm(engine: Engine, residual: Residual) -> float:
-    """Return the longest axial distance from the point of reference in the engine, m; at least the
-    crank radius.
-    """
-    ends = (abs(z - residual.reference.z) for z in find_length(engine))
-    return max(float(engine.cylinders.radius.max()), *ends)
+    return fitting._replace(remedy=fitting.remedy._replace(note=SAME_PLACE if stays else ""))
 
 
 def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
@@ -175,7 +160,7 @@ def size_sliders(engine: Engine, options: SchemeOptions) -> Remedy:
 
 
 SIZE: dict[str, Callable[[Engine, SchemeOptions], Remedy]] = {
-    "auto": size_auto,
+    "auto": lambda engine, options: find_ladder(engine, options.read_small()).fit(),
     "complete": lambda engine, _: size_complete(engine),
     "step": lambda engine, options: find_ladder(engine, options.read_small()).fit(options.step),
     "counterweights": size_counterweights,

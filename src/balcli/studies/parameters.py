@@ -20,7 +20,6 @@ from ..errors import BalcliError, refuse_more, wrong_type
 from ..file.fields import ListOrEach, Number, OneOrEach, nearest, shorten
 from ..file.messages import BESIDE_ENGINES, DEVICES, SYNONYMS
 from ..file.model import EngineFile, Frame, Gear, Override, Piston, Shaft
-from ..file.mount_tables import AlikeOrEach
 from ..file.table import FileTable
 from ..file.units import BARE_FIGURE, FORTRAN, convert_exactly, refuse_thousands
 from ..limits import LONGEST_FIGURE, MOST_PARAMETER_VALUES, MOST_PARAMETERS
@@ -156,7 +155,7 @@ def _numbers_of(start: str, table: FileTable) -> Iterator[tuple[str, Place]]:
                     names = ((f"{path}.{k}.{j}", one) for j, one in enumerate(item, 1))
                     yield from ((name, Place(reader, kind, key, one)) for name, one in names)
                 elif reader is not None:
-                    alike = any(isinstance(mark, AlikeOrEach) for mark in field.metadata)
+                    alike = any(getattr(mark, "copies", 0) > 1 for mark in field.metadata)
                     if k == 1 and alike and len(set(value)) == 1:
                         yield path, Place(reader, kind, key, item)  # all members together
                     yield f"{path}.{k}", Place(reader, kind, key, item)

@@ -61,7 +61,7 @@ def test_the_throws_of_two_rows_follow_from_the_firing_order():
 def test_true_or_false(value):
     with pytest.raises(InputError) as caught:
         enginefile.parse(GNOME.format(layout="radial = 5", offset=0).replace("rotary = true", f"rotary = {value}"))
-    told = f"layout.rotary: {value} is neither true nor false: write one without quotes"
+    told = f"layout.rotary: {value} is not true or false; write it without quotes"
     assert [str(p) for p in caught.value.problems] == [told]
 
 
